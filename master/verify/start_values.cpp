@@ -47,13 +47,9 @@ bool is_same(const ValueBlock& value, const ValueBlock& expected) {
 
 }  // namespace
 
-bool is_readable(const Variable& variable) {
-  return variable.type != ValueType::Clock && !variable.is_clocked();
-}
-
 bool has_exact_start(const Variable& variable) {
-  return is_readable(variable) && variable.initial == Initial::Exact && has_start_value(variable) &&
-         variable.causality != Causality::StructuralParameter;
+  return variable.is_unclocked_value() && variable.initial == Initial::Exact &&
+         has_start_value(variable) && variable.causality != Causality::StructuralParameter;
 }
 
 void expect_value(TestInstance& instance, const Variable& variable, const ValueBlock& expected,

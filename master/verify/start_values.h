@@ -7,8 +7,6 @@
 
 namespace stride::verify {
 
-/// Whether the variable can be read where no clock ticks.
-bool is_readable(const core::Variable& variable);
 /// Whether its value before the start is that of the description.
 bool has_exact_start(const core::Variable& variable);
 

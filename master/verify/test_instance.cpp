@@ -27,19 +27,14 @@ constexpr Duration kShortestStep = std::chrono::nanoseconds(1);
 constexpr std::size_t kPointsPerTick = 7;
 
 bool is_triggered_input(const Variable& variable) {
-  return variable.clock && variable.causality == Causality::Input &&
-         variable.clock->variability == core::IntervalVariability::Triggered;
-}
-
-bool belongs_to(const Variable& variable, ValueReference clock) {
-  return std::find(variable.clocks.begin(), variable.clocks.end(), clock) != variable.clocks.end();
+  return variable.causality == Causality::Input && variable.is_triggered_clock();
 }
 
 /// Only the unit knows what bytes and texts mean, so no message is made up.
 bool carries_messages(const core::UnitDescription& unit, ValueReference clock) {
   return std::any_of(unit.variables.begin(), unit.variables.end(), [&](const Variable& variable) {
     const bool is_opaque = variable.type == ValueType::Binary || variable.type == ValueType::String;
-    return is_opaque && variable.causality == Causality::Input && belongs_to(variable, clock);
+    return is_opaque && variable.causality == Causality::Input && variable.belongs_to(clock);
   });
 }
 
@@ -332,7 +327,7 @@ void TestInstance::record_ticks() {
     const bool is_read = variable.is_clocked() && variable.causality == Causality::Output &&
                          variable.type != ValueType::Clock &&
                          std::any_of(active.begin(), active.end(), [&](ValueReference clock) {
-                           return belongs_to(variable, clock);
+                           return variable.belongs_to(clock);
                          });
     if (!is_read) continue;
     const ValueBlock value = get(variable);

@@ -22,7 +22,7 @@ constexpr std::int64_t kMostValues = 500'000;
 constexpr std::int64_t kFewestSteps = 20;
 
 bool is_observed(const Variable& variable) {
-  if (variable.type == ValueType::Clock || variable.is_clocked()) return false;
+  if (!variable.is_unclocked_value()) return false;
   return variable.causality == Causality::Output || variable.causality == Causality::Local ||
          variable.causality == Causality::CalculatedParameter;
 }

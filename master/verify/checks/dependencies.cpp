@@ -31,7 +31,7 @@ std::vector<Declared> declared(const core::UnitDescription& unit,
   for (const Unknown& unknown : unknowns) {
     const Variable& variable = unit.variables[*unit.find(unknown.reference)];
     const bool is_checked = unknown.dependencies && variable.causality == Causality::Output &&
-                            variable.type != ValueType::Clock && !variable.is_clocked();
+                            variable.is_unclocked_value();
     if (is_checked) list.push_back({&variable, &*unknown.dependencies});
   }
   return list;
@@ -46,8 +46,7 @@ class Prober {
              const std::string& element) {
     const auto& variables = trial_.tested.description().variables;
     for (const Variable& input : variables) {
-      const bool is_probed = input.causality == Causality::Input &&
-                             input.type != ValueType::Clock && !input.is_clocked();
+      const bool is_probed = input.causality == Causality::Input && input.is_unclocked_value();
       if (is_probed) probe(instance, input, outputs, element);
     }
   }

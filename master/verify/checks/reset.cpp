@@ -12,7 +12,7 @@ std::vector<core::ValueBlock> beginning(const core::UnitDescription& unit, TestI
   std::vector<core::ValueBlock> values;
   instance.enter_initialization();
   for (const core::Variable& variable : unit.variables) {
-    if (is_readable(variable)) values.push_back(instance.get(variable));
+    if (variable.is_unclocked_value()) values.push_back(instance.get(variable));
   }
   return values;
 }
@@ -23,7 +23,7 @@ void compare_beginning(const core::UnitDescription& unit, TestInstance& instance
   instance.enter_initialization();
   auto value = expected.begin();
   for (const core::Variable& variable : unit.variables) {
-    if (is_readable(variable)) {
+    if (variable.is_unclocked_value()) {
       expect_value(instance, variable, *value++, when, "in a new instance it is");
     }
   }

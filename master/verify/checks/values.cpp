@@ -44,7 +44,7 @@ void examine_start(const Trial& trial) {
     if (is_kept && has_exact_start(variable)) {
       expect_value(instance, variable, start_value(variable), "after the initialization",
                    "it was set to");
-    } else if (is_readable(variable)) {
+    } else if (variable.is_unclocked_value()) {
       instance.get(variable);
     }
   }
