@@ -13,6 +13,7 @@
 #include "master/importer/fmi3/fmi3_unit.h"
 #include "master/importer/idle_manifest.h"
 #include "master/importer/model_description.h"
+#include "master/util/file_uri.h"
 #include "master/util/input_file.h"
 
 namespace stride::importer {
@@ -210,14 +211,14 @@ std::unique_ptr<core::Unit> Fmu::instantiate(const std::string& name, InstanceOp
   const auto tenancy = std::make_shared<Tenancy>(shared_from_this(), name, options.where);
   UnitParts parts{options.description ? options.description : description_, "", tenancy};
   if (description_->fmi1) {
-    parts.resources = resource_uri(folder());
+    parts.resources = core::file_uri(folder());
     return std::make_unique<Fmi1Unit>(
         name, load_fmi1_library(),
         std::shared_ptr<const Fmi1Attributes>(description_, &*description_->fmi1), std::move(parts),
         std::move(options));
   }
   if (description_->fmi2) {
-    parts.resources = resource_uri(resources_);
+    parts.resources = core::file_uri(resources_);
     return std::make_unique<Fmi2Unit>(
         name, load_fmi2_library(),
         std::shared_ptr<const Fmi2Attributes>(description_, &*description_->fmi2), std::move(parts),

@@ -10,6 +10,7 @@
 
 #include "master/ssp/ssp.h"
 #include "master/ssp/uri.h"
+#include "master/util/file_uri.h"
 #include "master/util/input_file.h"
 #include "master/util/xml/document.h"
 #include "master/util/xml/editor.h"
@@ -70,8 +71,9 @@ class Packer {
       const auto [source, fragment] = source_of(element, folder);
       const std::string name = add(element, source);
       const std::string uri = name == "SystemStructure.ssd" ? "../" + name : resources + name;
-      editor.set_attribute(element.index(), "source",
-                           uri_of(uri) + (fragment.empty() ? "" : "#" + uri_of(fragment)));
+      editor.set_attribute(
+          element.index(), "source",
+          core::uri_path(uri) + (fragment.empty() ? "" : "#" + core::uri_path(fragment)));
     }
     for (const xml::Element& child : element.children()) {
       replace_sources(child, folder, resources, editor);

@@ -120,15 +120,4 @@ std::filesystem::path source_path(const xml::Element& element,
   return source.path;
 }
 
-std::string uri_of(const std::filesystem::path& path) {
-  constexpr std::string_view kPlain =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-._~/";
-  std::string uri;
-  for (const char c : path.generic_string()) {
-    const bool is_plain = kPlain.find(c) != kPlain.npos;
-    uri += is_plain ? std::string(1, c) : fmt::format("%{:02X}", static_cast<unsigned char>(c));
-  }
-  return uri;
-}
-
 }  // namespace stride::ssp

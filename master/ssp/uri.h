@@ -24,9 +24,6 @@ Source source_of(const xml::Element& element, const std::filesystem::path& folde
 /// Likewise, where a fragment is refused, too.
 std::filesystem::path source_path(const xml::Element& element, const std::filesystem::path& folder);
 
-/// A relative path as a URI: what is neither a letter, a digit nor one of "-._~/" is escaped.
-std::string uri_of(const std::filesystem::path& path);
-
 }  // namespace stride::ssp
 
 #endif

@@ -40,11 +40,6 @@ constexpr std::size_t kFmi2NeededFound = 0
 static_assert(kFmi2NeededFound == std::size(kFmi2Needed),
               "a name in kFmi2Needed is misspelt or there twice");
 
-bool is_unreserved(char c) {
-  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' ||
-         c == '.' || c == '_' || c == '~';
-}
-
 }  // namespace
 
 Fmi2Library::Fmi2Library(const fs::path& path, const std::string& model_identifier,
@@ -79,18 +74,6 @@ Fmi2Library::Fmi2Library(const fs::path& path, const std::string& model_identifi
                   "'" FMI2_TYPES_PLATFORM "'",
                   SharedLibrary::shown_as(), types),
       "compile it with the fmi2TypesPlatform.h of the standard");
-}
-
-std::string resource_uri(const fs::path& resources) {
-  std::string uri = "file://";
-  for (const char c : fs::absolute(resources).lexically_normal().string()) {
-    if (is_unreserved(c) || c == '/') {
-      uri += c;
-    } else {
-      uri += fmt::format("%{:02X}", static_cast<unsigned char>(c));
-    }
-  }
-  return uri;
 }
 
 }  // namespace stride::importer

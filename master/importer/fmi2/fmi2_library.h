@@ -32,11 +32,6 @@ class Fmi2Library : public SharedLibrary {
   Fmi2Functions functions_;
 };
 
-/// A folder of resources as FMI 2.0 passes it, whether it exists or not: the URI of its absolute
-/// path, with the scheme file (RFC 8089), and all but unreserved characters escaped (RFC
-/// 3986, 2.3).
-std::string resource_uri(const std::filesystem::path& resources);
-
 }  // namespace stride::importer
 
 #endif

@@ -51,11 +51,6 @@ TEST_CASE("What names no file here is refused") {
   CHECK_THROWS_WITH(resolve(""), Contains("'source' of <a> is empty"));
 }
 
-TEST_CASE("A path becomes a URI that leads back to it") {
-  CHECK(uri_of("resources/a b#%ä.fmu") == "resources/a%20b%23%25%C3%A4.fmu");
-  CHECK(uri_of("plain-1_2~3.ssv") == "plain-1_2~3.ssv");
-}
-
 TEST_CASE("a source that is no proper URI names the file that it can only mean") {
   const TemporaryFolder folder;
   std::filesystem::create_directory(folder / "resources");

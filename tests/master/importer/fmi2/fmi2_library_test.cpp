@@ -47,12 +47,3 @@ TEST_CASE("a library of other platform types is refused") {
   CHECK_THAT(load_error("fmi2_of_other_platform"),
              Contains("the platform types 'other'; expected 'default'"));
 }
-
-TEST_CASE("a folder of resources is a URI with the scheme file, absolute and escaped") {
-  CHECK(importer::resource_uri("/tmp/unit/resources") == "file:///tmp/unit/resources");
-  CHECK(importer::resource_uri("/tmp/x/../unit/resources") == "file:///tmp/unit/resources");
-  CHECK(importer::resource_uri("/a b/50%/ü#?/-._~") == "file:///a%20b/50%25/%C3%BC%23%3F/-._~");
-  const std::string here = fs::current_path().string();
-  CHECK_THAT(importer::resource_uri("resources"),
-             Catch::Matchers::StartsWith("file:///") && Catch::Matchers::EndsWith("/resources"));
-}
