@@ -9,7 +9,6 @@
 #include "master/recorders/unit_folders.h"
 #include "master/scenario/annotation.h"
 #include "master/scenario/unit_path.h"
-#include "master/ssp/files.h"
 #include "master/ssp/ssp.h"
 #include "master/ssp/uri.h"
 #include "master/util/error.h"
@@ -46,11 +45,11 @@ class SourceReader {
   void add_scenario(const fs::path& scenario) {
     if (core::is_file(scenario)) keep(scenario, kTheScenario);
     try {
-      const fs::path file = files_.system_file(scenario);
-      const auto package = files_.archive_of(file);
+      const fs::path file = files().system_file(scenario);
+      const auto package = files().archive_of(file);
       keep(package ? package->path : file, kTheScenario);
       known_.insert(file);
-      const xml::Document document(file);
+      const xml::Document& document = files().read_ahead(file);
       add_sources(document.root(), file.parent_path());
       found_.results = scenario::read_annotation(document.root()).results;
     } catch (const core::Error&) {  // reported where the scenario is read
@@ -85,15 +84,15 @@ class SourceReader {
       if (is_component || file.extension() == ".fmu") return add_unit(file);
       keep(file, "a file of the scenario");
       if (file.extension() != ".ssd") return;
-      const xml::Document document(file);
-      add_sources(document.root(), file.parent_path());
+      add_sources(files().read_ahead(file).root(), file.parent_path());
     } catch (const core::Error&) {  // likewise
     }
   }
 
-  ssp::Files files_;
+  ssp::Files& files() { return *found_.read; }
+
   std::set<fs::path> known_;
-  ScenarioFiles found_;
+  ScenarioFiles found_{{}, {}, std::make_shared<ssp::Files>(scenario::find_unit)};
 };
 
 }  // namespace

@@ -3,12 +3,14 @@
 #define STRIDE_MASTER_CLI_OUTPUT_PATHS_H
 
 #include <filesystem>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "master/recorders/results_folder.h"
 #include "master/scenario/loaded_scenario.h"
+#include "master/ssp/files.h"
 
 namespace stride::cli {
 
@@ -29,8 +31,9 @@ inline constexpr const char* kTheScenario = "the scenario";
 
 /// What a scenario consists of.
 struct ScenarioFiles {
-  std::vector<KeptPath> inputs;    ///< its files and units that exist, and its package
-  recorders::ResultFiles results;  ///< the names that it gives to the files of its results
+  std::vector<KeptPath> inputs;      ///< its files and units that exist, and its package
+  recorders::ResultFiles results;    ///< the names that it gives to the files of its results
+  std::shared_ptr<ssp::Files> read;  ///< the systems in it, for LoadedScenario
 };
 
 /// Reads the sources that a scenario and the systems in it name; `swaps` are "component=FILE". No

@@ -63,10 +63,11 @@ std::vector<OutputPath> output_paths(const RunArguments& arguments) {
   return outputs;
 }
 
-/// Throws core::Error (Input), before anything is written.
-void check_output_paths(const RunArguments& arguments) {
+/// Throws core::Error (Input), before anything is written. Returns what it has read of the
+/// scenario, which may be nothing.
+std::shared_ptr<ssp::Files> check_output_paths(const RunArguments& arguments) {
   const std::vector<OutputPath> outputs = output_paths(arguments);
-  if (outputs.empty()) return;
+  if (outputs.empty()) return nullptr;
   const std::filesystem::path folder = results_folder(arguments);
   for (const OutputPath& output : outputs) refuse_unit_folders(folder, output);
   const ScenarioFiles files =
@@ -74,6 +75,7 @@ void check_output_paths(const RunArguments& arguments) {
   refuse_kept_paths(outputs, files.inputs);
   refuse_kept_paths(outputs, kept_results(folder, files.results));
   refuse_shared_paths(outputs);
+  return files.read;
 }
 
 recorders::ResultFiles chosen_files(const RunArguments& arguments,
@@ -177,8 +179,8 @@ void run(const RunArguments& arguments, Records& records, CrashGuard& guard) {
 }
 
 /// Whatever ends the command, the test report contains it.
-void run_and_report(const RunArguments& arguments) {
-  check_output_paths(arguments);
+void run_and_report(RunArguments arguments) {
+  arguments.scenario.files = check_output_paths(arguments);
   const core::ProcessState process;
   Records records{{arguments.junit, arguments.scenario.scenario}};
   const core::SpareFiles spare;

@@ -105,7 +105,8 @@ std::vector<std::shared_ptr<importer::Fmu>> load_fmus(const Scenario& scenario) 
 }
 
 LoadedScenario::LoadedScenario(const ScenarioRequest& request)
-    : scenario_(read_scenario(request.scenario, {find_unit, set_values(request.sets)})) {
+    : scenario_(
+          read_scenario(request.scenario, {find_unit, set_values(request.sets), request.files})) {
   for (const std::string& text : request.swaps) swap(text);
   if (scenario_.system.components.empty()) {
     core::fail_input(of_file(), "the system has no component, so there is nothing to simulate");

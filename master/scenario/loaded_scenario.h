@@ -33,6 +33,7 @@ struct ScenarioRequest {
   std::string max_skip;  ///< seconds, for all components; empty = the scenario's
   bool no_checks = false;
   HostRequest hosts;
+  std::shared_ptr<ssp::Files> files;  ///< that have read some of it ahead; null: none
   std::string film;  ///< seconds between its pictures, or kUnspecifiedFilmInterval; empty = none
 };
 

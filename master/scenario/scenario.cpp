@@ -52,7 +52,7 @@ std::string stem(const std::filesystem::path& path) {
 Scenario read_scenario(const std::filesystem::path& path, const ReadOptions& options) {
   Scenario scenario;
   scenario.path = path;
-  scenario.files = std::make_shared<ssp::Files>(options.find_unit);
+  scenario.files = options.files ? options.files : std::make_shared<ssp::Files>(options.find_unit);
   const std::filesystem::path file = scenario.files->system_file(path);
   const xml::Document document = scenario.files->document(file);
   const xml::Element root = document.root();

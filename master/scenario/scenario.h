@@ -41,6 +41,7 @@ std::string stem(const std::filesystem::path& scenario);
 struct ReadOptions {
   ssp::UnitFinder find_unit{};                    ///< finds the FMUs that hold parameters
   std::vector<ssp::ParameterValue> parameters{};  ///< bound to the root system behind all others
+  std::shared_ptr<ssp::Files> files{};            ///< that have read some of it ahead; null: none
 };
 
 /// Reads a system of SSP 1.0 or 2.0: a .ssd, a package (.ssp), or the folder that one unpacks to;

@@ -109,6 +109,16 @@ std::optional<Files::Archive> Files::archive_of(const fs::path& file) const {
 
 xml::Document Files::document(const fs::path& file) {
   documents_.insert(file);
+  if (auto ahead = ahead_.extract(file)) return std::move(ahead.mapped());
+  return read(file);
+}
+
+const xml::Document& Files::read_ahead(const fs::path& file) {
+  const auto found = ahead_.find(file);
+  return found != ahead_.end() ? found->second : ahead_.emplace(file, read(file)).first->second;
+}
+
+xml::Document Files::read(const fs::path& file) {
   xml::Document document(file, shown(file), kPrefixes);
   warnings_.insert(warnings_.end(), document.warnings().begin(), document.warnings().end());
   return document;

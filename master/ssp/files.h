@@ -46,6 +46,8 @@ class Files {
   std::optional<Archive> archive_of(const std::filesystem::path& file) const;
   /// Reads an XML file that is called shown() in complaints. Throws core::Error (Input).
   xml::Document document(const std::filesystem::path& file);
+  /// Reads one before that: document() returns it without reading it again, once. Throws likewise.
+  const xml::Document& read_ahead(const std::filesystem::path& file);
   /// The files that document() has read or tried to read.
   const std::set<std::filesystem::path>& documents() const { return documents_; }
   /// A path as its reader knows it: within an archive, "FILE.ssp/resources/a.ssv".
@@ -57,11 +59,13 @@ class Files {
  private:
   const std::filesystem::path& unpack(const std::filesystem::path& archive,
                                       const std::string& expected, const core::Location& where);
+  xml::Document read(const std::filesystem::path& file);
 
   UnitFinder find_unit_;
   std::map<std::filesystem::path, std::unique_ptr<archive::UnpackedArchive>> archives_;
   std::vector<std::string> warnings_;
   std::set<std::filesystem::path> documents_;
+  std::map<std::filesystem::path, xml::Document> ahead_;
 };
 
 }  // namespace stride::ssp

@@ -91,3 +91,18 @@ TEST_CASE("a package can be a component, by one of its variants") {
           "z.ssd", ssd_with("<ssd:Component name='sub' source='inner.ssp#../x.ssd'/>"))),
       Contains("z.ssd:5:") && Contains("at its top"));
 }
+
+TEST_CASE("what has been read ahead is not read again, and its warnings come once") {
+  const TemporaryFolder folder;
+  const auto file = folder.write("a.ssd", "<ssd:a name='old'/>");
+  Files files;
+  CHECK(files.read_ahead(file).root().attribute("name") == "old");
+  folder.write("a.ssd", "<ssd:a name='new'/>");
+  CHECK(files.read_ahead(file).root().attribute("name") == "old");
+  CHECK(files.documents().empty());
+  CHECK(files.document(file).root().attribute("name") == "old");
+  CHECK(files.documents().size() == 1);
+  CHECK(files.warnings().size() == 1);
+  CHECK(files.document(file).root().attribute("name") == "new");
+  CHECK_THROWS_WITH(files.read_ahead(folder / "none.ssd"), Contains("does not exist"));
+}
