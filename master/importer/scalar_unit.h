@@ -26,9 +26,9 @@ class ScalarUnit : public FmuInstance {
  public:
   void get(References references, core::ValueBlock& values) override;
   void set(References references, const core::ValueBlock& values) override;
-  void enter_event_mode() override { fail_without_event_mode(); }
-  core::EventResult update_discrete_states() override { fail_without_event_mode(); }
-  void enter_step_mode() override { fail_without_event_mode(); }
+  void enter_event_mode() override { fail(no_event_mode()); }
+  core::EventResult update_discrete_states() override { fail(no_event_mode()); }
+  void enter_step_mode() override { fail(no_event_mode()); }
 
  protected:
   using Functions = typename Version::Functions;
@@ -64,8 +64,8 @@ class ScalarUnit : public FmuInstance {
   void set_booleans(References references, std::span<const bool> values);
   void get_strings(References references, std::span<std::string> values);
   void set_strings(References references, std::span<const std::string> values);
-  [[noreturn]] void fail_without_event_mode() const {
-    fail(fmt::format("{} Co-Simulation has no Event Mode", Version::kName));
+  static std::string no_event_mode() {
+    return fmt::format("{} Co-Simulation has no Event Mode", Version::kName);
   }
   [[noreturn]] void fail_type(core::ValueType type) const {
     fail(fmt::format("{} has no type {}", Version::kName, core::name(type)));
