@@ -77,7 +77,8 @@ struct UnitCall {
 /// Calls functions of a unit, and turns what they answer into results and errors. A status Error or
 /// Fatal, and Discard of any function but those that may answer it, becomes a core::Error of the
 /// kind Run, with the name of the function, the simulated time and the unit's own messages; so does
-/// an exception that leaves the unit, which counts as Fatal. After it the instance is freed, and no
+/// an exception that leaves the unit, which counts as Fatal. (For the saving of a state, see
+/// save_by().) After it the instance is freed, and no
 /// other function of it is called; after Fatal none of any instance of the FMU, so they are not
 /// freed either, and the library stays loaded.
 ///

@@ -26,9 +26,9 @@ class ScalarUnit : public FmuInstance {
  public:
   void get(References references, core::ValueBlock& values) override;
   void set(References references, const core::ValueBlock& values) override;
-  void enter_event_mode() override { fail(kNoEventMode); }
-  core::EventResult update_discrete_states() override { fail(kNoEventMode); }
-  void enter_step_mode() override { fail(kNoEventMode); }
+  void enter_event_mode() override { fail(no_event_mode()); }
+  core::EventResult update_discrete_states() override { fail(no_event_mode()); }
+  void enter_step_mode() override { fail(no_event_mode()); }
 
  protected:
   using Functions = typename Version::Functions;
@@ -58,14 +58,15 @@ class ScalarUnit : public FmuInstance {
  private:
   using Integer = typename Version::Integer;
 
-  static constexpr const char* kNoEventMode = "its version of FMI has no Event Mode";
-
   void get_enumerations(References references, std::span<std::int64_t> values);
   void set_enumerations(References references, std::span<const std::int64_t> values);
   void get_booleans(References references, std::span<bool> values);
   void set_booleans(References references, std::span<const bool> values);
   void get_strings(References references, std::span<std::string> values);
   void set_strings(References references, std::span<const std::string> values);
+  static std::string no_event_mode() {
+    return fmt::format("{} Co-Simulation has no Event Mode", Version::kName);
+  }
   [[noreturn]] void fail_type(core::ValueType type) const {
     fail(fmt::format("{} has no type {}", Version::kName, core::name(type)));
   }

@@ -1,4 +1,6 @@
 // Files as other tools write them, in a run: character encodings, prefixes, sources.
+#include <cmath>
+
 #include "master/importer/unpacked_fmu.h"
 #include "tests/build.h"
 #include "tests/cli/scenarios.h"
@@ -93,4 +95,31 @@ TEST_CASE("a system file and its values in another encoding are read, and where 
   CHECK(outcome.exit_code == 0);
   CHECK_THAT(outcome.err, Contains("values.ssv:2: ") && Contains("ssv"));
   CHECK(workspace.signals().numbers("unit.x").back() > 1.5);
+}
+
+TEST_CASE("a system as tools write it runs, with a warning for each thing that has one meaning") {
+  const std::string step =
+      "<ssd:Annotations><ssc:Annotation type=\"com.opensimulationplatform\">"
+      "<osp:SimulationInformation xmlns:osp=\"urn:osp\"><osp:FixedStepAlgorithm "
+      "baseStepSize=\"0.05\"/></osp:SimulationInformation></ssc:Annotation></ssd:Annotations>";
+  Workspace workspace(
+      {component("unit", "units\\relaxation.fmu",
+                 "<ssd:ParameterBindings><ssd:ParameterBinding source=\"my%20values.ssv\"/>"
+                 "</ssd:ParameterBindings>"),
+       "", "", "<ssd:DefaultExperiment>" + step + "</ssd:DefaultExperiment>\n"});
+  fs::create_directories(workspace / "resources/units");
+  fs::copy_file(test_fmu("fmi2_relaxation"), workspace / "resources/units/relaxation.fmu");
+  workspace.scratch().write(
+      "my values.ssv",
+      "<?xml version=\"1.0\"?>\n<ssv:ParameterSet version=\"1.0\" "
+      "name=\"values\">\n<ssv:Parameters>"
+      "<ssv:Parameter name=\"u\"><ssv:Real value=\"3\"/></ssv:Parameter></ssv:Parameters>\n"
+      "</ssv:ParameterSet>\n");
+  const Outcome outcome = workspace.run({"--quiet"});
+  INFO(outcome.err);
+  REQUIRE(outcome.exit_code == 0);
+  CHECK_THAT(outcome.err, Contains("my values.ssv:2: ") && Contains("0.05"));
+  const auto times = workspace.signals().numbers("time");
+  CHECK(times.size() == 21);  // to the unit's own stop time
+  CHECK(workspace.signals().numbers("unit.x").back() == Approx(3 - 2 * std::exp(-2)));
 }

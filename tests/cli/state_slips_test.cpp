@@ -44,7 +44,8 @@ TEST_CASE("a unit that cannot save its state runs where it is not needed, with a
   const Workspace workspace = behind("fmi2_relaxation.fmu");
   REQUIRE(run_with_slip(workspace, "0").exit_code == 0);
   const std::string expected = workspace.result("signals.csv");
-  const Outcome outcome = run_with_slip(workspace, "1");
+  const Arguments hosting = GENERATE(Arguments{}, Arguments{"--isolate"});
+  const Outcome outcome = run_with_slip(workspace, "1", hosting);
   CHECK(outcome.exit_code == 0);
   CHECK(workspace.result("signals.csv") == expected);
   const std::string warning = "unit 'forgetter': fmi2GetFMUstate returned fmi2Error";

@@ -6,6 +6,7 @@ import hashlib
 import multiprocessing
 import os
 import pathlib
+import shutil
 import sys
 
 from fmpy import read_model_description
@@ -63,13 +64,17 @@ def check_system(program, path, folder):
     for end, reason in NOT_COMPARED.items():
         if path.as_posix().endswith(end):
             raise NothingToCompare(reason)
-    system, names = read_system(path, STEP, STOP)
+    file = path
+    if path.suffix == ".ssp":
+        shutil.unpack_archive(path, folder / "package", "zip")
+        file = folder / "package" / "SystemStructure.ssd"
+    system, names = read_system(file, STEP, STOP)
     table = simulated_by_fmpy(system)
     expected = {"time": table.pop("time")}
     for name, column in table.items():
         unit, _, variable = name.partition(".")
         expected[f"{names[unit]}.{variable}"] = column
-    ours = run_file(program, path, folder, "--step", system.step, "--stop", STOP)
+    ours = run_file(program, path, folder / "results", "--step", system.step, "--stop", STOP)
     return differences(ours, expected, TOLERANCE)
 
 
@@ -90,7 +95,7 @@ def main(program, folder):
         return SKIPPED
     source, folder = pathlib.Path(source).resolve(), pathlib.Path(folder)
     tasks = [(check_unit, path) for path in distinct(source.rglob("*.fmu"))]
-    tasks += [(check_system, path) for path in sorted(source.rglob("*.ssd"))]
+    tasks += [(check_system, path) for path in sorted([*source.rglob("*.ssd"), *source.rglob("*.ssp")])]
     runs, mistakes = 0, 0
     for number, (check, path) in enumerate(tasks):
         name = path.relative_to(source)

@@ -12,7 +12,9 @@ class StateSaving : public Capability {
  public:
   static constexpr CapabilityId kId = CapabilityId::StateSaving;
 
-  /// Keeps the present state in the selected slot, instead of what it held. In any mode.
+  /// Keeps the present state in the selected slot, instead of what it held. In any mode. A unit
+  /// that cannot, though it declares that it can, may leave the slot empty: it runs where nothing
+  /// is restored.
   virtual void save_state() = 0;
   /// Makes the unit what it was at save_state(), any number of times. Fails if the slot is empty.
   virtual void restore_state() = 0;
