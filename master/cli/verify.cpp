@@ -170,6 +170,14 @@ void add_verify(CLI::App& app) {
       ->type_name("N")
       ->check(CLI::Range(40U, 10'000'000U))
       ->capture_default_str();
+  command
+      ->add_option(
+          "--leak", request.leak,
+          "Heap memory that an instance may leave behind [byte], for modules that cannot be "
+          "mended")
+      ->type_name("BYTES")
+      ->check(CLI::Range(0.0, 1e9))
+      ->capture_default_str();
   command->add_option("--json", options->json, "Write the results to this file, too (.json)")
       ->type_name("FILE");
   command->footer(

@@ -27,6 +27,7 @@ struct VerifyRequest {
   std::optional<Duration> stop{};     ///< nothing = the unit's own, within reason
   std::uint64_t seed = 1;             ///< of the stimulus
   unsigned instances = 1000;          ///< of the check of memory
+  double leak = 0;                    ///< of heap that an instance may leave behind [byte]
   std::chrono::milliseconds limit{60'000};  ///< for each check
 };
 

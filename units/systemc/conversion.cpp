@@ -42,7 +42,9 @@ std::string binary(const std::string& hexadecimal, int width, const std::string&
   const std::size_t first = bits.find('1');
   bits = first == std::string::npos ? "" : bits.substr(first);
   const auto size = static_cast<std::size_t>(width);
-  if (bits.size() > size) fail_range(hexadecimal, type, "no larger numbers");
+  if (bits.size() > size) {
+    fail_range(hexadecimal, type, "numbers below 2^" + std::to_string(width));
+  }
   return std::string(size - bits.size(), '0') + bits;
 }
 

@@ -7,6 +7,7 @@
 
 #include <stride/systemc/row.h>
 #include <stride/systemc/time.h>
+#include <stride/systemc/timer.h>
 
 namespace stride::systemc::detail {
 namespace {
@@ -114,13 +115,16 @@ void ResetRow<T>::connect(Elaboration& elaboration) {
   signal_ = &make_signal(elaboration.kernel(), *port_, T(level_));
   signal_->write(T(level_));
   place.in->bind(*signal_);
-  const sc_core::sc_time length = to_sc_time(length_, ticks_per_picosecond());
-  sc_core::sc_spawn(
-      [signal = signal_, after = T(!level_), length] {
-        sc_core::wait(length);
-        signal->write(after);
-      },
-      sc_core::sc_gen_unique_name("end_of_reset"));
+  // exact over skips of idle time
+  auto timer = std::make_shared<Timer>(sc_core::sc_gen_unique_name("end_of_reset"));
+  sc_core::sc_spawn_options options;
+  options.spawn_method();
+  options.dont_initialize();
+  options.set_sensitivity(&timer->event());
+  sc_core::sc_spawn([signal = signal_, after = T(!level_)] { signal->write(after); },
+                    sc_core::sc_gen_unique_name("reset"), &options);
+  timer->set(Time(length_));
+  elaboration.kernel().own(std::move(timer));
 }
 
 template class ClockRowOf<bool>;

@@ -79,3 +79,16 @@ TEST_CASE("that steps may be split is annotated where it is so") {
   CHECK_THAT(describe(Sample(false, true)),
              Contains(R"(mayReject="false" splitInvariant="true"/>)"));
 }
+
+TEST_CASE("the step that a unit prefers is in its default experiment") {
+  class Clocked : public Unit {
+   public:
+    Clocked() { describe("A clocked unit").default_step = Duration(20'000); }
+    void step(Step&) override {}
+  };
+  const std::string xml = describe(Clocked());
+  const std::size_t at = xml.find(R"(<DefaultExperiment stepSize="2e-08"/>)");
+  REQUIRE(at != std::string::npos);
+  CHECK(at < xml.find("<ModelVariables"));
+  CHECK_THAT(describe(Sample()), !Contains("DefaultExperiment"));
+}

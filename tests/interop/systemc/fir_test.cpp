@@ -1,6 +1,6 @@
 // A FIR filter, its stimuli and its display, which calls sc_stop.
 #define sc_main design_main
-#include "fir/main.cpp"
+#include "sysc/fir/main.cpp"
 #undef sc_main
 
 #include <catch2/catch.hpp>

@@ -1,6 +1,6 @@
 // Threads that wait for threads, in a source that has its sc_main beside its module.
 #define sc_main design_main
-#include "2.1/forkjoin/forkjoin.cpp"
+#include "sysc/2.1/forkjoin/forkjoin.cpp"
 #undef sc_main
 
 #include <catch2/catch.hpp>

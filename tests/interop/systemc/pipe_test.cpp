@@ -1,6 +1,6 @@
 // A pipeline of three stages of floating-point numbers, whose source keeps its state in globals.
 #define sc_main design_main
-#include "pipe/main.cpp"
+#include "sysc/pipe/main.cpp"
 #undef sc_main
 
 #include <catch2/catch.hpp>

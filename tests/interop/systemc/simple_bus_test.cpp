@@ -1,6 +1,6 @@
 // A bus with masters, memories and a clock of its own, all inside of one module.
 #define sc_main design_main
-#include "simple_bus/simple_bus_main.cpp"
+#include "sysc/simple_bus/simple_bus_main.cpp"
 #undef sc_main
 
 #include <catch2/catch.hpp>

@@ -209,6 +209,22 @@ TEST_CASE("clocks and resets of sc_logic") {
   CHECK(unit.value<int>("count") == 4);
 }
 
+TEST_CASE("a reset ends at its instant, however idle the module is meanwhile") {
+  UnitDriver unit = driver_of<LogicCounter>([](Rows<LogicCounter>& rows) {
+    rows.clock(&LogicCounter::clk, kMicrosecond);
+    rows.reset(&LogicCounter::reset, 500 * kMicrosecond, true);
+    rows.output("count", &LogicCounter::count);
+    rows.idle_when([](const LogicCounter& counter) { return counter.reset.read() == '1'; });
+  });
+  unit.enable_skipping();
+  unit.initialize();
+  unit.step(at(509 * kMicrosecond));
+  CHECK(unit.value<int>("count") == 10);
+  unit.unit().terminate();
+  REQUIRE(unit.log.size() == 1);
+  CHECK_THAT(unit.log[0].second, Contains("in 1 skips"));
+}
+
 TEST_CASE("a vector of ports is a vector of variables") {
   const auto list = [](std::size_t size) {
     return driver_of<Bank>([size](Rows<Bank>& rows) {

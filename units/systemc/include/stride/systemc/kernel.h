@@ -93,12 +93,13 @@ class Kernel {
   /// The true time at which SystemC notifies something next, timers not counted: the edge of a
   /// clock, a wait(time), an event notified with a delay.
   std::optional<Time> next_notification();
-  /// The same of the notifications that are no edge of a clock: those of sc_clocks are known; where
-  /// the device has none, its clocks are processes, and what is due within `period` may be an edge.
   struct Span {
     Time first;
     Time last;
   };
+  /// The same of all notifications that are no edge of a clock. The edges of sc_clocks are known;
+  /// where the device has none, its clocks are processes, and what is due within `period` may be an
+  /// edge.
   std::optional<Span> unclocked_notifications(Duration period);
 
   /// Lets time pass in which nothing is simulated: now() moves, SystemC's time does not. Timers
