@@ -118,15 +118,14 @@ void Recorders::add_to(core::Simulation& simulation) {
   if (activity_) simulation.add_observer(*activity_);
 }
 
-RecordedRun::RecordedRun(RunSetup setup, std::vector<std::unique_ptr<core::Unit>> units)
-    : setup_(std::move(setup)),
+RecordedRun::RecordedRun(const RunSetup& setup, std::vector<std::unique_ptr<core::Unit>> units)
+    : setup_(setup),
       simulation_(setup_.loaded.system(), std::move(units), setup_.options),
-      recorders_(setup_.loaded.system(), setup_.results),
       checks_(setup_.loaded.checks()),
       summary_(setup_.loaded.system()),
       progress_(setup_.display.progress, setup_.options.start, setup_.options.stop, simulation_) {
   setup_.capture.follow(simulation_);
-  recorders_.add_to(simulation_);
+  setup_.recorders.add_to(simulation_);
   if (!checks_.is_empty()) simulation_.add_observer(checks_, checks_.signals());
   if (!setup_.capture.is_empty()) simulation_.add_observer(setup_.capture);
   if (!setup_.display.quiet) simulation_.add_observer(summary_);

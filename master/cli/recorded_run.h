@@ -38,16 +38,6 @@ struct RunDisplay {
   bool open_report = false;  ///< in a browser, when the run is over
 };
 
-/// What a run is made from. The scenario, the capture and the test report must outlive the run.
-struct RunSetup {
-  const scenario::LoadedScenario& loaded;
-  core::RunOptions options;
-  ResultsTarget results;
-  RunDisplay display;
-  capture::Capture& capture;
-  TestReport& test_report;
-};
-
 /// The recorders of the result files that are written.
 class Recorders {
  public:
@@ -63,12 +53,22 @@ class Recorders {
   std::optional<recorders::ActivityRecorder> activity_;
 };
 
+/// What a run is made from, and must outlive it.
+struct RunSetup {
+  const scenario::LoadedScenario& loaded;
+  const core::RunOptions& options;
+  const ResultsTarget& results;
+  const RunDisplay& display;
+  Recorders& recorders;
+  capture::Capture& capture;
+  TestReport& test_report;
+};
+
 /// One simulation with its recorders, checks, captures, summary, progress and reports.
 class RecordedRun {
  public:
   /// `units` are the instances of the scenario, with the captured ones wrapped by the capture.
-  /// Creates the result files.
-  RecordedRun(RunSetup setup, std::vector<std::unique_ptr<core::Unit>> units);
+  RecordedRun(const RunSetup& setup, std::vector<std::unique_ptr<core::Unit>> units);
 
   /// Throws core::Error (Run) if the run fails or is interrupted, and if a check or a verdict
   /// failed. Whatever happens, the results are complete up to the last communication point.
@@ -93,7 +93,6 @@ class RecordedRun {
 
   const RunSetup setup_;
   core::Simulation simulation_;
-  Recorders recorders_;
   checks::Checks checks_;
   std::vector<core::Verdict> verdicts_;
   Summary summary_;

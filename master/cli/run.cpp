@@ -167,8 +167,10 @@ void run(const RunArguments& arguments, Records& records, CrashGuard& guard) {
   auto units = loaded.instantiate(folder);
   capture.wrap(units);
   const RunDisplay display{progress_style(arguments), arguments.quiet, arguments.open};
-  RecordedRun recorded({loaded, options, *records.results, display, capture, records.tests},
-                       std::move(units));
+  Recorders recorders(loaded.system(), *records.results);
+  RecordedRun recorded(
+      {loaded, options, *records.results, display, recorders, capture, records.tests},
+      std::move(units));
   const CrashGuard::Scope scope(guard, [&](const std::string& error) { recorded.abandon(error); });
   try {
     recorded.run();

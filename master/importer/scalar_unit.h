@@ -11,7 +11,7 @@
 
 #include <fmt/format.h>
 
-#include "master/importer/fmu_instance.h"
+#include "master/importer/fmu_instance_calls.h"
 
 namespace stride::importer {
 

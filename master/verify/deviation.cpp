@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include <stride/time.h>
+
 #include "master/util/time_text.h"
 
 namespace stride::verify {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "master/verify/recording.h"
+#include "master/verify/row.h"
 
 namespace stride::verify {
 

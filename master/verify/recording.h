@@ -7,20 +7,10 @@
 #include <string>
 #include <vector>
 
+#include "master/verify/row.h"
 #include "master/verify/tested_unit.h"
 
 namespace stride::verify {
-
-/// The values at one instant, as texts that read back as the same bits.
-struct Row {
-  std::int64_t picoseconds = 0;
-  /// Of a communication point the observed variables, in the order of TestedUnit::observed(); of a
-  /// super-dense instant of Event Mode what ticked, "name=value".
-  std::vector<std::string> values;
-  bool is_event = false;
-
-  bool operator==(const Row&) const = default;
-};
 
 struct Recording {
   std::vector<Row> rows;

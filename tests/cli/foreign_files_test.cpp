@@ -102,10 +102,16 @@ TEST_CASE("a system as tools write it runs, with a warning for each thing that h
       "<ssd:Annotations><ssc:Annotation type=\"com.opensimulationplatform\">"
       "<osp:SimulationInformation xmlns:osp=\"urn:osp\"><osp:FixedStepAlgorithm "
       "baseStepSize=\"0.05\"/></osp:SimulationInformation></ssc:Annotation></ssd:Annotations>";
+  const std::string other =
+      "<ssd:Annotations><ssc:Annotation type=\"com.other.tool\"><tool:Colour "
+      "xmlns:tool=\"urn:tool\" rgb=\"0 0 255\"/></ssc:Annotation></ssd:Annotations>";
   Workspace workspace(
       {component("unit", "units\\relaxation.fmu",
-                 "<ssd:ParameterBindings><ssd:ParameterBinding source=\"my%20values.ssv\"/>"
-                 "</ssd:ParameterBindings>"),
+                 "<ssd:Connectors><ssd:Connector name=\"u\" kind=\"input\"><ssc:Real/>" + other +
+                     "</ssd:Connector></ssd:Connectors>"
+                     "<ssd:ParameterBindings><ssd:ParameterBinding source=\"my%20values.ssv\"/>"
+                     "</ssd:ParameterBindings>" +
+                     other),
        "", "", "<ssd:DefaultExperiment>" + step + "</ssd:DefaultExperiment>\n"});
   fs::create_directories(workspace / "resources/units");
   fs::copy_file(test_fmu("fmi2_relaxation"), workspace / "resources/units/relaxation.fmu");

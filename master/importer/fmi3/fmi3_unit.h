@@ -20,7 +20,7 @@
 #include "master/algorithm/capabilities/state_saving.h"
 #include "master/algorithm/capabilities/state_serialization.h"
 #include "master/importer/fmi3/fmi3_library.h"
-#include "master/importer/fmu_instance.h"
+#include "master/importer/fmu_instance_calls.h"
 #include "master/importer/saved_states.h"
 #include "master/util/error.h"
 

@@ -125,7 +125,7 @@ EXPORT fmi2Status fmi2SetDebugLogging(fmi2Component c, fmi2Boolean on, size_t n,
 EXPORT fmi2Component fmi2Instantiate(fmi2String name, fmi2Type type, fmi2String guid,
                                      fmi2String resources, const fmi2CallbackFunctions* call,
                                      fmi2Boolean visible, fmi2Boolean logging) {
-  (void)visible, (void)FAULT("instantiate");
+  (void)FAULT("instantiate");
   Unit* unit = units;
   while (unit->is_used) {
     if (++unit == units + kInstances) return NULL;
@@ -136,8 +136,8 @@ EXPORT fmi2Component fmi2Instantiate(fmi2String name, fmi2Type type, fmi2String 
   unit->call = *call;
   fmi2_callbacks = *call;
   unit->is_logging = logging;
-  if (strcmp(guid, "{" UNIT_NAME "}") != 0 || type != fmi2CoSimulation) {
-    LOG(unit, fmi2Error, "the GUID is %s, and the type %d", guid, (int)type);
+  if (strcmp(guid, "{" UNIT_NAME "}") != 0 || type != fmi2CoSimulation || visible) {
+    LOG(unit, fmi2Error, "the GUID is %s, the type %d, visible %d", guid, (int)type, visible);
     return NULL;
   }
   unit->is_used = true;

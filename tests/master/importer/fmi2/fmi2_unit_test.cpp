@@ -538,6 +538,17 @@ TEST_CASE("a message of a unit that is gone is lost, and no more", "[here]") {
   CHECK(unit.lines.empty());
 }
 
+TEST_CASE("a unit gets functions for its memory, and stepFinished where it may need it", "[here]") {
+  Fmi2Fixture unit(importer::Fmu::load(test_fmu("fmi2_relaxation")));
+  const auto callbacks = unit.global<fmi2CallbackFunctions>("fmi2_callbacks");
+  CHECK(callbacks.stepFinished == nullptr);
+  void* const memory = callbacks.allocateMemory(3, 5);
+  CHECK(std::string(static_cast<const char*>(memory), 15) == std::string(15, '\0'));
+  callbacks.freeMemory(memory);
+  Fmi2Fixture asynchronous(importer::Fmu::load(test_fmu("fmi2_sleeper")));
+  CHECK(asynchronous.global<fmi2CallbackFunctions>("fmi2_callbacks").stepFinished != nullptr);
+}
+
 TEST_CASE("the relative tolerance is the one of the unit's default experiment", "[here]") {
   const auto tolerance = [](const char* name) {
     Fmi2Fixture unit(name);

@@ -1,0 +1,134 @@
+// How FmuInstance calls the functions of a unit: its templates, for the classes that derive from
+// it. Their contracts are in fmu_instance.h.
+#ifndef STRIDE_MASTER_IMPORTER_FMU_INSTANCE_CALLS_H
+#define STRIDE_MASTER_IMPORTER_FMU_INSTANCE_CALLS_H
+
+#include <cstddef>
+#include <cstdint>
+#include <exception>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "master/importer/fmu_instance.h"
+
+namespace stride::importer {
+
+template <class Call>
+[[gnu::always_inline]] inline auto FmuInstance::guarded(const char* name, Call&& call) {
+  note_call(name);
+  try {
+    const auto result = call();
+    end_call();
+    return result;
+  } catch (...) {
+    fail_thrown(name);
+  }
+}
+
+template <class Function, class... Arguments>
+[[gnu::always_inline]] inline Status FmuInstance::call_discardable(const char* name,
+                                                                   Function* function,
+                                                                   Arguments... arguments) {
+  check_callable(name);
+  const auto status =
+      static_cast<Status>(guarded(name, [&] { return function(instance_, arguments...); }));
+  const bool is_quiet = !has_messages_.load(std::memory_order_relaxed);
+  if (status == Status::Ok && is_quiet) [[likely]]
+    return status;
+  return check_status(name, status);
+}
+
+template <class Function, class... Arguments>
+[[gnu::always_inline]] inline void FmuInstance::call(const char* name, Function* function,
+                                                     Arguments... arguments) {
+  const Status status = call_discardable(name, function, arguments...);
+  if (status == Status::Discard || status == Status::Pending) [[unlikely]]
+    fail_call(name, status);
+}
+
+template <class Function, class... Arguments>
+void FmuInstance::call_and_restore(const char* name, Function* function, Arguments... arguments) {
+  call(name, function, arguments...);
+  restore_process(name);
+}
+
+template <class Make>
+void FmuInstance::instantiate_by(const char* name, Make&& make) {
+  check_callable(name);
+  instance_ = guarded(name, make);
+  restore_process(name);
+  if (instance_ == nullptr) fail(std::string(name) + " failed: " + take_messages(name));
+}
+
+template <class Function>
+void FmuInstance::reset_by(const char* name, Function* function) {
+  if (function == nullptr) fail(std::string("its library does not export ") + name);
+  failed_in_ = nullptr;
+  call(name, function);
+  time_.reset();
+  rejection_reason_.clear();
+  save_failure_.clear();
+}
+
+template <class Function>
+bool FmuInstance::save_by(const char* name, Function* function, void*& state) {
+  if (!save_failure_.empty()) [[unlikely]]
+    return false;
+  check_callable(name);
+  const auto status =
+      static_cast<Status>(guarded(name, [&] { return function(instance_, &state); }));
+  if (status == Status::Ok && !has_messages_.load(std::memory_order_relaxed)) [[likely]]
+    return true;
+  if (status == Status::Error || status == Status::Discard) {
+    state = nullptr;  // what a failed call leaves there is undefined
+    give_up_saving(name, status);
+    return false;
+  }
+  if (check_status(name, status) == Status::Pending) fail_call(name, status);
+  return true;
+}
+
+template <class Function>
+bool FmuInstance::free_by(const char* name, Function* function, void*& state) {
+  if (state == nullptr || is_unusable_ || function == nullptr) return false;
+  write_note(name);
+  if (static_cast<Status>(function(instance_, &state)) == Status::Fatal) mark_unusable();
+  end_call();
+  return true;
+}
+
+template <class Function>
+void FmuInstance::free_instance_by(const char* name, Function* function) {
+  void* const instance = std::exchange(instance_, nullptr);
+  if (is_unusable_) return;
+  guarded(name, [&] {
+    function(instance);
+    return true;
+  });
+}
+
+template <class Free>
+void FmuInstance::free_or_warn(Free&& free) noexcept {
+  try {
+    free();
+  } catch (const std::exception& failure) {
+    warn(failure.what());
+  }
+}
+
+template <class Answer, class Byte>
+std::vector<std::uint8_t> FmuInstance::serialized(void* state,
+                                                  const Serialization<Answer, Byte>& functions) {
+  require(functions.size_name, functions.size_of, functions.capability);
+  require(functions.write_name, functions.write, functions.capability);
+  std::size_t size = 0;
+  call(functions.size_name, functions.size_of, state, &size);
+  std::vector<std::uint8_t> bytes = bytes_for_state(functions.size_name, size);
+  call(functions.write_name, functions.write, state, reinterpret_cast<Byte*>(bytes.data()), size);
+  return bytes;
+}
+
+}  // namespace stride::importer
+
+#endif
