@@ -104,8 +104,9 @@ void RemoteTarget::respond(Transaction response) {
 void InitiatorRow::connect(Elaboration& elaboration) {
   jobs_.clear();
   port_ = connect_(elaboration, name());
-  posted_ = std::make_shared<sc_core::sc_event>(sc_core::sc_gen_unique_name("posted"));
-  elaboration.kernel().own(posted_);
+  auto posted = std::make_shared<sc_core::sc_event>(sc_core::sc_gen_unique_name("posted"));
+  posted_ = posted.get();
+  elaboration.kernel().own(std::move(posted));
   sc_core::sc_spawn([this] { serve(); }, sc_core::sc_gen_unique_name("initiator"));
 }
 

@@ -167,7 +167,7 @@ class InitiatorRow final : public Row {
   Connect connect_;
   Port port_;
   std::deque<Job> jobs_;
-  std::shared_ptr<sc_core::sc_event> posted_;
+  sc_core::sc_event* posted_ = nullptr;  ///< the kernel's, and destroyed with it
 };
 
 /// Throws std::runtime_error unless the response is Status::Ok.
