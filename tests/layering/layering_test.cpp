@@ -53,7 +53,7 @@ const std::map<std::string, std::set<std::string>> kAllowed = {
     {"units/minimal", {"stride"}},
     {"units/nfc", {"stride/time.h", "stride/value_text.h"}},
     {"units/xml", {"stride/time.h", "stride/value_text.h", "tinyxml2.h"}},
-    {"units/systemc", {"stride", "systemc", "sanitizer", "cxxabi.h"}},
+    {"units/systemc", {"stride", "systemc", "tlm_core", "tlm_utils", "sanitizer", "cxxabi.h"}},
     {"units/sensor", {"stride", "systemc", "units/nfc", "units/systemc"}},
     {"units/mujoco_world",
      {"stride", "units/xml", "mujoco", "iconv.h", "jpeglib.h", "tinyxml2.h", "CLI"}},

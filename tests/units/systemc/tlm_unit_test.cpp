@@ -3,6 +3,7 @@
 #include <cstring>
 #include <memory>
 #include <string>
+#include <tlm>
 #include <vector>
 
 #include <catch2/catch.hpp>
