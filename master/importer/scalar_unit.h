@@ -3,8 +3,11 @@
 #define STRIDE_MASTER_IMPORTER_SCALAR_UNIT_H
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <memory>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>

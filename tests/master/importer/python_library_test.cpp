@@ -1,6 +1,6 @@
 #include "master/importer/python_library.h"
 
-#include "tests/build.h"
+#include <catch2/catch.hpp>
 
 using namespace stride::importer;
 
