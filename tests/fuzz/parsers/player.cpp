@@ -16,7 +16,7 @@ void play(const player::Stimuli& stimuli) {
   };
   playback.begin(stimuli.start(), check);
   for (auto next = playback.following(); next; next = playback.following()) {
-    playback.come_to(*next, check);
+    playback.play_until(*next, check);
     while (playback.has_more(*next)) playback.iterate(*next, check);
   }
 }

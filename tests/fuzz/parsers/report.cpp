@@ -40,7 +40,7 @@ void read_results(const std::string& bytes) {
     for (const report::Column& column : results.signals.columns) {
       ensure(column.size() == results.signals.times.size(), "columns have a value for each time");
     }
-    for (const report::Activities& activities : results.activities) {
+    for (const report::UnitActivities& activities : results.activities) {
       ensure(activities.from.size() == activities.until.size(), "what begins has an end");
     }
     for (const report::Film& film : results.films) {

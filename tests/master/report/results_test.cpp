@@ -57,7 +57,7 @@ TEST_CASE("a results folder is read") {
   CHECK(results.notes.empty());
   CHECK(results.signals.times == Times{0, kMillisecond});
   REQUIRE(results.messages.size() == 1);
-  const Message& message = results.messages[0];
+  const RecordedMessage& message = results.messages[0];
   CHECK(message.time == kMillisecond / 2);
   CHECK(message.index == 2);
   CHECK(message.component == "b, c");
