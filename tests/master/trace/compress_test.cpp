@@ -77,7 +77,7 @@ TEST_CASE("The code of advanceTime is one that no variable has") {
   for (int c = '!'; c <= '~'; ++c) {
     declarations += "$var wire 1 " + std::string(1, static_cast<char>(c)) + " v $end\n";
   }
-  CHECK_THAT(compressed(dump(declarations, "")), Contains("$var integer 64 !! advanceTime $end"));
+  CHECK_THAT(compressed(dump(declarations, "")), Contains("$var integer 64 !\" advanceTime $end"));
 }
 
 TEST_CASE("The shortest gap is 1 ms, or a tick where that is longer") {
