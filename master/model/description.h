@@ -201,11 +201,6 @@ struct UnitDescription {
   bool is_message(const Variable& variable) const {
     return variable.is_clocked() && !is_sampled(variable);
   }
-  /// Whether the variable is a signal, which has a value at each communication point: neither a
-  /// clock nor a message.
-  bool is_signal(const Variable& variable) const {
-    return variable.type != ValueType::Clock && !is_message(variable);
-  }
 };
 
 }  // namespace stride::core

@@ -108,6 +108,27 @@ std::string System::prefix(VariableId id) const {
   return is_output(id) ? "" : components_[id.component].name + ".";
 }
 
+bool System::is_sampled(VariableId id) const {
+  return !is_output(id) && !is_message(id) &&
+         components_[id.component].description->is_sampled(variable(id));
+}
+
+bool System::is_message(VariableId id) const {
+  if (is_output(id)) return false;
+  const UnitDescription& description = *components_[id.component].description;
+  if (message_clocks_.empty() || variable(id).causality != Causality::Output) {
+    return description.is_message(variable(id));
+  }
+  return description.is_message(variable(id)) ||
+         std::ranges::any_of(variable(id).clocks, [&](ValueReference clock) {
+           return ticks_triggered({id.component, *description.find(clock)});
+         });
+}
+
+bool System::is_signal(VariableId id) const {
+  return is_output(id) || (variable(id).type != ValueType::Clock && !is_message(id));
+}
+
 void System::add_components(const SystemDeclaration& declaration, Diagnostics& diagnostics) {
   if (declaration.components.empty()) {
     fail_input({}, "the system has no component, so there is nothing to simulate");

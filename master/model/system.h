@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -75,17 +76,14 @@ class System {
     return components_[id.component].description->variables[id.variable];
   }
   /// Whether the variable belongs to time-based clocks only; see UnitDescription::is_sampled().
-  bool is_sampled(VariableId id) const {
-    return !is_output(id) && components_[id.component].description->is_sampled(variable(id));
-  }
-  /// Whether the variable is a message; see UnitDescription::is_message().
-  bool is_message(VariableId id) const {
-    return !is_output(id) && components_[id.component].description->is_message(variable(id));
-  }
-  /// Whether the variable is a signal; see UnitDescription::is_signal(). Outputs of the system are.
-  bool is_signal(VariableId id) const {
-    return is_output(id) || components_[id.component].description->is_signal(variable(id));
-  }
+  bool is_sampled(VariableId id) const;
+  /// Whether the variable is a message: as UnitDescription::is_message() says, or an output that
+  /// belongs to a time-based clock which is connected to a triggered one.
+  bool is_message(VariableId id) const;
+  /// Whether the variable is a signal: neither a clock nor a message. Outputs of the system are.
+  bool is_signal(VariableId id) const;
+  /// Whether it is a time-based clock that is connected to a triggered one.
+  bool ticks_triggered(VariableId id) const { return message_clocks_.contains(id); }
   /// "component.variable"; of an output of the system its name.
   std::string full_name(VariableId id) const { return prefix(id) + variable(id).name; }
   /// "component.", or empty for an output of the system.
@@ -114,6 +112,9 @@ class System {
   void check_connector(const SystemDeclaration& declaration, const ComponentDeclaration& component,
                        const ConnectorDeclaration& connector);
   void check_clocks(const ComponentDeclaration& component) const;
+  void find_message_clocks(const SystemDeclaration& declaration);
+  std::optional<VariableId> find_end(const std::string& component,
+                                     const std::string& connector) const;
   void check_clocked(const ConnectionDeclaration& declaration, VariableId from,
                      VariableId to) const;
   void check_event_mode(const ConnectionDeclaration& declaration, VariableId id) const;
@@ -138,6 +139,7 @@ class System {
   std::vector<StartValue> structural_values_;
   std::vector<std::string> warnings_;
   std::map<VariableId, UnitOfMeasure> connector_units_;  ///< those that connectors declare
+  std::set<VariableId> message_clocks_;  ///< time-based clocks that are connected to triggered ones
   std::size_t unknown_variables_ = 0;                    ///< reported so far
 };
 

@@ -11,9 +11,11 @@ namespace stride::core {
 namespace {
 
 /// SSP lets a local variable be connected as if it were an output; messages come from outputs only.
+/// A time-based clock is an input that asks the master for ticks, and a source of them (FMI-LS-BUS
+/// 1.0, "Time-based Tx Clocks").
 bool is_source(const Variable& variable) {
   const bool is_local = variable.causality == Causality::Local && variable.is_unclocked_value();
-  return is_local || variable.causality == Causality::Output ||
+  return is_local || variable.is_time_based_clock() || variable.causality == Causality::Output ||
          variable.causality == Causality::CalculatedParameter;
 }
 
@@ -36,6 +38,7 @@ std::vector<VariableId> clocks_of(const System& system, VariableId id) {
 }  // namespace
 
 void System::add_connections(const SystemDeclaration& declaration, Diagnostics& diagnostics) {
+  find_message_clocks(declaration);
   std::map<VariableId, const ConnectionDeclaration*> sources;
   for (const ConnectionDeclaration& wanted : declaration.connections) {
     const std::optional<Ends> ends = find_ends(declaration, wanted, diagnostics);
@@ -51,6 +54,26 @@ void System::add_connections(const SystemDeclaration& declaration, Diagnostics& 
   if (diagnostics.any()) return;  // a clock's connection may be among them
   for (const Connection& connection : connections_) {
     diagnostics.attempt([&] { check_message(*sources.at(connection.to), connection); });
+  }
+}
+
+/// Nothing if it is not there.
+std::optional<VariableId> System::find_end(const std::string& component,
+                                           const std::string& connector) const {
+  const std::optional<std::size_t> index = names_.component(component);
+  if (!index) return std::nullopt;
+  const std::optional<std::size_t> place = names_.variable(*index, connector);
+  if (!place) return std::nullopt;
+  return VariableId{*index, *place};
+}
+
+/// What they send depends on it, so they are found before anything is checked.
+void System::find_message_clocks(const SystemDeclaration& declaration) {
+  for (const ConnectionDeclaration& wanted : declaration.connections) {
+    const auto from = find_end(wanted.from_component, wanted.from_connector);
+    const auto to = find_end(wanted.to_component, wanted.to_connector);
+    if (!from || !to || !variable(*from).is_time_based_clock()) continue;
+    if (variable(*to).is_triggered_clock()) message_clocks_.insert(*from);
   }
 }
 

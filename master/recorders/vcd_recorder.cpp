@@ -102,12 +102,14 @@ void write_change(core::OutputFile& file, const T& value, std::string_view code)
   file.write('\n');
 }
 
-/// What travels as a message; a clock that the master ticks, and what it samples, does not.
-bool is_message_variable(const core::UnitDescription& unit, const core::Variable& variable) {
+/// What travels as a message. A clock that the master ticks does if it is connected to a triggered
+/// one; what it samples otherwise does not.
+bool is_message_variable(const core::System& system, core::VariableId id) {
+  const core::Variable& variable = system.variable(id);
   const bool is_connector =
       variable.causality == core::Causality::Input || variable.causality == core::Causality::Output;
-  if (!is_connector || variable.is_time_based_clock()) return false;
-  return !unit.is_signal(variable);
+  if (!is_connector) return false;
+  return variable.is_time_based_clock() ? system.ticks_triggered(id) : !system.is_signal(id);
 }
 
 }  // namespace
@@ -165,7 +167,7 @@ void VcdRecorder::declare_messages(VcdScope& top) {
     std::vector<MessageCodes>& codes = messages_.emplace_back(description.variables.size());
     for (std::size_t v = 0; v < codes.size(); ++v) {
       const core::Variable& variable = description.variables[v];
-      if (!is_message_variable(description, variable)) continue;
+      if (!is_message_variable(system_, {c, v})) continue;
       const bool is_clock = variable.type == core::ValueType::Clock;
       std::vector<std::string>& own = is_clock ? codes[v].clocks : codes[v].elements;
       for (std::size_t i = 0; i < variable.size; ++i) own.push_back(declare(top, {c, v}, i));

@@ -224,10 +224,20 @@ bool EventHandler::include(std::size_t i) {
   return true;
 }
 
-/// A clock that is set may make the receiver's own clocks tick at once, so these are read again.
+/// What is sent at a tick may depend on the messages of this instant, so those of triggered clocks
+/// are handed over before.
 void EventHandler::exchange_messages() {
   messages_.begin_instant();
   polled_ = in_event_mode_;
+  transmit_triggered();
+  for (const std::size_t i : event_units_) {
+    if (!clocks_.ticking(i).empty()) transmit_ticks(i);
+  }
+  transmit_triggered();
+}
+
+/// A clock that is set may make the receiver's own clocks tick at once, so these are read again.
+void EventHandler::transmit_triggered() {
   for (bool again = true; again;) {
     again = false;
     for (const std::size_t i : event_units_) {
@@ -241,17 +251,26 @@ void EventHandler::exchange_messages() {
 
 void EventHandler::transmit(std::size_t sender) {
   messages_.transmit(
-      sender,
-      [&](std::size_t receiver) {
-        enter_event_mode(receiver);
-        polled_[receiver] = true;
-      },
-      [&](VariableId id, bool received, const ValueBlock* block) {
-        if (!received && block != nullptr && has_nan(*block)) fail_nan(id);
-        UnitStatistics& statistics = statistics_.units[id.component];
-        ++(received ? statistics.messages_received : statistics.messages_sent);
-        notify_observers(id, received, block);
-      });
+      sender, [&](std::size_t receiver) { receive(receiver); },
+      [&](VariableId id, bool received, const ValueBlock* block) { report(id, received, block); });
+}
+
+void EventHandler::transmit_ticks(std::size_t sender) {
+  messages_.transmit_ticks(
+      sender, clocks_.ticking(sender), [&](std::size_t receiver) { receive(receiver); },
+      [&](VariableId id, bool received, const ValueBlock* block) { report(id, received, block); });
+}
+
+void EventHandler::receive(std::size_t receiver) {
+  enter_event_mode(receiver);
+  polled_[receiver] = true;
+}
+
+void EventHandler::report(VariableId id, bool received, const ValueBlock* block) {
+  if (!received && block != nullptr && has_nan(*block)) fail_nan(id);
+  UnitStatistics& statistics = statistics_.units[id.component];
+  ++(received ? statistics.messages_received : statistics.messages_sent);
+  notify_observers(id, received, block);
 }
 
 void EventHandler::notify_observers(VariableId id, bool received, const ValueBlock* block) {

@@ -67,7 +67,11 @@ class EventHandler : private OrderedEvaluation::Participants {
   bool exchange_samples(std::span<const std::size_t> ticking);
   void exchange_after_events();
   void exchange_messages();
+  void transmit_triggered();
   void transmit(std::size_t sender);
+  void transmit_ticks(std::size_t sender);
+  void receive(std::size_t receiver);
+  void report(VariableId id, bool received, const ValueBlock* block);
   void notify_observers(VariableId id, bool received, const ValueBlock* block);
   std::string content_of(VariableId id, const ValueBlock& block) const;
   std::string described_by(VariableId id, const ValueBlock& block) const;

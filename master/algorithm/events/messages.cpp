@@ -19,26 +19,30 @@ MessageExchange::MessageExchange(const System& system, std::span<const std::uniq
     : system_(system), units_(units), senders_(system.components().size()) {
   tick_.numbers<bool>()[0] = true;
   for (std::size_t component = 0; component < senders_.size(); ++component) {
-    const UnitDescription& description = *system.components()[component].description;
+    const auto& variables = system.components()[component].description->variables;
+    for (std::size_t i = 0; i < variables.size(); ++i) add_clock({component, i});
     Sender& sender = senders_[component];
-    for (std::size_t i = 0; i < description.variables.size(); ++i) {
-      const Variable& clock = description.variables[i];
-      if (clock.type != ValueType::Clock || clock.causality != Causality::Output) continue;
-      OutputClock output{{component, i}, {}, targets_of(system, {component, i}), false};
-      for (std::size_t k = 0; k < description.variables.size(); ++k) {
-        const Variable& variable = description.variables[k];
-        if (!variable.belongs_to(clock.reference) || variable.causality != Causality::Output)
-          continue;
-        output.payloads.push_back({{component, k},
-                                   variable.reference,
-                                   ValueBlock(variable.type, variable.size),
-                                   receivers_of({component, k}, output.targets)});
-      }
-      sender.references.push_back(clock.reference);
-      sender.clocks.push_back(std::move(output));
-    }
-    sender.ticked = ValueBlock(ValueType::Clock, sender.clocks.size());
+    sender.ticked = ValueBlock(ValueType::Clock, sender.triggered.size());
   }
+}
+
+/// If it is one that may be the source of messages.
+void MessageExchange::add_clock(VariableId id) {
+  const UnitDescription& description = *system_.components()[id.component].description;
+  const Variable& clock = description.variables[id.variable];
+  const bool is_output = clock.type == ValueType::Clock && clock.causality == Causality::Output;
+  SourceClock source{id, clock.reference, {}, targets_of(system_, id), false};
+  if (!is_output && !(clock.is_time_based_clock() && !source.targets.empty())) return;
+  for (std::size_t i = 0; i < description.variables.size(); ++i) {
+    const Variable& variable = description.variables[i];
+    if (!variable.belongs_to(clock.reference) || variable.causality != Causality::Output) continue;
+    const VariableId value{id.component, i};
+    source.payloads.push_back({value, variable.reference, ValueBlock(variable.type, variable.size),
+                               receivers_of(value, source.targets)});
+  }
+  Sender& sender = senders_[id.component];
+  if (is_output) sender.references.push_back(clock.reference);
+  (is_output ? sender.triggered : sender.time_based).push_back(std::move(source));
 }
 
 /// The inputs that the value travels to when the clock ticks: those that belong to a clock wired to
@@ -62,13 +66,14 @@ std::vector<MessageExchange::Receiver> MessageExchange::receivers_of(
 
 void MessageExchange::begin_instant() {
   for (Sender& sender : senders_) {
-    for (OutputClock& clock : sender.clocks) clock.is_forwarded = false;
+    for (SourceClock& clock : sender.time_based) clock.is_forwarded = false;
+    for (SourceClock& clock : sender.triggered) clock.is_forwarded = false;
   }
 }
 
 bool MessageExchange::poll(std::size_t component) {
   Sender& sender = senders_[component];
-  if (sender.clocks.empty()) return false;
+  if (sender.triggered.empty()) return false;
   units_[component]->get(sender.references, sender.ticked);
   const auto ticked = sender.ticked.numbers<bool>();
   return std::find(ticked.begin(), ticked.end(), true) != ticked.end();

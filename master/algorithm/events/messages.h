@@ -2,9 +2,11 @@
 #ifndef STRIDE_MASTER_ALGORITHM_EVENTS_MESSAGES_H
 #define STRIDE_MASTER_ALGORITHM_EVENTS_MESSAGES_H
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "master/algorithm/observer.h"
@@ -13,8 +15,8 @@
 
 namespace stride::core {
 
-/// For each unit: its triggered output clocks, the clocked variables of each, and the connected
-/// inputs.
+/// For each unit: its triggered output clocks and its time-based clocks that are connected, the
+/// clocked variables of each, and the connected inputs.
 class MessageExchange {
  public:
   MessageExchange(const System& system, std::span<const std::unique_ptr<Unit>> units);
@@ -29,10 +31,19 @@ class MessageExchange {
   void transmit(std::size_t component, Prepare&& prepare, Report&& report) {
     if (!poll(component)) return;
     Sender& sender = senders_[component];
-    for (std::size_t i = 0; i < sender.clocks.size(); ++i) {
-      if (!sender.ticked.numbers<bool>()[i] || sender.clocks[i].is_forwarded) continue;
-      sender.clocks[i].is_forwarded = true;
-      forward(component, sender.clocks[i], prepare, report);
+    for (std::size_t i = 0; i < sender.triggered.size(); ++i) {
+      if (!sender.ticked.numbers<bool>()[i]) continue;
+      forward(component, sender.triggered[i], prepare, report);
+    }
+  }
+
+  /// Likewise for the unit's time-based clocks that tick.
+  template <class Prepare, class Report>
+  void transmit_ticks(std::size_t component, std::span<const ValueReference> ticking,
+                      Prepare&& prepare, Report&& report) {
+    for (SourceClock& clock : senders_[component].time_based) {
+      if (std::ranges::find(ticking, clock.reference) == ticking.end()) continue;
+      forward(component, clock, prepare, report);
     }
   }
 
@@ -43,26 +54,29 @@ class MessageExchange {
     const Connection* connection;
     ValueBlock block;
   };
-  /// A variable that belongs to an output clock.
+  /// A variable that belongs to such a clock.
   struct Payload {
     VariableId id;
     ValueReference reference;
     ValueBlock block;
     std::vector<Receiver> receivers;
   };
-  struct OutputClock {
+  struct SourceClock {
     VariableId id;
+    ValueReference reference;
     std::vector<Payload> payloads;
     std::vector<VariableId> targets;
     bool is_forwarded = false;  ///< in this instant
   };
-  /// A component with its output clocks.
+  /// A component with its clocks.
   struct Sender {
-    std::vector<OutputClock> clocks;
-    std::vector<ValueReference> references;  ///< of the clocks
+    std::vector<SourceClock> time_based;
+    std::vector<SourceClock> triggered;
+    std::vector<ValueReference> references;  ///< of the triggered ones
     ValueBlock ticked{ValueType::Clock, 0};
   };
 
+  void add_clock(VariableId id);
   bool poll(std::size_t component);
   void read_payload(std::size_t component, Payload& payload);
   void set_clock(VariableId target);
@@ -71,7 +85,8 @@ class MessageExchange {
                                      std::span<const VariableId> clock_targets) const;
 
   template <class Prepare, class Report>
-  void forward(std::size_t component, OutputClock& clock, Prepare& prepare, Report& report) {
+  void forward(std::size_t component, SourceClock& clock, Prepare& prepare, Report& report) {
+    if (std::exchange(clock.is_forwarded, true)) return;
     for (Payload& payload : clock.payloads) {
       read_payload(component, payload);
       report(payload.id, false, &payload.block);

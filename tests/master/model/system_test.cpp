@@ -166,10 +166,40 @@ TEST_CASE("what belongs to a time-based clock may be connected to any value but 
   CHECK_THAT(with("out", "message_in"), Contains("'beta.message_in' is a message"));
   CHECK_THAT(with("y", "message_in"), Contains("'beta.message_in' is a message"));
   CHECK_THAT(with("message_out", "u"), Contains("'alpha.message_out' is a message"));
-  for (const char* source : {"clock_out", "y"}) {
+  CHECK_THAT(with("tick", "clock_out"), Contains("'beta.clock_out' is not an input"));
+  CHECK_THAT(with("tick", "u"), Contains("Clock and Float64 are different types"));
+  for (const char* source : {"clock_out", "y", "tick"}) {
     CHECK_THAT(with(source, "tick"), Contains("s.ssd:9") && Contains("a constant clock") &&
                                          Contains("remove the connection"));
   }
+}
+
+TEST_CASE("a time-based clock that is connected to a triggered one makes messages of its outputs") {
+  const auto node = Describe("node")
+                        .clock("tx", IntervalVariability::Countdown)
+                        .output("out")
+                        .clocked_by(0)
+                        .add("rx", ValueType::Clock, Causality::Input)
+                        .input("in")
+                        .clocked_by(2)
+                        .input("u")
+                        .done();
+  const auto with = [&](std::vector<ConnectionDeclaration> connections) {
+    SystemDeclaration system;
+    system.components = {{"alpha", node, {}, {}}, {"beta", node, {}, {}}};
+    system.connections = std::move(connections);
+    return system;
+  };
+  CHECK_THAT(reason(with({wire("out", "in")})), Contains("'beta.in' is a message"));
+  CHECK_THAT(reason(with({wire("tx", "rx"), wire("out", "u")})),
+             Contains("'alpha.out' is a message"));
+  const System system(with({wire("tx", "rx"), wire("out", "in")}));
+  CHECK(system.ticks_triggered({0, 0}));
+  CHECK(system.is_message({0, 1}));
+  CHECK_FALSE(system.is_sampled({0, 1}));
+  CHECK_FALSE(system.ticks_triggered({1, 0}));
+  CHECK(system.is_sampled({1, 1}));
+  CHECK(system.is_signal({1, 1}));
 }
 
 TEST_CASE("a time-based clock needs Event Mode") {

@@ -328,6 +328,73 @@ TEST_CASE("the clocked inputs are set and the clocked outputs read while the clo
   CHECK(sink.number(0) == 10);
 }
 
+TEST_CASE("a time-based clock that is connected to a triggered one sends messages at its ticks") {
+  ScriptedSystem f;
+  auto& b = f.add("b", Describe("b")
+                           .add("rx", ValueType::Clock, Causality::Input)
+                           .input("in")
+                           .clocked_by(0)
+                           .done());  // is before its source
+  auto& a = f.add("a", sampler("a", 4ms, 1ms));
+  f.wire("a", "tick", "b", "rx");
+  f.wire("a", "out", "b", "in");
+  a.on_set_clock = [count = 0](ScriptedUnit& unit) mutable { unit.number(kOut) = ++count; };
+  std::vector<double> seen;
+  b.on_event = [&](ScriptedUnit& unit) {
+    if (unit.clock(0)) seen.push_back(unit.number(1));
+    return EventResult{};
+  };
+  f.build(0.009, 2ms).run();
+  CHECK(seen == std::vector<double>{1, 2, 3});  // at 1, 5 and 9 ms
+  const RunStatistics& statistics = f.simulation->statistics();
+  CHECK(statistics.units[1].messages_sent == 3);
+  CHECK(statistics.units[0].messages_received == 3);
+}
+
+TEST_CASE("a tick and the message that it causes are one super-dense instant") {
+  ScriptedSystem f;
+  auto& b = f.add("b", Describe("b")
+                           .add("rx", ValueType::Clock, Causality::Input)
+                           .input("in")
+                           .clocked_by(0)
+                           .clock("tx", IntervalVariability::Countdown)
+                           .output("out")
+                           .clocked_by(2)
+                           .done());
+  auto& a = f.add("a", Describe("a")
+                           .clock("tx", IntervalVariability::Constant, every(4ms), every(1ms))
+                           .output("out")
+                           .clocked_by(0)
+                           .add("rx", ValueType::Clock, Causality::Input)
+                           .input("in")
+                           .clocked_by(2)
+                           .done());
+  f.wire("a", "tx", "b", "rx");
+  f.wire("a", "out", "b", "in");
+  f.wire("b", "tx", "a", "rx");
+  f.wire("b", "out", "a", "in");
+  // b answers at once, by a countdown of 0
+  bool has_received = false;
+  b.on_event = [&](ScriptedUnit& unit) {
+    has_received = unit.clock(0);
+    if (has_received) unit.number(3) = unit.number(1) + 100;
+    return EventResult{};
+  };
+  b.on_clock_interval = [&](ScriptedUnit&, ValueReference) {
+    return has_received ? changed(0ms) : ClockInterval{};
+  };
+  a.on_set_clock = [](ScriptedUnit& unit) {
+    if (unit.clock(0)) unit.number(1) += 1;
+  };
+  std::vector<double> answers;
+  a.on_event = [&](ScriptedUnit& unit) {
+    if (unit.clock(2)) answers.push_back(unit.number(3));
+    return EventResult{};
+  };
+  f.build(0.006, kStep).run();
+  CHECK(answers == std::vector<double>{101, 102});
+}
+
 TEST_CASE("a sampled and held value is an event for its receiver") {
   ScriptedSystem f;
   auto& a = f.add("a", sampler("a", 4ms));
