@@ -140,7 +140,7 @@ class System {
   std::vector<std::string> warnings_;
   std::map<VariableId, UnitOfMeasure> connector_units_;  ///< those that connectors declare
   std::set<VariableId> message_clocks_;  ///< time-based clocks that are connected to triggered ones
-  std::size_t unknown_variables_ = 0;                    ///< reported so far
+  std::size_t unknown_variables_ = 0;    ///< reported so far
 };
 
 }  // namespace stride::core
