@@ -8,6 +8,7 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
 #include "master/capture/capture.h"
 #include "master/cli/commands.h"
@@ -182,6 +183,9 @@ void run(const RunArguments& arguments, Records& records, CrashGuard& guard) {
 
 /// Whatever ends the command, the test report contains it.
 void run_and_report(RunArguments arguments) {
+  if (arguments.quiet && !spdlog::should_log(spdlog::level::info)) {
+    spdlog::set_level(spdlog::level::err);
+  }
   arguments.scenario.files = check_output_paths(arguments);
   const core::ProcessState process;
   Records records{{arguments.junit, arguments.scenario.scenario}};

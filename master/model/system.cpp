@@ -318,12 +318,23 @@ void System::add_structural_values(const std::vector<Target>& targets) {
   for (auto& [id, value] : values) structural_values_.push_back({id, std::move(value)});
 }
 
+/// A value that was set by name, and is not the one that the unit gets.
+void System::note_replaced(const StartDeclaration& wanted, VariableId id) {
+  if (wanted.is_optional) return;
+  const auto source = std::ranges::lower_bound(connections_, id, {}, &Connection::to);
+  if (source == connections_.end() || source->to != id) return;
+  warnings_.push_back(fmt::format(
+      "{}'{}' is connected to '{}', whose value replaces this one at the initialisation",
+      core::to_text(Context{wanted.where}), full_name(id), full_name(source->from)));
+}
+
 void System::add_start_values(const std::vector<Target>& targets, Diagnostics& diagnostics) {
   std::map<VariableId, ValueBlock> values;
   for (const Target& target : targets) {
     const VariableId id = target.id;
     if (variable(id).causality == Causality::StructuralParameter) continue;
     diagnostics.attempt([&] { values.insert_or_assign(id, start_value(*target.declaration, id)); });
+    note_replaced(*target.declaration, id);
   }
   for (auto& [id, value] : values) start_values_.push_back({id, std::move(value)});
 }

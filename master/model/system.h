@@ -119,6 +119,7 @@ class System {
                      VariableId to) const;
   void check_event_mode(const ConnectionDeclaration& declaration, VariableId id) const;
   void check_message(const ConnectionDeclaration& declaration, const Connection& connection) const;
+  void note_missing_data(const ConnectionDeclaration& declaration, const Connection& clocks);
   using Ends = std::pair<VariableId, VariableId>;
   std::optional<Ends> find_ends(const SystemDeclaration& declaration,
                                 const ConnectionDeclaration& wanted, Diagnostics& diagnostics);
@@ -128,6 +129,7 @@ class System {
   void check_ends(const ConnectionDeclaration& declaration, VariableId from, VariableId to) const;
   PathConnector path_connector(VariableId id) const;
   void note_missing(const StartDeclaration& declaration);
+  void note_replaced(const StartDeclaration& declaration, VariableId id);
   ValueBlock start_value(const StartDeclaration& declaration, VariableId id) const;
 
   std::string name_;

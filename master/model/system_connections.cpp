@@ -54,7 +54,35 @@ void System::add_connections(const SystemDeclaration& declaration, Diagnostics& 
   if (diagnostics.any()) return;  // a clock's connection may be among them
   for (const Connection& connection : connections_) {
     diagnostics.attempt([&] { check_message(*sources.at(connection.to), connection); });
+    if (variable(connection.to).is_triggered_clock()) {
+      note_missing_data(*sources.at(connection.to), connection);
+    }
   }
+}
+
+/// A tick without the values that both sides have for it is possible, and seldom meant.
+void System::note_missing_data(const ConnectionDeclaration& wanted, const Connection& clocks) {
+  const auto data_of = [&](VariableId clock, Causality causality) {
+    const auto& variables = components_[clock.component].description->variables;
+    std::vector<VariableId> data;
+    for (std::size_t i = 0; i < variables.size(); ++i) {
+      if (variables[i].causality != causality) continue;
+      if (variables[i].belongs_to(variable(clock).reference)) data.push_back({clock.component, i});
+    }
+    return data;
+  };
+  const std::vector<VariableId> sent = data_of(clocks.from, Causality::Output);
+  const std::vector<VariableId> expected = data_of(clocks.to, Causality::Input);
+  if (sent.empty() || expected.empty()) return;
+  const bool is_connected = std::ranges::any_of(connections_, [&](const Connection& connection) {
+    return std::ranges::count(expected, connection.to) > 0;
+  });
+  if (is_connected) return;
+  warnings_.push_back(fmt::format(
+      "{}the clock '{}' is connected to '{}', but none of the values that belong to it: it ticks, "
+      "and brings no data\n  hint: connect '{}' to '{}', too",
+      core::to_text(Context{wanted.where}), full_name(clocks.from), full_name(clocks.to),
+      full_name(sent.front()), full_name(expected.front())));
 }
 
 /// Nothing if it is not there.

@@ -14,6 +14,7 @@
 #include "master/recorders/unit_folders.h"
 #include "master/ssp/ssp.h"
 #include "master/util/number_text.h"
+#include "master/util/suggest.h"
 #include "master/util/xml/element.h"
 
 namespace stride::scenario {
@@ -21,9 +22,24 @@ namespace {
 
 constexpr const char* kType = "org.stride";
 
+/// An annotation of another type that was meant to be ours, by its elements or nearly by its type.
+void check_foreign(const xml::Element& annotation) {
+  const std::string type = annotation.attribute("type").value_or("");
+  const std::string own[] = {kType};
+  bool is_meant = !core::nearest(type, own).empty();
+  for (const xml::Element& child : annotation.children()) {
+    is_meant |= child.local_name() == "Scenario" && child.prefix_of(ssp::kStrideScenario);
+  }
+  if (!is_meant) return;
+  annotation.fail(fmt::format("the type of this annotation is '{}', so it would be ignored", type),
+                  fmt::format("write type=\"{}\"", kType));
+}
+
 void collect(const xml::Element& element, std::vector<xml::Element>& found) {
   if (element.local_name() == "Annotation") {  // those of other tools may hold anything
-    if (element.is(ssp::kSsc, "Annotation") && element.attribute("type") == kType) {
+    if (element.attribute("type") != kType) {
+      check_foreign(element);
+    } else if (element.is(ssp::kSsc, "Annotation")) {
       found.push_back(element);
     }
     return;

@@ -123,6 +123,31 @@ TEST_CASE("a message needs its clock wired too") {
   CHECK(reason({wire("frame_out", "frame_in"), wire("clock_out", "clock_in")}) == "accepted");
 }
 
+TEST_CASE("a clock without the values that belong to it is a warning") {
+  SystemDeclaration system = declaration();
+  system.connections = {wire("clock_out", "clock_in", 9)};
+  CHECK_THAT(System(system).warnings().at(0),
+             Contains("s.ssd:9: the clock 'alpha.clock_out'") && Contains("brings no data") &&
+                 Contains("connect 'alpha.frame_out' to 'beta.frame_in'"));
+  system.connections.push_back(wire("frame_out", "frame_in"));
+  CHECK(System(system).warnings().empty());
+}
+
+TEST_CASE("a value for an input that is connected is a warning if it was asked for by name") {
+  SystemDeclaration system = declaration();
+  system.connections = {wire("y", "u")};
+  system.start_values.emplace_back();
+  StartDeclaration& start = system.start_values.back();
+  start.component = "beta";
+  start.variable = "u";
+  start.value = "3";
+  start.where = {"--set beta.u=3", 0};
+  CHECK_THAT(System(system).warnings().at(0),
+             Contains("--set beta.u=3: 'beta.u' is connected to 'alpha.y', whose value replaces"));
+  start.is_optional = true;
+  CHECK(System(system).warnings().empty());
+}
+
 TEST_CASE("what belongs to a triggered clock is a message") {
   const auto unit = description();
   const auto is_message = [&](const std::string& name) {

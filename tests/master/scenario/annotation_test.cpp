@@ -203,6 +203,24 @@ TEST_CASE("A mistake in the annotation is named with its line") {
              Contains("two results have the file name 'run.json'"));
 }
 
+TEST_CASE("An annotation that was meant to be ours is not ignored") {
+  const auto error = [](const std::string& type, const std::string& inside) {
+    return error_of([&] {
+      read_annotation(at_root("<ssd:Annotations>\n<ssc:Annotation type='" + type + "'>" + inside +
+                              "</ssc:Annotation></ssd:Annotations>"));
+    });
+  };
+  for (const char* type : {"org.strid", "org.Stride", "com.example"}) {
+    CHECK_THAT(error(type, scenario_element("")), Contains("x.ssd:4") &&
+                                                      Contains("so it would be ignored") &&
+                                                      Contains("write type=\"org.stride\""));
+  }
+  CHECK_THAT(error("org.strde", "<other/>"), Contains("so it would be ignored"));
+  CHECK_NOTHROW(
+      read_annotation(at_root("<ssd:Annotations><ssc:Annotation "
+                              "type='com.example'><x/></ssc:Annotation></ssd:Annotations>")));
+}
+
 TEST_CASE("An annotation without content, in another place, or twice is refused") {
   CHECK_THROWS_WITH(
       read_annotation(at_root(annotations(""))),
