@@ -64,13 +64,14 @@ class Simulation::Run {
     std::exception_ptr failure;
     try {
       clock_.timed(statistics_.phases.initialization, [&] { initialize(); });
+      is_initialized_ = true;
       while (should_continue()) communication_step();
       if (idle_) idle_->catch_up_all(time_);
       if (statistics_.end != RunEnd::Interrupted) verdicts_ = read_verdicts(system_, units_);
-      for (auto& unit : units_) unit->terminate();
     } catch (...) {
       failure = std::current_exception();
     }
+    terminate_units(failure);
     statistics_.wall_time = WallClock::Source::now() - began_;
     collect_unit_statistics();
     free_units(failure);
@@ -98,6 +99,19 @@ class Simulation::Run {
       if (diagnostics != nullptr) statistics_.units[i].calls = diagnostics->calls();
       if (process != nullptr) statistics_.units[i].host = process->host_statistics();
       statistics_.units[i].steps = stepper_.steps(i) + statistics_.units[i].suspensions;
+    }
+  }
+
+  /// Those that have failed do nothing, and before the end of the initialisation no unit may be
+  /// terminated. The first failure is kept.
+  void terminate_units(std::exception_ptr& failure) {
+    if (!is_initialized_) return;
+    for (auto& unit : units_) {
+      try {
+        unit->terminate();
+      } catch (...) {
+        if (!failure) failure = std::current_exception();
+      }
     }
   }
 
@@ -218,6 +232,7 @@ class Simulation::Run {
   void communication_step() {
     const Time reached = clock_.timed(statistics_.phases.steps, [&] { return advance(); });
     if (reached == time_) {
+      if (stepper_.has_requests() && is_end_requested()) return;  // this point has been observed
       check_stall();
     } else {
       stalled_steps_ = 0;
@@ -232,11 +247,17 @@ class Simulation::Run {
   }
 
   void handle_requests() {
+    is_end_requested();
     for (std::size_t i = 0; i < count(); ++i) {
-      const StepResult& result = stepper_.result(i);
-      if (result.terminate_simulation) statistics_.end = RunEnd::EndedByUnit;
-      if (result.event_handling_needed) event_handler_.request_event(i);
+      if (stepper_.result(i).event_handling_needed) event_handler_.request_event(i);
     }
+  }
+
+  bool is_end_requested() {
+    for (std::size_t i = 0; i < count(); ++i) {
+      if (stepper_.result(i).terminate_simulation) statistics_.end = RunEnd::EndedByUnit;
+    }
+    return statistics_.end == RunEnd::EndedByUnit;
   }
 
   /// Steps all units to the next communication point; repeated while the policy does not accept the
@@ -296,6 +317,7 @@ class Simulation::Run {
   std::vector<Verdict> verdicts_;
 
   bool has_run_ = false;
+  bool is_initialized_ = false;
   WallClock::Source::time_point began_{};
   Time time_{};
   std::uint32_t stalled_steps_ = 0;

@@ -96,7 +96,8 @@ void EventHandler::leave_event_mode() {
   for (const std::size_t i : event_units_) {
     had_event_[i] = in_event_mode_[i];
     if (!in_event_mode_[i]) continue;
-    units_[i]->enter_step_mode();
+    // FMI allows Step Mode only when no update is pending; the run ends in Event Mode then
+    if (!active_[i]) units_[i]->enter_step_mode();
     in_event_mode_[i] = false;
     activities_.report({i, Activity::Kind::Event, time_, time_});
   }

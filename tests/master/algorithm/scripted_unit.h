@@ -184,6 +184,7 @@ class ScriptedUnit : public Unit,
       [](ScriptedUnit&, ValueReference, const Binary&) { return std::string(); };
   std::optional<Duration> max_skip;  ///< as it was enabled
   /// Keeps or brings back what the script holds beside the values.
+  std::function<void(ScriptedUnit&)> on_terminate = [](ScriptedUnit&) {};
   std::function<void(ScriptedUnit&)> on_free = [](ScriptedUnit&) {};
   std::function<void(bool save)> on_state = [](bool) {};
   std::optional<HostStatistics> host;  ///< about its process
@@ -292,7 +293,10 @@ class ScriptedUnit : public Unit,
     calls.push_back("describe_message");
     return on_describe(*this, variable, value);
   }
-  void terminate() override { calls.push_back("terminate"); }
+  void terminate() override {
+    calls.push_back("terminate");
+    on_terminate(*this);
+  }
   void free() override { on_free(*this); }
   HostStatistics host_statistics() const override { return host.value(); }
 

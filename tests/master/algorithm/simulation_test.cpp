@@ -435,6 +435,45 @@ TEST_CASE("a unit can end the simulation") {
   CHECK(a.calls.back() == "terminate");
 }
 
+TEST_CASE("a unit that ends the simulation where its step begins leaves no second row there") {
+  Fixture f;
+  auto& a = f.add("a", one_in_one_out());
+  a.on_step = [](ScriptedUnit&, Time from, Time to) {
+    const bool ends = from == time_from_seconds(0.002);
+    return StepResult{
+        .early_return = ends, .terminate_simulation = ends, .reached = ends ? from : to};
+  };
+  Seen seen;
+  f.build(1, 1ms).add_observer(seen);
+  f.simulation->run();
+  CHECK(seen.points ==
+        std::vector<Time>{Time{}, time_from_seconds(0.001), time_from_seconds(0.002)});
+  CHECK(f.simulation->statistics().end == RunEnd::EndedByUnit);
+}
+
+TEST_CASE("a unit that cannot be terminated, or has failed, keeps no other from it") {
+  const bool fails_in_step = GENERATE(true, false);
+  Fixture f;
+  auto& a = f.add("a", one_in_one_out());
+  auto& b = f.add("b", one_in_one_out());
+  a.on_terminate = [](ScriptedUnit&) { fail_run({.unit = "a"}, "it does not end"); };
+  a.on_step = [&](ScriptedUnit&, Time, Time to) {
+    if (fails_in_step) fail_run({.unit = "a"}, "no");
+    return reached(to);
+  };
+  CHECK_THAT(failure(f.build(0.002, 1ms)), Contains(fails_in_step ? "no" : "it does not end"));
+  CHECK(b.calls.back() == "terminate");
+}
+
+TEST_CASE("no unit is terminated before the initialisation is complete") {
+  Fixture f;
+  auto& a = f.add("a", one_in_one_out());
+  auto& b = f.add("b", one_in_one_out());
+  b.on_initialize = [](ScriptedUnit&) { fail_run({.unit = "b"}, "no"); };
+  CHECK_THAT(failure(f.build(0.002, 1ms)), Contains("no"));
+  CHECK(std::ranges::count(a.calls, "terminate") == 0);
+}
+
 TEST_CASE("the units are freed when all are terminated, and a failure there is one of the run") {
   Fixture f;
   auto& a = f.add("a", one_in_one_out());
@@ -582,6 +621,9 @@ TEST_CASE("a unit that ends the simulation in an event has no further event iter
   f.build(1, 1ms).run();
   CHECK(f.events.size() == 3);
   CHECK(f.simulation->statistics().end == RunEnd::EndedByUnit);
+  // Step Mode would ask for the update that is pending
+  CHECK(std::ranges::count(f.unit.calls, "enter_step_mode") == 0);
+  CHECK(f.unit.calls.back() == "terminate");
 }
 
 TEST_CASE("NaN in a message is an error") {
