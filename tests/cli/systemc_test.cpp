@@ -8,13 +8,13 @@ using namespace stride::tests;
 namespace {
 
 /// 0.5 s in steps of 4 ms, which are none of the clocks'.
-Parts parts(const std::string& first, const std::string& second = "") {
+Parts chip_parts(const std::string& first, const std::string& second = "") {
   return {first + second, "", "<stride:Step size=\"0.004\"/>\n",
           "<ssd:DefaultExperiment stopTime=\"0.5\"/>\n"};
 }
-const std::string kChip = component("chip", "two_clocks.fmu");
+const std::string kTwoClocks = component("chip", "two_clocks.fmu");
 
-void run_well(const Workspace& workspace, Arguments options) {
+void run_chip(const Workspace& workspace, Arguments options) {
   options.insert(options.begin(), "--quiet");
   const Outcome outcome = workspace.run(options);
   INFO(outcome.err);
@@ -23,7 +23,7 @@ void run_well(const Workspace& workspace, Arguments options) {
 
 /// What the module holds after the edges up to and including 0.5 s, of which the slow one of 0.49 s
 /// is at an instant of a fast one.
-void check_end(const Workspace& workspace) {
+void check_chip_at_end(const Workspace& workspace) {
   const Csv signals = workspace.signals();
   const std::size_t end = signals.row_at("0.5");
   const auto value = [&](const char* name) { return signals.number(end, signals.column(name)); };
@@ -37,29 +37,29 @@ void check_end(const Workspace& workspace) {
 }  // namespace
 
 TEST_CASE("a module with two clocks, in the process and in one of its own") {
-  const Workspace workspace(parts(kChip));
-  run_well(workspace, {});
-  check_end(workspace);
+  const Workspace workspace(chip_parts(kTwoClocks));
+  run_chip(workspace, {});
+  check_chip_at_end(workspace);
   const std::string signals = workspace.result("signals.csv");
-  run_well(workspace, {"--isolate"});
+  run_chip(workspace, {"--isolate"});
   CHECK(workspace.result("signals.csv") == signals);
 }
 
 TEST_CASE("a module is taken back by snapshots where another unit ends steps early") {
-  const Workspace workspace(parts(component("early", "early_without_state.fmu"), kChip));
-  run_well(workspace, {"--set", "early.instants=0.013 0.0701 0.0702 0.25 0.491 -1 -1 -1"});
-  check_end(workspace);
+  const Workspace workspace(chip_parts(component("early", "early_without_state.fmu"), kTwoClocks));
+  run_chip(workspace, {"--set", "early.instants=0.013 0.0701 0.0702 0.25 0.491 -1 -1 -1"});
+  check_chip_at_end(workspace);
   CHECK_NOTHROW(workspace.signals().row_at("0.0701"));
   const auto run = nlohmann::json::parse(workspace.result("run.json"));
   CHECK(run["units"][1]["host"]["snapshots"]["restored"] == 5);
 }
 
 TEST_CASE("sc_stop of a module ends a run well, at its instant") {
-  const Workspace workspace(parts(kChip, component("filter", "minimal.fmu")));
+  const Workspace workspace(chip_parts(kTwoClocks, component("filter", "minimal.fmu")));
   const auto where = GENERATE(Arguments{}, Arguments{"--isolate"});
   Arguments options{"--set", "chip.last_edge=16"};
   options.insert(options.end(), where.begin(), where.end());
-  run_well(workspace, options);
+  run_chip(workspace, options);
   const Csv signals = workspace.signals();
   const std::size_t last = signals.size() - 1;
   CHECK(signals.row(last).front() == "0.15");
