@@ -70,8 +70,17 @@ std::string verdict(const core::UnitDescription& unit) {
                      unit.variables[*unit.verdict_text].name);
 }
 
+std::string items(const core::Variable& variable) {
+  std::string text;
+  for (const auto& [name, value] : variable.items) {
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", value, name);
+  }
+  return text;
+}
+
 std::string meaning(const core::Variable& variable) {
   std::string text = variable.description;
+  if (!variable.items.empty()) text += (text.empty() ? "" : "; ") + items(variable);
   for (const std::string& alias : variable.aliases) {
     text += fmt::format("{}also {}", text.empty() ? "" : "; ", alias);
   }

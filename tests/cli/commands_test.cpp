@@ -65,7 +65,7 @@ TEST_CASE("inspect shows arrays, clocks and enumerations") {
   CHECK(outcome.exit_code == 0);
   CHECK_THAT(line_of(outcome.out, "matrix"), Contains("Float64[2][3]"));
   CHECK_THAT(line_of(outcome.out, "send.frame"), Contains("Binary at send.clock"));
-  CHECK_THAT(line_of(outcome.out, "colour"), Contains("Enumeration"));
+  CHECK_THAT(line_of(outcome.out, "colour"), Contains("Enumeration") && Contains("1 red, 2 green"));
 }
 
 TEST_CASE("inspect of a unit that is not there") {

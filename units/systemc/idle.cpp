@@ -14,15 +14,13 @@ constexpr Duration kWorthwhile{1'000'000};
 
 Time IdleSkipper::advance(Time to, bool may_stop_early, Duration max_skip) {
   return kernel_.within([&] {
+    note_state();
     Duration ahead = lead();
     while (kernel_.now() < to) {
       const Time next = kernel_.now() + std::min(ahead, to - kernel_.now());
       if (kernel_.approach(next, may_stop_early) < next) return kernel_.now();
-      if (!kernel_.at_rest()) {
-        ahead = kTick;  // what is due here has not happened yet
-      } else {
-        ahead = skip(to, max_skip) ? lead() : until_next_check();
-      }
+      ahead =
+          kernel_.at_rest() ? look(to, max_skip) : kTick;  // what is due here has not happened yet
     }
     return kernel_.advance(to);
   });
@@ -35,17 +33,46 @@ Duration IdleSkipper::until_next_check() {
   return next ? std::max(kCheckInterval, *next - kernel_.now()) : Duration::max();
 }
 
-bool IdleSkipper::skip(Time to, Duration max_skip) {
-  if (!rules_.idle()) return false;
+// Skips if it can; returns how far ahead the next look is.
+Duration IdleSkipper::look(Time to, Duration max_skip) {
+  if (!rules_.idle()) return until_next_check();
   const Duration skipped = room(to, max_skip);
-  if (skipped < kWorthwhile) return false;
-  if (is_obstructed()) return false;
+  if (skipped < kWorthwhile || is_obstructed()) return until_next_check();
+  switch (compare_states()) {
+    case Comparison::None:
+      return lead();
+    case Comparison::Changed:
+      return is_restless() ? until_next_check() : lead();
+    case Comparison::Same:
+      skip(skipped);
+      return lead();
+  }
+  return lead();
+}
+
+void IdleSkipper::skip(Duration skipped) {
   kernel_.skip(skipped);
   rules_.on_skip(skipped);
   ++statistics_.skips;
   statistics_.skipped += skipped;
   statistics_.longest = std::max(statistics_.longest, skipped);
-  return true;
+}
+
+bool IdleSkipper::note_state() {
+  watched_at_ = simulated();
+  return watch_ && watch_->has_changed();
+}
+
+// The phase of the clock must be the same, or a picosecond later: what is due at one look happens
+// before the next. Over several periods a counter may have come round.
+IdleSkipper::Comparison IdleSkipper::compare_states() {
+  if (!watch_) return Comparison::Same;
+  const Duration elapsed = simulated() - watched_at_;
+  const bool has_changed = note_state();
+  if (elapsed < lead() || elapsed > lead() + kTick) return Comparison::None;
+  changes_ = has_changed ? std::min(changes_ + 1, kMostChanges) : 0;
+  if (is_restless() && !unrest_) unrest_ = Unrest{kernel_.now(), watch_->place()};
+  return has_changed ? Comparison::Changed : Comparison::Same;
 }
 
 // It may be nearer than an edge of the clock by the next look, so the last one of them is kept.
@@ -75,6 +102,16 @@ std::string to_text(const IdleSkipper::Statistics& statistics) {
   std::ostringstream text;
   text << "skipped " << to_seconds(statistics.skipped) << " s of its idle time, in "
        << statistics.skips << " skips, the longest of " << to_seconds(statistics.longest) << " s";
+  return text.str();
+}
+
+std::string unrest_text(const IdleSkipper::Unrest& unrest) {
+  std::ostringstream text;
+  text << "the device declared itself idle, but each period of its clock changed it, at "
+       << to_seconds(unrest.when) << " s in or behind " << unrest.place
+       << ": such time is not skipped; if it counts or divides its clock, say so in idle_when(), "
+          "with "
+          "repeats_every() or a function that counts what is skipped";
   return text.str();
 }
 

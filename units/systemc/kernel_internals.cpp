@@ -48,6 +48,9 @@ struct RisingEdge : Tag<sc_event sc_clock::*, 0> {
 struct FallingEdge : Tag<sc_event sc_clock::*, 1> {
   friend Type member(FallingEdge);
 };
+struct ChangeStamp : Tag<sc_dt::uint64 sc_core::sc_signal_channel::*, 0> {
+  friend Type member(ChangeStamp);
+};
 
 template struct Expose<ResetFinders, &sc_simcontext::m_reset_finder_q>;
 template struct Expose<ForcedStop, &sc_simcontext::m_forced_stop>;
@@ -59,6 +62,7 @@ template struct Expose<EventOf, &sc_event_timed::event>;
 template struct Expose<TimeOf, &sc_event_timed::notify_time>;
 template struct Expose<RisingEdge, &sc_clock::m_next_posedge_event>;
 template struct Expose<FallingEdge, &sc_clock::m_next_negedge_event>;
+template struct Expose<ChangeStamp, &sc_core::sc_signal_channel::m_change_stamp>;
 
 }  // namespace
 
@@ -84,6 +88,10 @@ std::vector<Notification> pending_notifications(const sc_simcontext& context) {
 
 std::array<const sc_event*, 2> own_events(const sc_clock& clock) {
   return {&(clock.*member(RisingEdge())), &(clock.*member(FallingEdge()))};
+}
+
+std::uint64_t change_stamp(const sc_core::sc_signal_channel& signal) {
+  return signal.*member(ChangeStamp());
 }
 
 }  // namespace stride::systemc

@@ -3,6 +3,7 @@
 #define STRIDE_UNITS_SYSTEMC_KERNEL_INTERNALS_H
 
 #include <array>
+#include <cstdint>
 #include <systemc>
 #include <vector>
 
@@ -27,6 +28,9 @@ std::vector<Notification> pending_notifications(const sc_core::sc_simcontext& co
 
 /// Those that a clock notifies itself with.
 std::array<const sc_core::sc_event*, 2> own_events(const sc_core::sc_clock& clock);
+
+/// Another number after each change of the signal's value.
+std::uint64_t change_stamp(const sc_core::sc_signal_channel& signal);
 
 }  // namespace stride::systemc
 

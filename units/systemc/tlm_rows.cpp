@@ -49,7 +49,6 @@ std::string text_of(Transaction::Status status) {
 }  // namespace
 
 void MemoryTarget::transport(Payload& payload, sc_core::sc_time& delay) {
-  delay += to_sc_time(latency_, ticks_per_picosecond());
   payload.set_dmi_allowed(false);
   if (payload.get_streaming_width() < payload.get_data_length()) {
     return payload.set_response_status(tlm::TLM_BURST_ERROR_RESPONSE);
@@ -57,7 +56,21 @@ void MemoryTarget::transport(Payload& payload, sc_core::sc_time& delay) {
   if (debug(payload) < payload.get_data_length()) {
     return payload.set_response_status(tlm::TLM_ADDRESS_ERROR_RESPONSE);
   }
+  delay += to_sc_time(latency_, ticks_per_picosecond());
+  payload.set_dmi_allowed(true);
   payload.set_response_status(tlm::TLM_OK_RESPONSE);
+}
+
+bool MemoryTarget::direct(tlm::tlm_dmi& access) {
+  if (bytes_.empty()) return false;
+  const sc_core::sc_time latency = to_sc_time(latency_, ticks_per_picosecond());
+  access.set_dmi_ptr(bytes_.data());
+  access.set_start_address(0);
+  access.set_end_address(bytes_.size() - 1);
+  access.set_read_latency(latency);
+  access.set_write_latency(latency);
+  access.allow_read_write();
+  return true;
 }
 
 unsigned MemoryTarget::debug(Payload& payload) {

@@ -167,9 +167,9 @@ TEST_CASE("an sc_inout takes an input and an output, but no two of a kind") {
                rows.output("b", &Latch::value);
              })),
              Contains("device.value has two rows"));
-  CHECK_THAT(
-      error_of(driver_of<Finisher>([](Rows<Finisher>& r) { r.input("a", &Finisher::result); })),
-      Contains("a: device.result is an sc_out") && Contains("output()"));
+  CHECK_THAT(error_of(driver_of<Finisher>(
+                 [](Rows<Finisher>& r) { r.input("a", stride::systemc::inner<int>("result")); })),
+             Contains("a: device.result is an sc_out") && Contains("output()"));
 }
 
 TEST_CASE("a resolved port has the unit as one more driver") {
@@ -214,7 +214,8 @@ TEST_CASE("a reset ends at its instant, however idle the module is meanwhile") {
     rows.clock(&LogicCounter::clk, kMicrosecond);
     rows.reset(&LogicCounter::reset, 500 * kMicrosecond, true);
     rows.output("count", &LogicCounter::count);
-    rows.idle_when([](const LogicCounter& counter) { return counter.reset.read() == '1'; });
+    rows.idle_when([](const LogicCounter& counter) { return counter.reset.read() == '1'; },
+                   stride::systemc::counts_nothing());
   });
   unit.enable_skipping();
   unit.initialize();
@@ -289,22 +290,27 @@ TEST_CASE("a clocked unit prefers steps of its clock, unless it can be idle") {
   CHECK(busy.unit().info().default_step == 10 * kNanosecond);
   UnitDriver idle = driver_of<LogicCounter>([&](Rows<LogicCounter>& rows) {
     list(rows);
-    rows.idle_when([](const LogicCounter&) { return false; });
+    rows.idle_when([](const LogicCounter&) { return false; }, stride::systemc::counts_nothing());
   });
   CHECK_FALSE(idle.unit().info().default_step.has_value());
 
-  const auto warnings_at = [&](Duration step) {
+  // the first value is there from the start
+  const auto warnings_at = [&](Duration step, int changes) {
     UnitDriver unit = driver_of<LogicCounter>(list);
+    unit.value<Logic>("reset") = Logic::k0;
     unit.initialize();
-    for (int i = 0; i < 8; ++i) {
-      unit.value<Logic>("reset") = i % 2 == 0 ? Logic::k0 : Logic::k1;
+    unit.step(unit.now() + step);
+    for (int i = 0; i < changes; ++i) {
+      unit.value<Logic>("reset") = i % 2 == 0 ? Logic::k1 : Logic::k0;
+      unit.step(unit.now() + step);
       unit.step(unit.now() + step);
     }
     unit.unit().terminate();
     return unit.log;
   };
-  CHECK(warnings_at(10 * kNanosecond).empty());
-  const auto log = warnings_at(kMicrosecond);
+  CHECK(warnings_at(10 * kNanosecond, 8).empty());
+  CHECK(warnings_at(kMicrosecond, 2).empty());  // a button is pressed and released
+  const auto log = warnings_at(kMicrosecond, 3);
   REQUIRE(log.size() == 1);
   CHECK_THAT(log[0].second, Contains("period of 1e-08 s") && Contains("--step 1e-08"));
 }

@@ -248,6 +248,61 @@ TEST_CASE("an initiator has a memory in the unit") {
   CHECK(small.value<int>("copies") == 0);
 }
 
+TEST_CASE("a memory is accessed directly, and refuses at once what is beyond it") {
+  struct Prober : sc_core::sc_module {
+    tlm_utils::simple_initiator_socket<Prober> socket{"socket"};
+    tlm::tlm_dmi direct;
+    bool is_direct = false, is_hinted = false;
+    sc_core::sc_time taken, refused;
+    explicit Prober(sc_core::sc_module_name name) : sc_module(name) {
+      SC_HAS_PROCESS(Prober);
+      SC_THREAD(probe);
+    }
+    void read(unsigned address, sc_core::sc_time& delay, tlm::tlm_generic_payload& payload) {
+      unsigned char byte = 0;
+      payload.set_read();
+      payload.set_address(address);
+      payload.set_data_ptr(&byte);
+      payload.set_data_length(1);
+      payload.set_streaming_width(1);
+      socket->b_transport(payload, delay);
+    }
+    void probe() {
+      tlm::tlm_generic_payload payload;
+      read(8, refused, payload);
+      read(7, taken, payload);
+      is_hinted = payload.is_dmi_allowed();
+      is_direct = socket->get_direct_mem_ptr(payload, direct);
+    }
+  };
+  const Prober* prober = nullptr;
+  const auto with = [&](std::size_t size) {
+    return tlm_driver_of<Prober>([&](TlmRows<Prober>& rows) {
+      rows.memory("ram", &Prober::socket, size, 10 * kNanosecond, Binary(size, 41));
+      rows.output("found", [&prober](const Prober& module) {
+        prober = &module;
+        return true;
+      });
+    });
+  };
+  const sc_core::sc_time latency(10, sc_core::SC_NS);
+  UnitDriver some = with(8);
+  some.initialize();
+  CHECK(prober->refused == sc_core::SC_ZERO_TIME);
+  CHECK(prober->taken == latency);
+  CHECK(prober->is_hinted);
+  REQUIRE(prober->is_direct);
+  CHECK(prober->direct.is_read_write_allowed());
+  CHECK(prober->direct.get_start_address() == 0);
+  CHECK(prober->direct.get_end_address() == 7);
+  CHECK(prober->direct.get_dmi_ptr()[7] == 41);
+  CHECK(prober->direct.get_read_latency() == latency);
+  CHECK(prober->direct.get_write_latency() == latency);
+  UnitDriver none = with(0);
+  none.initialize();
+  CHECK_FALSE(prober->is_direct);
+}
+
 TEST_CASE("the transactions of an initiator leave as messages, and end with the response") {
   UnitDriver unit = tlm_driver_of<Copier>([](TlmRows<Copier>& rows) {
     rows.construct(false);

@@ -5,11 +5,29 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include <stride/systemc/kernel.h>
+#include <stride/systemc/state_watch.h>
 #include <stride/time.h>
 
 namespace stride::systemc {
+
+/// What a module makes of the edges of its clock that are skipped: nothing. It has no counter and
+/// no divider that goes on while it is idle.
+struct CountsNothing {};
+inline CountsNothing counts_nothing() { return {}; }
+/// It divides its clock, and is what it was after each period of the slowest divided one. Each skip
+/// is a whole multiple.
+struct RepeatsEvery {
+  Duration period;
+};
+inline RepeatsEvery repeats_every(Duration period) { return {period}; }
+/// What has been skipped just now, for a function that lets the module catch up.
+struct Skipped {
+  Duration time;
+  std::int64_t cycles;  ///< of the unit's clock, the fastest of several; 0 without one
+};
 
 /// The idle times of a device. Called at rest, in the device's context.
 class IdleRules {
@@ -32,6 +50,9 @@ class IdleRules {
 ///
 /// A device that is not idle is looked at again after 10 us, or when it does something next if that
 /// is later. Less than 1 us is simulated, which costs less than a skip.
+///
+/// With a StateWatch a skip needs more than the device's word: a clock period that has left it as
+/// it was. If 16 in a row do not, its idle time is simulated until one does.
 class IdleSkipper {
  public:
   struct Statistics {
@@ -40,7 +61,14 @@ class IdleSkipper {
     Duration longest{};
   };
 
-  IdleSkipper(Kernel& kernel, IdleRules& rules) : kernel_(kernel), rules_(rules) {}
+  /// Where the device declared itself idle and went on changing.
+  struct Unrest {
+    Time when;
+    std::string place;  ///< see StateWatch
+  };
+
+  IdleSkipper(Kernel& kernel, IdleRules& rules, std::optional<StateWatch> watch = std::nullopt)
+      : kernel_(kernel), rules_(rules), watch_(std::move(watch)) {}
 
   /// As Kernel::advance(); no skip is longer than `max_skip`.
   Time advance(Time to, bool may_stop_early, Duration max_skip);
@@ -51,9 +79,22 @@ class IdleSkipper {
   /// simulated. Where the clock that goes on is no sc_clock, one within the next period is taken
   /// for its edge, and comes later by what is skipped.
   std::optional<Time> obstacle() const { return obstacle_; }
+  /// The first one.
+  const std::optional<Unrest>& unrest() const { return unrest_; }
+  /// The last periods that it spent idle have changed it.
+  bool is_restless() const { return changes_ >= kMostChanges; }
 
  private:
-  bool skip(Time to, Duration max_skip);
+  static constexpr int kMostChanges = 16;  ///< what was begun before may end in some cycles
+
+  enum class Comparison { None, Same, Changed };
+
+  Duration look(Time to, Duration max_skip);
+  /// Of the state a period ago, if it was noted, with the present one.
+  Comparison compare_states();
+  bool note_state();
+  void skip(Duration skipped);
+  Duration simulated() const { return kernel_.now().time_since_epoch() - kernel_.skipped(); }
   bool is_obstructed();
   Duration room(Time to, Duration max_skip) const;
   Duration lead() const;
@@ -61,6 +102,10 @@ class IdleSkipper {
 
   Kernel& kernel_;
   IdleRules& rules_;
+  std::optional<StateWatch> watch_;
+  Duration watched_at_{};  ///< simulated() when the watch noted the state
+  int changes_ = 0;        ///< in so many periods in a row
+  std::optional<Unrest> unrest_;
   Statistics statistics_;
   std::optional<Time> obstacle_;
   Time obstructed_until_ = Time::min();
@@ -69,6 +114,7 @@ class IdleSkipper {
 /// For the log.
 std::string to_text(const IdleSkipper::Statistics& statistics);
 std::string obstacle_text(Time obstacle);
+std::string unrest_text(const IdleSkipper::Unrest& unrest);
 
 }  // namespace stride::systemc
 

@@ -100,6 +100,8 @@ class ModuleUnit : public DeviceUnit<Module> {
   VariableBuilder input(std::string name, Target target, FmiOf<Target> start) {
     static_assert(detail::LeadsToPlace<Target, Module>::value,
                   "an input needs an sc_in, an sc_inout or an sc_signal");
+    static_assert(!detail::LeadsToOut<Target, Module>::value,
+                  "the module drives its sc_out: it takes an output() or tie()");
     auto row = std::make_unique<detail::InputRow<ValueOf<Target>>>(name, find(std::move(target)));
     row->value = std::move(start);
     return add(row, this->Unit::input(std::move(name), row->value));
@@ -236,14 +238,36 @@ class ModuleUnit : public DeviceUnit<Module> {
 
   // Idle time.
 
-  /// The condition for idle(); calls may_idle(). While the module is idle its ports and signals
-  /// stay what they are, so the unit promises that it need not be called. Where outputs are
-  /// functions or plain members, which may move, it promises nothing, unless tangents_hold_for() is
-  /// overridden.
-  void idle_when(std::function<bool(const Module&)> idle) {
+  /// The condition for idle(); calls may_idle(). `edges` is what the module makes of the edges of
+  /// its clock that are skipped: counts_nothing(), repeats_every(period) where it divides the
+  /// clock, or a function (Module&, const Skipped&) that lets its counters catch up. Without such a
+  /// function nothing is skipped unless the module has stayed what it was for a period.
+  ///
+  /// While the module is idle its ports and signals stay what they are, so the unit promises that
+  /// it need not be called. Where outputs are functions or plain members, which may move, it
+  /// promises nothing, unless tangents_hold_for() is overridden.
+  template <class Edges>
+  void idle_when(std::function<bool(const Module&)> idle, Edges edges) {
     this->may_idle();
     this->describe(this->info().description).default_step.reset();
     idle_ = std::move(idle);
+    repetition_ = {};
+    catch_up_ = nullptr;
+    if constexpr (std::is_same_v<Edges, RepeatsEvery>) {
+      repetition_ = edges.period;
+    } else if constexpr (!std::is_same_v<Edges, CountsNothing>) {
+      static_assert(std::is_invocable_v<const Edges&, Module&, const Skipped&>,
+                    "the second argument of idle_when() is counts_nothing(), repeats_every(period) "
+                    "or a function (Module&, const Skipped&)");
+      catch_up_ = std::move(edges);
+    }
+  }
+  template <class Idle>
+  void idle_when(Idle /*idle*/) {
+    static_assert(detail::kNever<Idle>,
+                  "idle_when() also takes what the module makes of the edges of its clock that are "
+                  "skipped: counts_nothing(), repeats_every(period), or a function that gets their "
+                  "number");
   }
 
   /// For rows of other kinds.
@@ -303,15 +327,22 @@ class ModuleUnit : public DeviceUnit<Module> {
     if (!warning.empty()) this->log(Severity::Warning, warning);
   }
   bool idle(const Module& module) const override { return idle_ && idle_(module); }
-  /// Of the unit's clocks. A module with a clock of its own inside overrides it.
+  /// Of the unit's clocks, and of repeats_every(). A module with a clock of its own inside
+  /// overrides it.
   Duration clock_period(const Module& /*module*/) const override {
-    std::int64_t period = 0;
+    std::int64_t period = repetition_.count();
     for (const detail::ClockRow* clock : clocks_) {
       const std::int64_t other = clock->period().count();
       period = period == 0 ? other : std::lcm(period, other);
     }
     return Duration(period);
   }
+  void on_skip(Module& module, Duration skipped) override {
+    if (!catch_up_) return;
+    const Duration period = shortest_period();
+    catch_up_(module, Skipped{skipped, period > Duration{} ? skipped / period : 0});
+  }
+  bool is_watched() const override { return !catch_up_; }
   Duration tangents_hold_for(const Module& /*module*/) const override {
     return idle_ && !has_functions_ ? Duration::max() : Duration{};
   }
@@ -441,6 +472,8 @@ class ModuleUnit : public DeviceUnit<Module> {
   std::vector<std::unique_ptr<detail::MessageRow>> messages_;
   std::vector<const detail::ClockRow*> clocks_;
   std::function<bool(const Module&)> idle_;
+  Duration repetition_{};  ///< of repeats_every()
+  std::function<void(Module&, const Skipped&)> catch_up_;
   bool has_functions_ = false;  ///< among the outputs
   bool has_changed_ = false;    ///< an input, since the last step began
   detail::Sampling sampling_;

@@ -100,6 +100,20 @@ struct ValueAt<Inner<T>, Module, true> {
   using Type = T;
 };
 
+template <class T>
+std::true_type is_out(const sc_core::sc_out<T>*);
+template <int Width>
+std::true_type is_out(const sc_core::sc_out_rv<Width>*);
+std::true_type is_out(const sc_core::sc_out_resolved*);
+std::false_type is_out(const void*);
+
+/// Whether a target leads to a port that only the module drives, as far as its type tells.
+template <class Target, class Module, class = void>
+struct LeadsToOut : std::false_type {};
+template <class Target, class Module>
+struct LeadsToOut<Target, Module, std::void_t<Reached<Target, Module>>>
+    : decltype(is_out(std::declval<std::remove_reference_t<Reached<Target, Module>>*>())) {};
+
 /// The object of this name below the module. Throws std::invalid_argument, with the names that
 /// there are, if there is none.
 sc_core::sc_object& find_below(const sc_core::sc_object& module, const std::string& name);

@@ -16,7 +16,7 @@ class Sampling {
   /// `period`: of the fastest clock, 0 without one. `has_changed`: an input, since the last step
   /// began.
   void begin_step(Duration size, Duration period, bool has_changed);
-  /// For the log, at the end of a run; empty if there is nothing to say.
+  /// For the log, at the end of a run; empty after fewer than three changes.
   std::string warning(Duration period) const;
 
  private:

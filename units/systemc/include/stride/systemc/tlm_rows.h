@@ -83,6 +83,8 @@ class TransactionTarget {
   virtual void transport(tlm::tlm_generic_payload& payload, sc_core::sc_time& delay) = 0;
   /// Without any effect but on what is read or written; returns how many bytes were.
   virtual unsigned debug(tlm::tlm_generic_payload& payload) = 0;
+  /// What may be accessed without transactions; returns whether there is such memory.
+  virtual bool direct(tlm::tlm_dmi& /*access*/) { return false; }
 };
 
 /// tlm_utils translates what initiators do with nb_transport.
@@ -94,6 +96,7 @@ class TargetSocket : public sc_core::sc_module {
       : sc_module(name), target_(target) {
     socket.register_b_transport(this, &TargetSocket::transport);
     socket.register_transport_dbg(this, &TargetSocket::debug);
+    socket.register_get_direct_mem_ptr(this, &TargetSocket::direct);
   }
 
  private:
@@ -101,10 +104,13 @@ class TargetSocket : public sc_core::sc_module {
     target_.transport(payload, delay);
   }
   unsigned debug(tlm::tlm_generic_payload& payload) { return target_.debug(payload); }
+  bool direct(tlm::tlm_generic_payload& /*payload*/, tlm::tlm_dmi& access) {
+    return target_.direct(access);
+  }
   TransactionTarget& target_;
 };
 
-/// So many bytes that the unit holds.
+/// So many bytes that the unit holds. What it refuses takes no time.
 class MemoryTarget final : public TransactionTarget {
  public:
   MemoryTarget(Binary content, Duration latency)
@@ -112,6 +118,7 @@ class MemoryTarget final : public TransactionTarget {
   void reset() override { bytes_ = content_; }
   void transport(tlm::tlm_generic_payload& payload, sc_core::sc_time& delay) override;
   unsigned debug(tlm::tlm_generic_payload& payload) override;
+  bool direct(tlm::tlm_dmi& access) override;
 
  private:
   Binary content_;

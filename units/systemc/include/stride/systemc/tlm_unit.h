@@ -90,7 +90,7 @@ class TlmUnit : public ModuleUnit<Module> {
 
   /// An initiator socket reads and writes these bytes, from address 0 on, which begin with
   /// `content` at each start; each transaction takes `latency`. What is beyond them is an address
-  /// error.
+  /// error, which takes no time. All of it may be accessed directly (DMI), with the same latency.
   template <class Target>
   void memory(const std::string& name, Target target, std::size_t size, Duration latency = {},
               Binary content = {}) {

@@ -57,7 +57,7 @@ class DeviceUnit : public Unit {
     device_ = make_device([this](sc_core::sc_severity severity, const std::string& message) {
       log(severity == sc_core::SC_INFO ? Severity::Info : Severity::Warning, message);
     });
-    skipper_.emplace(device_->kernel(), rules_);
+    make_skipper();
     if (!trace_options_.file.empty()) open_trace();
     settle();
   }
@@ -93,7 +93,7 @@ class DeviceUnit : public Unit {
   }
 
   Time idle_until(Time now) const final {
-    if (has_message() || device_->kernel().stopped()) return now;
+    if (has_message() || device_->kernel().stopped() || skipper_->is_restless()) return now;
     return device_->within([&](const Module& module) {
       if (!inputs_are_taken_up() || !idle(module)) return now;
       return std::min(later(now, tangents_hold_for(module)), next_happening(module));
@@ -149,6 +149,9 @@ class DeviceUnit : public Unit {
   /// Closes the time that has been skipped for what the device adds up cycle by cycle, along the
   /// rate that it has now: `charge += current * to_seconds(skipped)`.
   virtual void on_skip(Module& /*module*/, Duration /*skipped*/) {}
+  /// Whether a skip needs a clock period that has left the module as it was, see StateWatch: then
+  /// on_skip() has nothing to do.
+  virtual bool is_watched() const { return false; }
   /// For how long on_skip() is good enough; see tangent_holds_for().
   virtual Duration longest_skip(const Module& /*module*/) const { return Duration::max(); }
   /// For how long, while it is idle, each output stays within its tolerance of its tangent, those
@@ -218,6 +221,14 @@ class DeviceUnit : public Unit {
     return next ? to_master(*next) : Time::max();
   }
 
+  void make_skipper() {
+    std::optional<StateWatch> watch;
+    if (max_skip() && is_watched()) {
+      device_->within([&](const Module& module) { watch.emplace(module); });
+    }
+    skipper_.emplace(device_->kernel(), rules_, std::move(watch));
+  }
+
   void open_trace() {
     SignalList signals;
     device_->within([&](Module& module) { list_signals(module, signals); });
@@ -230,6 +241,9 @@ class DeviceUnit : public Unit {
     log(Severity::Info, to_text(skipper_->statistics()));
     if (skipper_->obstacle()) {
       log(Severity::Warning, obstacle_text(to_master(*skipper_->obstacle())));
+    }
+    if (const auto& unrest = skipper_->unrest()) {
+      log(Severity::Warning, unrest_text({to_master(unrest->when), unrest->place}));
     }
   }
 
