@@ -65,6 +65,26 @@ std::string flag_hint(const CLI::App& command) {
   return "";
 }
 
+/// The long options of a command.
+std::vector<std::string> option_names(const CLI::App& command) {
+  std::vector<std::string> names;
+  for (const CLI::Option* const option : command.get_options()) {
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  }
+  return names;
+}
+
+/// The option that was meant by one that is not there, or else where they are listed.
+std::string option_hint(const CLI::App& command, const std::vector<std::string>& rest) {
+  const std::vector<std::string> names = option_names(command);
+  for (const std::string& word : rest) {
+    if (!word.starts_with("--")) continue;
+    const std::string meant = stride::core::nearest(word.substr(0, word.find('=')), names);
+    if (!meant.empty()) return fmt::format("did you mean '{}'?", meant);
+  }
+  return fmt::format("'{} --help' lists its options", full_name(command));
+}
+
 /// CLI11 takes "--isolate=" for "--isolate".
 void refuse_empty_values(int argc, char** argv) {
   for (int i = 1; i < argc; ++i) {
@@ -92,8 +112,8 @@ std::string explanation(const CLI::App* app, const CLI::Error& mistake) {
   const std::string message = message_text(name_text(mistake.what()));
   if (command == app) return fmt::format("stride: error: {}\n\n{}", message, app->help());
   const bool has_too_many = dynamic_cast<const CLI::ExtrasError*>(&mistake) != nullptr;
-  return fmt::format("stride: error: {}{}\n  hint: '{} --help' lists its options\n", message,
-                     has_too_many ? flag_hint(*command) : "", full_name(command));
+  return fmt::format("stride: error: {}{}\n  hint: {}\n", message,
+                     has_too_many ? flag_hint(*command) : "", option_hint(*command, rest));
 }
 
 std::string explain(const CLI::App* app, const CLI::Error& mistake) {

@@ -94,9 +94,9 @@ class ManifestReader {
                                variable.reference, reference));
     }
     if (variable.causality != causality || variable.type != core::ValueType::Float64) {
-      element.fail(fmt::format("'{}' is a {} {}; only a Float64 {} has a {}", name,
-                               core::name(variable.type), core::name(variable.causality),
-                               core::name(causality), attribute));
+      element.fail(fmt::format("'{}' is {} {}; only a Float64 {} has a {}", name,
+                               core::name_with_article(variable.type),
+                               core::name(variable.causality), core::name(causality), attribute));
     }
     if (!listed_.insert(reference).second) element.fail(fmt::format("'{}' is listed twice", name));
     return variable;

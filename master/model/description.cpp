@@ -1,10 +1,17 @@
 #include "master/model/description.h"
 
 #include <algorithm>
+#include <string_view>
 
 namespace stride::core {
 
 const char* name(ValueType type) { return type_name(type); }
+
+std::string name_with_article(ValueType type) {
+  const std::string word = name(type);
+  return (std::string_view("AEI").find(word.front()) != std::string_view::npos ? "an " : "a ") +
+         word;
+}
 
 const char* name(Causality causality) {
   constexpr const char* kNames[] = {

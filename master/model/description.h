@@ -60,6 +60,8 @@ inline constexpr std::size_t kIntervalVariabilityCount = 6;
 
 /// The words of the standard: "Float64", "input", "continuous", "countdown".
 const char* name(ValueType type);
+/// "a Float64", "an Int32".
+std::string name_with_article(ValueType type);
 const char* name(Causality causality);
 const char* name(Variability variability);
 const char* name(Initial initial);

@@ -40,7 +40,7 @@ void parse_element(const Variable& variable, const std::string& text, Number& va
   if (result.ec == std::errc{} && result.ptr == end) return;
   reject(text, result.ec == std::errc::result_out_of_range
                    ? fmt::format("a number within the range of {}", name(variable.type))
-                   : fmt::format("a {} number", name(variable.type)));
+                   : fmt::format("{} number", name_with_article(variable.type)));
 }
 
 void parse_element(const Variable&, const std::string& text, bool& value) {

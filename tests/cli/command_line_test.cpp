@@ -43,6 +43,8 @@ TEST_CASE("a mistake in a command's arguments names the argument and points to t
              Contains("FILE is required") && Contains("stride run --help"));
   CHECK_THAT(input_error_of(run_program({"check", "test.ssd", "--frobnicate"})),
              Contains("--frobnicate") && Contains("stride check --help"));
+  CHECK_THAT(input_error_of(run_program({"run", "test.ssd", "--stopp=3"})),
+             Contains("--stopp=3") && Contains("did you mean '--stop'?"));
   CHECK_THAT(input_error_of(run_program({"pack", "nothing.so", "--output", "x.fmu"})),
              Contains("nothing.so"));
 }

@@ -112,7 +112,7 @@ TEST_CASE("entries must fit the unit's variables") {
   CHECK_THAT(mistake_in("<Input name='valve' valueReference='2' deadband='1'/>"),
              Contains("'valve' is a Boolean input; only a Float64 input has a deadband"));
   CHECK_THAT(mistake_in("<Output name='reports' valueReference='4' tolerance='1'/>"),
-             Contains("'reports' is a Int64 output; only a Float64 output has a tolerance"));
+             Contains("'reports' is an Int64 output; only a Float64 output has a tolerance"));
   CHECK_THAT(mistake_in("<Output name='level' valueReference='3' tolerance='1'/>"
                         "<Output name='level' valueReference='3' tolerance='2'/>"),
              Contains("'level' is listed twice"));

@@ -66,7 +66,7 @@ TEST_CASE("the error of an invalid value has what was expected") {
   CHECK_THAT(reason(variable(ValueType::Float64), ""), Contains("expected one Float64 value"));
   CHECK_THAT(reason(variable(ValueType::UInt8), "256"), Contains("within the range of UInt8"));
   CHECK_THAT(reason(variable(ValueType::UInt8), "-1"), Contains("expected a UInt8 number"));
-  CHECK_THAT(reason(variable(ValueType::Int32), "1.5"), Contains("expected a Int32 number"));
+  CHECK_THAT(reason(variable(ValueType::Int32), "1.5"), Contains("expected an Int32 number"));
   CHECK_THAT(reason(variable(ValueType::Boolean), "yes"), Contains("expected true or false"));
   CHECK_THAT(reason(variable(ValueType::Binary), "abc"), Contains("even number"));
   CHECK_THAT(reason(variable(ValueType::Binary), "zz"), Contains("hexadecimal"));
