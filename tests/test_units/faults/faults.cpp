@@ -25,6 +25,7 @@
 #include <stride/results.h>
 
 #include "tests/test_units/faults/memory_faults.h"
+#include "tests/test_units/faults/process_faults.h"
 
 namespace stride::tests {
 namespace {
@@ -292,6 +293,22 @@ constexpr Fault kFaults[] = {
     {"SIGTERM", raise_signal<SIGTERM>},
     {"SIGINT", raise_signal<SIGINT>},
     {"SIGUSR1", raise_signal<SIGUSR1>},
+    {"SIGQUIT", raise_signal<SIGQUIT>},
+    {"SIGPROF", raise_signal<SIGPROF>},
+    {"SIGXCPU", raise_signal<SIGXCPU>},
+    {"SIGRTMIN+3", [] { std::raise(SIGRTMIN + 3); }},
+    {"hidden signal", raise_hidden_signal},
+    {"alarm", await_alarm},
+    {"exec", become_program},
+    {"exec of path", become_program_of_path},
+    {"exec by system call", become_program_by_system_call},
+    {"become daemon", become_daemon},
+    {"exit by system call", exit_by_system_call},
+    {"exit by system call at exit", exit_by_system_call_at_exit},
+    {"run programs", run_programs},
+    {"fork by system call", fork_by_system_call},
+    {"damage free memory", damage_free_memory},
+    {"lock memory", lock_memory},
     {"throw int", [] { throw 42; }},
     {"throw bad_alloc", [] { throw std::bad_alloc(); }},
     {"throw exception", [] { throw std::runtime_error("the fuse has blown"); }},
