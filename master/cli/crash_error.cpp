@@ -78,6 +78,8 @@ std::string_view describe_end(const ProcessEnd& end, std::span<char> text) {
       return format_into(text, "{}() ends stride", end.function);
     case ProcessEnd::Kind::TimeOut:
       return format_into(text, "stride has not ended for {} s", kLongestEnd);
+    case ProcessEnd::Kind::Error:
+      return format_into(text, "{}", end.error);
     case ProcessEnd::Kind::Signal:
       break;
   }
@@ -87,6 +89,7 @@ std::string_view describe_end(const ProcessEnd& end, std::span<char> text) {
 }
 
 core::Error error_of(const ProcessEnd& end, Calls calls, bool is_leaving) {
+  if (end.kind == ProcessEnd::Kind::Error) return {core::Error::Kind::Run, {}, end.error};
   std::array<char, 80> text{};
   const std::string_view how = describe_end(end, text);
   if (const auto* call = call_that_ends(end, calls)) return error_in(*call, how);

@@ -16,10 +16,11 @@ inline constexpr unsigned kLongestEnd = 10;
 
 /// How a process ends.
 struct ProcessEnd {
-  enum class Kind { Signal, Call, TimeOut };
+  enum class Kind { Signal, Call, TimeOut, Error };
   Kind kind = Kind::Signal;
   int signal = 0;                  ///< of kind Signal
   const char* function = nullptr;  ///< that was called, such as exit: of kind Call
+  const char* error = nullptr;     ///< the text of one that was thrown: of kind Error
   SignalOrigin origin = SignalOrigin::Call;
 };
 

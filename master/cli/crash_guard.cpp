@@ -21,6 +21,7 @@
 #include <unistd.h>
 
 #include "master/cli/crash_error.h"
+#include "master/cli/output.h"
 #include "master/cli/replaced_calls.h"
 #include "master/importer/fmu_instance.h"
 #include "master/util/archive/temporary_folder.h"
@@ -328,6 +329,10 @@ void report_end(const char* function) {
   if (is_guarded()) end_process({.kind = ProcessEnd::Kind::Call, .function = function});
 }
 
+void end_with(const std::string& error) {
+  end_process({.kind = ProcessEnd::Kind::Error, .error = error.c_str()});
+}
+
 void end_if_own(int signal, const siginfo_t& info) {
   const SignalOrigin origin = origin_of(signal, info);
   if (origin != SignalOrigin::Outside && is_guarded()) {
@@ -372,6 +377,7 @@ int leave_with(int code) {
 
 void limit_end() {
   if (!is_guarded()) return;
+  restore_streams();
   handle(SIGALRM, SA_ONSTACK);
   sigset_t awaited;
   ::sigemptyset(&awaited);

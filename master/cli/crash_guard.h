@@ -54,12 +54,16 @@ class CrashGuard {
 
 /// To be called when all units are freed, and their libraries are about to be unloaded: if one of
 /// these takes longer than kLongestEnd, that is an error which ends the process. Holds until the
-/// guard's end; does nothing without one.
+/// guard's end; does nothing without one. The standard streams are put back (restore_streams()).
 void limit_end();
 
 /// For what ends or replaces this process, before it does so: ends a guarded process as a crash
 /// does, with an error that names the function, and returns in others, such as forks of it.
 void report_end(const char* function);
+
+/// Ends a guarded process as a crash does, with the text of this error: where threads of units may
+/// hinder what is left to be done, which they cannot do in a fork.
+[[noreturn]] void end_with(const std::string& error);
 
 /// For handlers of other signals: ends a guarded process as a crash does, unless the signal is from
 /// outside.

@@ -24,12 +24,13 @@ TEST_CASE("a unit that closes or replaces all open files fails the run, and lose
   const Workspace workspace = with_file_faults(GENERATE("2", "3"));
   REQUIRE(workspace.run({"--quiet", "--step", "0.125"}).exit_code == 0);
   const std::string expected = workspace.result("signals.csv");
-  const char* const fault = GENERATE("close files", "replace files");
+  const char* const fault = GENERATE("close files", "replace files", "keep closing files");
   INFO(fault);
   const Outcome outcome = run_with_file_fault(workspace, fault);
   INFO(outcome.err);
   CHECK(outcome.exit_code == 1);
   CHECK(workspace.result("signals.csv") == expected);
+  CHECK(workspace.left_behind().empty());
   const nlohmann::json run = run_json(workspace);
   CHECK(run["outcome"] == "failed");
   CHECK_THAT(run["error"].get<std::string>(),
