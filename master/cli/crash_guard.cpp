@@ -288,7 +288,11 @@ void set_handlers(int flags) {
 
 // ---- exit() and its like ----
 
-void on_exit() { report_end("exit"); }
+void end_in_call(const char* function) {
+  if (is_guarded()) end_process({.kind = ProcessEnd::Kind::Call, .function = function});
+}
+
+void on_exit() { end_in_call("exit"); }
 
 void on_exit_functions() {
   if (!guarded.is_leaving) on_exit();
@@ -325,10 +329,6 @@ const CrashGuard::Conclusion& no_conclusion() {
 
 }  // namespace
 
-void report_end(const char* function) {
-  if (is_guarded()) end_process({.kind = ProcessEnd::Kind::Call, .function = function});
-}
-
 void end_with(const std::string& error) {
   end_process({.kind = ProcessEnd::Kind::Error, .error = error.c_str()});
 }
@@ -348,6 +348,7 @@ CrashGuard::CrashGuard(Conclusion conclusion) : conclusion_(std::move(conclusion
   ::sigaltstack(&stack, nullptr);
   set_handlers(SA_ONSTACK);
   register_exit_functions();
+  watch_ends(end_in_call);
   make_time_limit();
   guarded.process = ::getpid();
   guarded.conclusion = &conclusion_;

@@ -57,10 +57,6 @@ class CrashGuard {
 /// guard's end; does nothing without one. The standard streams are put back (restore_streams()).
 void limit_end();
 
-/// For what ends or replaces this process, before it does so: ends a guarded process as a crash
-/// does, with an error that names the function, and returns in others, such as forks of it.
-void report_end(const char* function);
-
 /// Ends a guarded process as a crash does, with the text of this error: where threads of units may
 /// hinder what is left to be done, which they cannot do in a fork.
 [[noreturn]] void end_with(const std::string& error);

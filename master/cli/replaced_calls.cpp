@@ -1,5 +1,6 @@
 #include "master/cli/replaced_calls.h"
 
+#include <atomic>
 #include <cstdarg>
 #include <cstdlib>
 
@@ -7,12 +8,12 @@
 #include <sys/syscall.h>
 #include <unistd.h>
 
-#include "master/cli/crash_guard.h"
-
 namespace stride::cli {
 namespace {
 
 using Words = char* const*;
+
+std::atomic<void (*)(const char*)> report{nullptr};
 
 template <class Function>
 Function* original(Function*, const char* name) {
@@ -58,6 +59,10 @@ class WordList {
   char* words_[kMost + 1];
 };
 
+void report_end(const char* function) {
+  if (const auto present = report.load()) present(function);
+}
+
 /// The name of the call that ends or replaces the process; null for others.
 const char* name_of_end(long number) {
   switch (number) {
@@ -75,6 +80,8 @@ const char* name_of_end(long number) {
 }
 
 }  // namespace
+
+void watch_ends(void (*function)(const char*)) { report = function; }
 
 long system_call(long number, long argument) { return originals().syscall(number, argument); }
 
