@@ -5,6 +5,7 @@
 #include <span>
 #include <string_view>
 
+#include "master/cli/signal_origin.h"
 #include "master/importer/fmu_instance.h"
 #include "master/util/error.h"
 
@@ -13,14 +14,27 @@ namespace stride::cli {
 /// How long the process may take to end when all units are freed [s].
 inline constexpr unsigned kLongestEnd = 10;
 
-/// How the process ends: by a signal, where SIGALRM is the end of its time, or by exit() and its
-/// like, which is 0. Allocates nothing but what signal_name() does; the result is in `text`.
-std::string_view describe_end(int signal, std::span<char> text);
+/// How a process ends.
+struct ProcessEnd {
+  enum class Kind { Signal, Call, TimeOut, Error };
+  Kind kind = Kind::Signal;
+  int signal = 0;                  ///< of kind Signal
+  const char* function = nullptr;  ///< that was called, such as exit: of kind Call
+  const char* error = nullptr;     ///< the text of one that was thrown: of kind Error
+  SignalOrigin origin = SignalOrigin::Call;
+};
 
-/// `end` is how the process ends, `calls` are those of units that have not returned. If this thread
-/// makes none of them, a unit has started it. `is_leaving`: the command is over.
-core::Error error_of(std::string_view end, std::span<const importer::UnitCall> calls,
+/// "signal 11 (SIGSEGV) ends stride". Allocates nothing; the result is in `text`.
+std::string_view describe_end(const ProcessEnd& end, std::span<char> text);
+
+/// `calls` are those of units that have not returned. If this thread makes none of them, a unit has
+/// started it. `is_leaving`: the command is over.
+core::Error error_of(const ProcessEnd& end, std::span<const importer::UnitCall> calls,
                      bool is_leaving);
+
+/// In short, where nothing can be allocated; the result is in `text`.
+std::string_view describe_briefly(const ProcessEnd& end, std::span<const importer::UnitCall> calls,
+                                  std::span<char> text);
 
 }  // namespace stride::cli
 

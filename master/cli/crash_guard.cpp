@@ -1,13 +1,13 @@
 #include "master/cli/crash_guard.h"
 
-#include <algorithm>
+#include <array>
 #include <atomic>
 #include <cerrno>
+#include <csignal>
 #include <cstdlib>
 #include <ctime>
 #include <iterator>
 #include <new>
-#include <optional>
 #include <span>
 #include <string_view>
 #include <utility>
@@ -21,6 +21,8 @@
 #include <unistd.h>
 
 #include "master/cli/crash_error.h"
+#include "master/cli/output.h"
+#include "master/cli/replaced_calls.h"
 #include "master/importer/fmu_instance.h"
 #include "master/util/archive/temporary_folder.h"
 #include "master/util/error.h"
@@ -36,6 +38,11 @@ constexpr int kRunFailed = 1;
 /// Of virtual memory: the conclusion runs on it.
 constexpr std::size_t kStackSize = std::size_t{8} << 20;
 
+/// Other signals that would end the process without a word, beside those of real time.
+constexpr std::array kEndings{SIGQUIT, SIGALRM, SIGVTALRM, SIGPROF,   SIGUSR1,
+                              SIGUSR2, SIGIO,   SIGPWR,    SIGSTKFLT, SIGXCPU};
+constexpr int kFirstHidden = 32;  ///< of those that the C library keeps to itself
+
 /// What handlers, which have no arguments, have to know.
 struct Guarded {
   std::atomic<const CrashGuard::Conclusion*> conclusion{nullptr};
@@ -43,24 +50,46 @@ struct Guarded {
   std::atomic<pid_t> ending{0};         ///< the thread that ends the process
   std::atomic<bool> is_leaving{false};  ///< the command is over
   std::atomic<int> code{0};             ///< of the command
+  timer_t time_limit{};                 ///< for the end of the process
+  bool has_time_limit = false;
+  // of the thread that ends the process
+  ProcessEnd end;
+  std::size_t steps = 0;  ///< to the end that have begun
+  std::array<importer::UnitCall, 16> found;
+  std::span<const importer::UnitCall> calls;
 };
 Guarded guarded;
 
 [[noreturn]] void end_now(int code) {
-  for (;;) ::syscall(SYS_exit_group, code);
+  for (;;) system_call(SYS_exit_group, code);
 }
 
 void print(std::string_view text) { (void)!::write(STDERR_FILENO, text.data(), text.size()); }
 
+// ---- The steps to the end of a process that a unit has damaged ----
+
 /// In the fork.
-[[noreturn]] void conclude(int signal, std::span<const importer::UnitCall> calls) {
+[[noreturn]] void conclude() {
   try {
-    std::array<char, 80> text{};
-    const core::Error error = error_of(describe_end(signal, text), calls, guarded.is_leaving);
+    const core::Error error = error_of(guarded.end, guarded.calls, guarded.is_leaving);
     print(core::terminal_text(fmt::format("stride: error: {}\n", error.what())));
     (*guarded.conclusion.load())(error.what());
   } catch (...) {  // the rest is lost
   }
+  archive::TemporaryFolder::remove_all();
+  end_now(kRunFailed);
+}
+
+/// What can be said without memory of its own, and nothing after that.
+[[noreturn]] void conclude_briefly() {
+  std::array<char, 1024> text{};
+  print("stride: error: ");
+  print(describe_briefly(guarded.end, guarded.calls, text));
+  print("; run.json and the report are not complete, and rows may be missing\n");
+  end_now(kRunFailed);
+}
+
+[[noreturn]] void remove_folders() {
   archive::TemporaryFolder::remove_all();
   end_now(kRunFailed);
 }
@@ -79,12 +108,35 @@ bool wait_for(pid_t process) {
   return false;
 }
 
-/// Where the fork could not: without the names, which may be damaged.
-void print_without_names(int signal) {
-  std::array<char, 80> text{};
-  print("stride: error: ");
-  print(describe_end(signal, text));
-  print("; run.json and the report are not complete, the rows up to there are\n");
+/// Calls work() in a fork; returns whether it came to its end there.
+bool is_done_in_fork(void (*work)()) {
+  const pid_t fork = ::_Fork();
+  if (fork == 0) {
+    for (const int other : kCrashes) ::signal(other, SIG_DFL);
+    sigset_t none;
+    ::sigemptyset(&none);
+    ::sigprocmask(SIG_SETMASK, &none, nullptr);
+    work();
+  }
+  return fork > 0 && wait_for(fork);
+}
+
+/// The process ends as such a signal does that is not handled, so that others see that.
+void end_by_signal_from_outside() {
+  if (guarded.end.kind != ProcessEnd::Kind::Signal || guarded.end.origin != SignalOrigin::Outside) {
+    return;
+  }
+  ::signal(guarded.end.signal, SIG_DFL);
+  sigset_t none;
+  ::sigemptyset(&none);
+  ::raise(guarded.end.signal);
+  ::pthread_sigmask(SIG_SETMASK, &none, nullptr);
+}
+
+/// What is left to be done when the end is reported.
+void end_reported() {
+  end_by_signal_from_outside();
+  end_now(kRunFailed);
 }
 
 [[noreturn]] void wait_for_end() {
@@ -92,8 +144,9 @@ void print_without_names(int signal) {
 }
 
 /// So that the results do not go on meanwhile. Their handlers call end_process().
-void stop_other_threads(pid_t self) {
+void stop_other_threads() {
   constexpr timespec kUntilTheyHaveStopped{0, 2'000'000};
+  const pid_t self = ::gettid();
   const int tasks = ::open("/proc/self/task", O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (tasks < 0) return;
   alignas(dirent64) std::array<char, 4096> entries{};
@@ -110,53 +163,136 @@ void stop_other_threads(pid_t self) {
   ::nanosleep(&kUntilTheyHaveStopped, nullptr);
 }
 
-[[noreturn]] void end_process(int signal) {
-  sigset_t all;
-  ::sigfillset(&all);
-  ::pthread_sigmask(SIG_BLOCK, &all, nullptr);
+void find_calls() {
+  const std::size_t count = importer::unfinished_calls(guarded.found);
+  guarded.calls = std::span(guarded.found).first(count);
+}
+
+void report() {
+  if (is_done_in_fork(conclude)) end_reported();
+}
+
+void report_briefly() {
+  if (!is_done_in_fork(conclude_briefly)) return;
+  is_done_in_fork(remove_folders);
+  end_reported();
+}
+
+/// The names may be damaged, too.
+void report_without_names() {
+  guarded.calls = {};
+  conclude_briefly();
+}
+
+/// A crash in one of them goes on with the next one.
+constexpr void (*kSteps[])() = {stop_other_threads, core::OutputFile::rescue_all,
+                                find_calls,         report,
+                                report_briefly,     report_without_names};
+
+[[noreturn]] void end_process(const ProcessEnd& end) {
+  sigset_t blocked;
+  ::sigfillset(&blocked);
+  for (const int crash : kCrashes) ::sigdelset(&blocked, crash);
+  ::pthread_sigmask(SIG_SETMASK, &blocked, nullptr);
   pid_t ending = 0;
   const pid_t self = ::gettid();
-  if (!guarded.ending.compare_exchange_strong(ending, self)) {
-    if (ending == self) end_now(kRunFailed);  // what it does to end has ended it
+  if (guarded.ending.compare_exchange_strong(ending, self)) {
+    guarded.end = end;
+  } else if (ending != self) {
     wait_for_end();
   }
-  stop_other_threads(self);
-  core::OutputFile::rescue_all();
-  std::array<importer::UnitCall, 16> found;
-  const std::size_t count = importer::unfinished_calls(found);
-  const pid_t fork = ::_Fork();
-  if (fork == 0) {
-    for (const int other : kCrashes) ::signal(other, SIG_DFL);
-    sigset_t none;
-    ::sigemptyset(&none);
-    ::sigprocmask(SIG_SETMASK, &none, nullptr);
-    conclude(signal, std::span(found).first(count));
-  }
-  if (fork < 0 || !wait_for(fork)) print_without_names(signal);
+  while (guarded.steps < std::size(kSteps)) kSteps[guarded.steps++]();
   end_now(kRunFailed);
 }
 
 /// Forks of a guarded process, such as those of hosts, are not guarded.
 bool is_guarded() { return guarded.conclusion.load() != nullptr && guarded.process == ::getpid(); }
 
-void on_signal(int signal) {
-  if (is_guarded()) end_process(signal);
-  ::signal(signal, SIG_DFL);  // it comes again when this returns
-  ::raise(signal);
+// ---- Signals ----
+
+/// As the kernel has it, so that the C library does not keep its own signals to itself.
+struct alignas(8) KernelAction {
+  std::array<unsigned char, 64> bytes{};
+
+  static KernelAction of(int signal) {
+    KernelAction action;
+    ::syscall(SYS_rt_sigaction, signal, nullptr, action.bytes.data(), kSetSize);
+    return action;
+  }
+  void set(int signal) const {
+    ::syscall(SYS_rt_sigaction, signal, bytes.data(), nullptr, kSetSize);
+  }
+  bool operator==(const KernelAction&) const = default;
+
+  static constexpr long kSetSize = 8;
+};
+
+/// Of the limit for the end of the process, and not one of a unit's timers.
+bool is_time_limit(const siginfo_t& info) {
+  return info.si_code == SI_TIMER && info.si_value.sival_ptr == &guarded;
+}
+
+constexpr itimerspec kNever{};
+
+void begin_time_limit() {
+  const itimerspec limit{{}, {kLongestEnd, 0}};
+  if (guarded.has_time_limit) ::timer_settime(guarded.time_limit, 0, &limit, nullptr);
 }
 
 /// What takes long is a unit's, or stride's own work with many files, which may.
-void on_alarm(int signal) {
+void on_time_limit() {
   std::array<importer::UnitCall, 1> call;
   const bool is_of_unit = guarded.is_leaving || importer::unfinished_calls(call) > 0 ||
                           importer::unfinished_library_work().library != nullptr;
-  if (is_of_unit) return on_signal(signal);
-  ::alarm(kLongestEnd);
+  if (is_of_unit) end_process({.kind = ProcessEnd::Kind::TimeOut});
+  begin_time_limit();
 }
 
-void on_exit() {
-  if (is_guarded()) end_process(0);
+void on_signal(int signal, siginfo_t* info, void*) {
+  if (is_guarded() && is_time_limit(*info)) return on_time_limit();
+  if (is_guarded()) end_process({.signal = signal, .origin = origin_of(signal, *info)});
+  KernelAction().set(signal);  // the default; it comes again when this returns
+  ::syscall(SYS_tgkill, ::getpid(), ::gettid(), signal);
 }
+
+void handle(int signal, int flags) {
+  struct sigaction action {};
+  action.sa_sigaction = on_signal;
+  action.sa_flags = SA_SIGINFO | flags;
+  ::sigaction(signal, &action, nullptr);
+}
+
+void handle_by_default(int signal, int flags) {
+  struct sigaction before {};
+  ::sigaction(signal, nullptr, &before);
+  if (before.sa_handler == SIG_DFL) handle(signal, flags);
+}
+
+/// Those of the C library, as another one is handled.
+void handle_hidden(int model) {
+  struct sigaction handled {};
+  ::sigaction(model, nullptr, &handled);
+  if (handled.sa_sigaction != on_signal) return;
+  const KernelAction action = KernelAction::of(model), none;
+  for (int signal = kFirstHidden; signal < SIGRTMIN; ++signal) {
+    if (KernelAction::of(signal) == none) action.set(signal);
+  }
+}
+
+void set_handlers(int flags) {
+  for (const int signal : kCrashes) handle_by_default(signal, flags);
+  for (const int signal : kEndings) handle_by_default(signal, flags);
+  for (int signal = SIGRTMIN; signal <= SIGRTMAX; ++signal) handle_by_default(signal, flags);
+  handle_hidden(SIGRTMAX);
+}
+
+// ---- exit() and its like ----
+
+void end_in_call(const char* function) {
+  if (is_guarded()) end_process({.kind = ProcessEnd::Kind::Call, .function = function});
+}
+
+void on_exit() { end_in_call("exit"); }
 
 void on_exit_functions() {
   if (!guarded.is_leaving) on_exit();
@@ -177,16 +313,12 @@ void register_exit_functions() {
   (void)registered;
 }
 
-void set_handlers(int flags) {
-  for (const int signal : kCrashes) {
-    struct sigaction before {};
-    ::sigaction(signal, nullptr, &before);
-    if (before.sa_handler != SIG_DFL) continue;
-    struct sigaction action {};
-    action.sa_handler = on_signal;
-    action.sa_flags = flags;
-    ::sigaction(signal, &action, nullptr);
-  }
+void make_time_limit() {
+  sigevent notice{};
+  notice.sigev_notify = SIGEV_SIGNAL;
+  notice.sigev_signo = SIGALRM;
+  notice.sigev_value.sival_ptr = &guarded;
+  guarded.has_time_limit = ::timer_create(CLOCK_MONOTONIC, &notice, &guarded.time_limit) == 0;
 }
 
 /// Never destroyed, since destructors of libraries come later.
@@ -196,16 +328,17 @@ const CrashGuard::Conclusion& no_conclusion() {
 }
 
 }  // namespace
-}  // namespace stride::cli
 
-// Exported, so that a unit which calls them reaches these.
-extern "C" void _exit(int code) {
-  stride::cli::on_exit();
-  stride::cli::end_now(code);
+void end_with(const std::string& error) {
+  end_process({.kind = ProcessEnd::Kind::Error, .error = error.c_str()});
 }
-extern "C" void _Exit(int code) noexcept { ::_exit(code); }
 
-namespace stride::cli {
+void end_if_own(int signal, const siginfo_t& info) {
+  const SignalOrigin origin = origin_of(signal, info);
+  if (origin != SignalOrigin::Outside && is_guarded()) {
+    end_process({.signal = signal, .origin = origin});
+  }
+}
 
 CrashGuard::CrashGuard(Conclusion conclusion) : conclusion_(std::move(conclusion)) {
   void* const memory = ::mmap(nullptr, kStackSize, PROT_READ | PROT_WRITE,
@@ -215,12 +348,14 @@ CrashGuard::CrashGuard(Conclusion conclusion) : conclusion_(std::move(conclusion
   ::sigaltstack(&stack, nullptr);
   set_handlers(SA_ONSTACK);
   register_exit_functions();
+  watch_ends(end_in_call);
+  make_time_limit();
   guarded.process = ::getpid();
   guarded.conclusion = &conclusion_;
 }
 
 CrashGuard::~CrashGuard() {
-  ::alarm(0);
+  if (guarded.has_time_limit) ::timer_settime(guarded.time_limit, 0, &kNever, nullptr);
   guarded.conclusion = &no_conclusion();
 }
 
@@ -243,12 +378,13 @@ int leave_with(int code) {
 
 void limit_end() {
   if (!is_guarded()) return;
-  std::signal(SIGALRM, on_alarm);
+  restore_streams();
+  handle(SIGALRM, SA_ONSTACK);
   sigset_t awaited;
   ::sigemptyset(&awaited);
   ::sigaddset(&awaited, SIGALRM);
   ::pthread_sigmask(SIG_UNBLOCK, &awaited, nullptr);
-  ::alarm(kLongestEnd);
+  begin_time_limit();
 }
 
 CrashGuard::Scope::Scope(CrashGuard& guard, Conclusion conclusion)

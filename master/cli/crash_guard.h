@@ -2,20 +2,23 @@
 #ifndef STRIDE_MASTER_CLI_CRASH_GUARD_H
 #define STRIDE_MASTER_CLI_CRASH_GUARD_H
 
+#include <csignal>
 #include <functional>
 #include <string>
 
 namespace stride::cli {
 
-/// While it lives, a crash of this process (a signal such as SIGSEGV, abort(), std::terminate())
-/// and exit(), _exit() and quick_exit() are not its silent end: the lines that files still hold in
-/// memory are written, the error is printed, with the unit whose function was being called, and the
-/// exit code is 1. From its end until that of the process the same is so, without the conclusion: a
-/// thread of a unit may go on. There is one at a time, and one in a process. It cannot prevent
-/// SIGKILL, and the crash of a unit's own thread by an overflow of its stack; a process of the
-/// unit's own can (docs/hosts.md).
+/// While it lives, a crash of this process (a signal such as SIGSEGV, abort(), std::terminate()),
+/// the calls in replaced_calls.h and signals whose default action ends a process are not its silent
+/// end: the lines that files still hold in memory are written, the error is printed, with the unit
+/// whose function was being called, and the exit code is 1; after a signal from outside the process
+/// ends by that signal. From its end until that of the process the same is so, without the
+/// conclusion: a thread of a unit may go on. There is one at a time, and one in a process. It
+/// cannot prevent SIGKILL, and the crash of a unit's own thread by an overflow of its stack; a
+/// process of the unit's own can (docs/hosts.md).
 ///
-/// Signals for which there is a handler already are left to it.
+/// Signals for which there is a handler already are left to it. SIGINT, SIGTERM, SIGHUP and SIGPIPE
+/// end the process as usual.
 class CrashGuard {
  public:
   /// Writes the files that describe the end, such as run.json. It is called in a fork of the
@@ -51,8 +54,16 @@ class CrashGuard {
 
 /// To be called when all units are freed, and their libraries are about to be unloaded: if one of
 /// these takes longer than kLongestEnd, that is an error which ends the process. Holds until the
-/// guard's end; does nothing without one.
+/// guard's end; does nothing without one. The standard streams are put back (restore_streams()).
 void limit_end();
+
+/// Ends a guarded process as a crash does, with the text of this error: where threads of units may
+/// hinder what is left to be done, which they cannot do in a fork.
+[[noreturn]] void end_with(const std::string& error);
+
+/// For handlers of other signals: ends a guarded process as a crash does, unless the signal is from
+/// outside.
+void end_if_own(int signal, const siginfo_t& info);
 
 /// Calls limit_end() at its end: declared behind what holds the libraries.
 struct LimitedEnd {

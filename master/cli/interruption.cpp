@@ -1,5 +1,6 @@
 #include "master/cli/interruption.h"
 
+#include "master/cli/crash_guard.h"
 #include "master/util/output_file.h"
 
 namespace stride::cli {
@@ -7,8 +8,10 @@ namespace {
 
 volatile std::sig_atomic_t interrupted = 0;
 
-/// The second signal ends a run that reaches no communication point.
-void note_interruption(int signal) {
+/// The second signal ends a run that reaches no communication point. One that a unit sends is an
+/// error of the unit.
+void note_interruption(int signal, siginfo_t* info, void*) {
+  end_if_own(signal, *info);
   if (interrupted != 0) {
     core::OutputFile::rescue_all();
     ::signal(signal, SIG_DFL);
@@ -26,7 +29,12 @@ Interruption::Interruption() {
   interrupted = 0;
   for (Handled& handled : handled_) {
     struct sigaction action {};
-    action.sa_handler = handled.signal == SIGPIPE ? do_nothing : note_interruption;
+    if (handled.signal == SIGPIPE) {
+      action.sa_handler = do_nothing;
+    } else {
+      action.sa_sigaction = note_interruption;
+      action.sa_flags = SA_SIGINFO;
+    }
     sigaction(handled.signal, nullptr, &handled.before);
     if (handled.before.sa_handler != SIG_IGN) sigaction(handled.signal, &action, nullptr);
   }

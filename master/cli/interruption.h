@@ -8,8 +8,9 @@ namespace stride::cli {
 
 /// During its lifetime the first signal that asks for the end only sets flag(): SIGINT, SIGTERM,
 /// SIGHUP, and what batch systems, timers and limits of processor time send. A second one ends the
-/// process, after the lines that files hold in memory were written. SIGPIPE does not end it:
-/// writing fails instead.
+/// process, after the lines that files hold in memory were written. One that comes from code in
+/// this process, such as that of a unit, is an error of a guarded process (CrashGuard). SIGPIPE
+/// does not end it: writing fails instead.
 class Interruption {
  public:
   Interruption();

@@ -196,7 +196,7 @@ int execute(CLI::App& app, int argc, char** argv) {
 int main(int argc, char** argv) {
   open_missing_standard_files();
   stride::cli::keep_hard_limits();
-  stride::cli::set_up_log();
+  stride::cli::set_up_output();
   std::signal(SIGXFSZ, SIG_IGN);  // then writing fails with an error; the signal would kill
   CLI::App app(
       "stride couples simulators: it loads units of FMI 3.0, 2.0 and 1.0 as plug-ins\n"

@@ -22,8 +22,12 @@ void print_text(fmt::format_string<Values...> format, Values&&... values) {
 /// "stride: error: TEXT", to the standard error stream; core::message_text() of the text.
 void print_error(std::string_view text);
 
-/// The log goes to the standard error stream, likewise.
-void set_up_log();
+/// To be called before anything is printed. The log goes to the standard error stream, likewise.
+void set_up_output();
+
+/// Puts the standard streams back, where code of a unit has replaced them or given them a buffer,
+/// which may be in a library that is about to be unloaded. What the buffer holds is written.
+void restore_streams();
 
 }  // namespace stride::cli
 

@@ -16,6 +16,7 @@
 #include "master/recorders/run_json.h"
 #include "master/recorders/unit_folders.h"
 #include "master/util/error.h"
+#include "master/util/output_file.h"
 #include "master/util/process/spare_files.h"
 #include "master/util/time_text.h"
 
@@ -136,6 +137,8 @@ void RecordedRun::run() {
   try {
     simulation_.run();
     setup_.capture.end(name(simulation_.statistics().end));
+  } catch (const core::TakenFileError&) {
+    throw;  // the files of the end might be taken, too
   } catch (const std::exception& failure) {
     restore_process();
     conclude_failure(failure.what());

@@ -25,6 +25,7 @@
 #include "master/recorders/unit_folders.h"
 #include "master/scenario/loaded_scenario.h"
 #include "master/util/input_file.h"
+#include "master/util/output_file.h"
 #include "master/util/process/process_state.h"
 #include "master/util/process/spare_files.h"
 
@@ -175,6 +176,8 @@ void run(const RunArguments& arguments, Records& records, CrashGuard& guard) {
   const CrashGuard::Scope scope(guard, [&](const std::string& error) { recorded.abandon(error); });
   try {
     recorded.run();
+  } catch (const core::TakenFileError& failure) {
+    end_with(failure.what());
   } catch (const std::exception& failure) {
     records.failure = failure.what();
     throw;

@@ -140,7 +140,7 @@ void FmuInstance::fail_thrown(const char* function) {
     what = exception.what();
   } catch (...) {  // it has no text
   }
-  if (is_fork_) leave_fork();
+  if (is_fork_ || !core::ForkMark::is_set()) leave_fork();
   failed_in_ = function;
   if (!mode_.is_present()) restore_mode();
   present_.end();
@@ -150,7 +150,9 @@ void FmuInstance::fail_thrown(const char* function) {
 
 // ---- Forks ----
 
-/// In the new process, which has this thread only. stride itself makes none within a call.
+/// In the new process, which has this thread only. stride itself makes none within a call. A
+/// process that is made without fork() is seen by its ForkMark alone, which a function that the
+/// unit calls back may set anew.
 void FmuInstance::note_fork() noexcept {
   core::Listed<FmuInstance>::for_each(
       [](FmuInstance& instance) { instance.is_fork_ = instance.present_.is_by_this_thread(); });

@@ -26,6 +26,7 @@
 #include "master/util/error.h"
 #include "master/util/listed.h"
 #include "master/util/process/floating_point_mode.h"
+#include "master/util/process/fork_mark.h"
 #include "master/util/process/process_state.h"
 
 namespace stride::importer {
@@ -141,9 +142,12 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics, public Call
     write_note(name);
   }
   /// For a call that does not count, or goes on.
-  void write_note(const char* name) { present_.begin(name, time_.value_or(Time{})); }
+  void write_note(const char* name) {
+    core::ForkMark::set();
+    present_.begin(name, time_.value_or(Time{}));
+  }
   void end_call() {
-    if (is_fork_) [[unlikely]]
+    if (is_fork_ || !core::ForkMark::is_set()) [[unlikely]]
       leave_fork();
     if (!mode_.is_present()) [[unlikely]]
       restore_mode();
@@ -247,7 +251,7 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics, public Call
   std::uint64_t calls_ = 0;
   PresentCall present_;
   bool was_restored_ = false;  ///< from a kept state, and no step has ended since
-  bool is_fork_ = false;       ///< the present function has made this process by fork()
+  bool is_fork_ = false;       ///< the present function has made this process, by fork()
   const core::FloatingPointMode mode_ = core::FloatingPointMode::present();
   std::optional<Time> time_;
   const std::atomic<bool>& is_unusable_;  ///< the library

@@ -8,7 +8,6 @@
 #include "master/isolation/process/process_memory.h"
 #include "master/isolation/sandbox_hint.h"
 #include "master/isolation/server.h"
-#include "master/util/readable_text.h"
 
 namespace stride::isolation {
 namespace {
@@ -30,6 +29,12 @@ MemoryAllowance memory_allowance(const HostedUnitSpec& spec) {
     allowance.folders.push_back(folder.path);
   }
   return allowance;
+}
+
+/// Of a function, or of what the server does: the unit can write anything there.
+bool is_of_name(char c) {
+  return ('a' <= c && c <= 'z') || ('A' <= c && c <= 'Z') || ('0' <= c && c <= '9') || c == '_' ||
+         c == ' ';
 }
 
 }  // namespace
@@ -175,10 +180,9 @@ void HostClient::fail_bad_packet(std::optional<Time> time) {
 }
 
 std::string HostClient::present_call() const {
-  constexpr std::size_t kLongest = 100;
-  const std::string function = core::readable_text(std::string(link_.memory->call_note.function()),
-                                                   kLongest);  // the unit can write there
-  return function.empty() ? "" : " in " + function;
+  const std::string function(link_.memory->call_note.function());
+  if (function.empty()) return "";
+  return std::ranges::all_of(function, is_of_name) ? " in " + function : " in an unknown function";
 }
 
 /// With the variable whose value was being read, if one was.

@@ -35,6 +35,9 @@ const char* hint_for(int error) {
   }
 }
 
+/// For a file that a thread closes again and again.
+constexpr int kMostTries = 100;
+
 constexpr const char* kTakenHint =
     "a unit may close its own files only; with --isolate it has no others";
 
@@ -124,9 +127,11 @@ void OutputFile::rescue() noexcept {
   if (descriptor_ < 0 || has_failed_ || is_flushing_ || !get_back()) return;
   const std::size_t lines = std::string_view(buffer_.get(), used_).rfind('\n') + 1;
   used_ = 0;
+  int tries = kMostTries;
   for (std::size_t done = 0; done < lines;) {
     const long count = write_piece(buffer_.get() + done, lines - done);
-    if (count < 0 && errno != EINTR) return;
+    const bool is_lost = count < 0 && errno == EBADF && !(tries-- > 0 && get_back());
+    if (is_lost || (count < 0 && errno != EINTR && errno != EBADF)) return;
     if (count <= 0) continue;
     done += static_cast<std::size_t>(count);
     taken_ += count;
@@ -135,17 +140,20 @@ void OutputFile::rescue() noexcept {
 }
 
 void OutputFile::flush() {
-  const bool was_taken = used_ > 0 && !has_failed_ && !is_own();
-  const bool is_back = !was_taken || get_back();
+  bool was_taken = used_ > 0 && !has_failed_ && !is_own();
+  bool is_back = !was_taken || get_back();
   if (!has_failed_ && is_own()) check_size();
   is_flushing_ = true;
   std::size_t done = 0;
-  int error = 0;
+  int error = 0, tries = kMostTries;
   while (!has_failed_ && is_back && error == 0 && done < used_) {
     const long count = write_piece(buffer_.get() + done, used_ - done);
     if (count >= 0) {
       done += static_cast<std::size_t>(count);
       taken_ += count;
+    } else if (errno == EBADF) {
+      was_taken = true;
+      is_back = tries-- > 0 && get_back();
     } else if (errno != EINTR) {
       error = errno;
     }
@@ -167,16 +175,18 @@ long OutputFile::write_piece(const char* bytes, std::size_t size) const noexcept
 }
 
 bool OutputFile::get_back() noexcept {
-  if (is_own()) return true;
-  if (absolute_path_.empty()) return false;
-  const int file = ::open(absolute_path_.c_str(), O_WRONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
-  if (file < 0) return false;
-  if (FileIdentity::of(file) != identity_) {
+  for (int tries = kMostTries; tries > 0; --tries) {
+    if (is_own()) return true;
+    if (absolute_path_.empty()) return false;
+    const int file = ::open(absolute_path_.c_str(), O_WRONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
+    if (file < 0) return false;
+    if (FileIdentity::of(file) == identity_) {
+      descriptor_ = file;  // what has the number now is not to be closed here
+      return true;
+    }
     ::close(file);
-    return false;
   }
-  descriptor_ = file;  // what has the number now is not to be closed here
-  return true;
+  return false;
 }
 
 /// Of the open file, which is its own.
@@ -198,7 +208,9 @@ void OutputFile::close() {
   flush();
   if (!has_failed_ && !is_own()) fail_taken(get_back());
   const int result = ::close(std::exchange(descriptor_, -1));
-  if (result != 0 && !has_failed_) fail(errno);
+  if (result == 0 || has_failed_) return;
+  if (errno == EBADF) fail_taken(true);
+  fail(errno);
 }
 
 void OutputFile::fail(int error) {
@@ -214,12 +226,13 @@ void OutputFile::fail(int error) {
 void OutputFile::fail_taken(bool is_back) {
   has_failed_ = true;
   if (!is_back) descriptor_ = -1;  // the number is of another file, which is not to be closed
-  fail_run({.where = {path_.string(), 0}, .time = time_},
-           fmt::format("other code in this process, such as that of a unit, has closed the open "
-                       "file or put another one in its place; {}",
-                       is_back ? "the lines up to here are complete"
-                               : "it cannot be opened again, so lines are lost"),
-           kTakenHint);
+  throw TakenFileError(
+      Error::Kind::Run, {.where = {path_.string(), 0}, .time = time_},
+      fmt::format("other code in this process, such as that of a unit, has closed the open file or "
+                  "put another one in its place; {}",
+                  is_back ? "the lines up to here are complete"
+                          : "it cannot be opened again, so lines are lost"),
+      kTakenHint);
 }
 
 }  // namespace stride::core

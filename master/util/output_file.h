@@ -14,17 +14,26 @@
 
 #include <stride/time.h>
 
+#include "master/util/error.h"
 #include "master/util/file_identity.h"
 #include "master/util/listed.h"
 
 namespace stride::core {
+
+/// Other code in this process has closed an open file, or put another one in its place. It may go
+/// on with that.
+class TakenFileError : public Error {
+ public:
+  using Error::Error;
+};
 
 /// Collects what is written in a buffer and hands it to the system in large pieces. When that fails
 /// (the disk is full), the file is cut behind its last whole line and Error (Run) is thrown,
 /// which names the file and the simulated time; nothing is written from then on.
 ///
 /// Code of a unit in this process can close the open file, or put another one in its place. Then
-/// the file is opened again by its path, what is left is written, and that is an Error (Run), too.
+/// the file is opened again by its path, what is left is written, and that is a TakenFileError
+/// (Run).
 class OutputFile {
  public:
   /// What to do about failures.

@@ -39,9 +39,21 @@ constexpr Fault kFaults[] = {
      "its process was ended by signal 7 (SIGBUS) in FUNCTION"},
     {"SIGSYS", "signal 31 (SIGSYS) ends stride in FUNCTION",
      "its process was ended by signal 31 (SIGSYS) in FUNCTION"},
-    {"SIGTERM", nullptr, "its process was ended by signal 15 (SIGTERM) in FUNCTION"},
-    {"SIGINT", nullptr, "its process was ended by signal 2 (SIGINT) in FUNCTION"},
-    {"SIGUSR1", nullptr, "its process was ended by signal 10 (SIGUSR1) in FUNCTION"},
+    {"SIGTERM", "signal 15 (SIGTERM) ends stride in FUNCTION",
+     "its process was ended by signal 15 (SIGTERM) in FUNCTION"},
+    {"SIGINT", "signal 2 (SIGINT) ends stride in FUNCTION",
+     "its process was ended by signal 2 (SIGINT) in FUNCTION"},
+    {"SIGUSR1", "signal 10 (SIGUSR1) ends stride in FUNCTION",
+     "its process was ended by signal 10 (SIGUSR1) in FUNCTION"},
+    {"SIGQUIT", "signal 3 (SIGQUIT) ends stride in FUNCTION",
+     "its process was ended by signal 3 (SIGQUIT) in FUNCTION"},
+    {"SIGPROF", "signal 27 (SIGPROF) ends stride in FUNCTION",
+     "its process was ended by signal 27 (SIGPROF) in FUNCTION"},
+    {"SIGXCPU", "signal 24 (SIGXCPU) ends stride in FUNCTION",
+     "its process was ended by signal 24 (SIGXCPU) in FUNCTION"},
+    {"SIGRTMIN+3", "(SIGRTMIN+3) ends stride in FUNCTION", "(SIGRTMIN+3) in FUNCTION"},
+    {"hidden signal", "signal 33 (without name) ends stride in FUNCTION",
+     "its process was ended by signal 33 (without name) in FUNCTION"},
     {"kill", nullptr, "its process was ended by signal 9 (SIGKILL) in FUNCTION"},
     {"exit with 0", "exit() ends stride in FUNCTION",
      "it ended its process with exit code 0 in FUNCTION"},
@@ -49,6 +61,17 @@ constexpr Fault kFaults[] = {
     {"_exit", "exit() ends stride in FUNCTION",
      "it ended its process with exit code 4 in FUNCTION"},
     {"exit in a thread", nullptr, "it ended its process with exit code 5 in FUNCTION"},
+    {"exit by system call", "exit() ends stride in FUNCTION",
+     "it ended its process with exit code 0 in FUNCTION"},
+    {"exec", "execl() ends stride in FUNCTION",
+     "it ended its process with exit code 0 in FUNCTION"},
+    {"exec of path", "execvp() ends stride in FUNCTION",
+     "it ended its process with exit code 0 in FUNCTION"},
+    {"exec by system call", "execve() ends stride in FUNCTION",
+     "it ended its process with exit code 0 in FUNCTION"},
+    {"become daemon", "daemon() ends stride in FUNCTION",
+     "it ended its process with exit code 0 in FUNCTION"},
+    {"run programs", kCompletes, kCompletes},
     {"throw int", "FUNCTION threw something that is not a std::exception",
      "FUNCTION threw something that is not a std::exception"},
     {"throw bad_alloc", "FUNCTION threw std::bad_alloc", "FUNCTION threw std::bad_alloc"},
@@ -56,6 +79,8 @@ constexpr Fault kFaults[] = {
     {"status 77", "FUNCTION returned 77, a status that", "FUNCTION returned 77, a status that"},
     {"limit parent", nullptr, "cannot limit the parent: Permission denied"},
     {"close streams", kCompletes, kCompletes},
+    {"buffer output", kCompletes, kCompletes},
+    {"drop output stream", kCompletes, nullptr},
     {"close files", nullptr, kCompletes},
     {"change folder", kCompletes, kCompletes},
     {"change umask", kCompletes, kCompletes},
@@ -237,7 +262,8 @@ TEST_CASE("a function that forks and returns in both processes is of one run onl
     const Workspace workspace = workspace_for(setting, kStep);
     REQUIRE(workspace.run({"--quiet", "--step", "0.125"}).exit_code == 0);
     const std::string expected = workspace.result("signals.csv");
-    const FaultOrder order("fork", kStep.name, kStep.at);
+    const char* const fault = GENERATE("fork", "fork by system call");
+    const FaultOrder order(fault, kStep.name, kStep.at);
     Arguments arguments{"--verbose"};
     for (const std::string& argument : Workspace::run_arguments({"--quiet", "--step", "0.125"})) {
       arguments.push_back(argument);
@@ -249,6 +275,68 @@ TEST_CASE("a function that forks and returns in both processes is of one run onl
                                      " called fork() and returned in both processes"));
     CHECK(workspace.result("signals.csv") == expected);
   }
+}
+
+TEST_CASE("a signal of a timer is no interruption by the user, and no unit's for certain") {
+  if (kSanitized) return;
+  const Setting setting{3, false};
+  const Workspace workspace = workspace_for(setting, kStep);
+  const Outcome outcome = run(workspace, setting, "alarm", kStep);
+  CHECK(outcome.exit_code == 1);
+  CHECK_THAT(outcome.err, Contains("stride: error: signal 14 (SIGALRM) ends stride during "
+                                   "fmi3DoStep of 'faulty'"));
+  check_results(workspace, outcome, kStep.last);
+}
+
+TEST_CASE("a signal from outside that ends the run is reported, and ends the process") {
+  if (kSanitized) return;
+  const auto [signal, name] =
+      GENERATE(table<int, std::string>({{SIGQUIT, "SIGQUIT"}, {SIGPROF, "SIGPROF"}}));
+  const Workspace workspace = workspace_for({3, false}, kStep);
+  Process process(stride_command(Workspace::run_arguments({"--stop", "1e6", "--no-trace"})),
+                  workspace.scratch().path());
+  await_first_results(process, workspace);
+  process.send(signal);
+  const Outcome outcome = process.wait();
+  CHECK(outcome.exit_code == -signal);
+  CHECK_THAT(outcome.err, Contains("(" + name + ") from outside ends stride"));
+  CHECK(outcome.err.find("hint") == std::string::npos);
+  const nlohmann::json run = run_json(workspace);
+  CHECK(run["outcome"] == "failed");
+  const double last = std::stod(last_time(workspace));  // the next row may have been begun
+  CHECK(run["reached"].get<double>() == Approx(last).margin(0.0011));
+  CHECK(workspace.left_behind().empty());
+}
+
+TEST_CASE("SIGUSR1 from outside interrupts the run") {
+  const Workspace workspace = workspace_for({3, false}, kStep);
+  Process process(stride_command(Workspace::run_arguments({"--stop", "1e6", "--no-trace"})),
+                  workspace.scratch().path());
+  await_first_results(process, workspace);
+  process.send(SIGUSR1);
+  CHECK(process.wait().exit_code == 1);
+  CHECK(run_json(workspace)["outcome"] == "interrupted");
+}
+
+TEST_CASE("a unit that has damaged the memory of stride does not end it without a word") {
+  if (kSanitized) return;
+  const Setting setting = GENERATE(Setting{2, false}, Setting{3, false});
+  const Workspace workspace = workspace_for(setting, kStep);
+  const auto error_after = [&](const char* fault) {
+    const FaultOrder order(fault, kStep.name, kStep.at);
+    const Outcome outcome = workspace.run({"--quiet", "--step", "0.125"});
+    CHECK(outcome.exit_code == 1);
+    CHECK_FALSE(fs::exists(workspace / "out/run.json"));
+    return outcome.err;
+  };
+  CHECK_THAT(error_after("damage free memory"),
+             Contains(std::string("stride: error: unit 'faulty', at 0.375 s: signal 6 (SIGABRT) "
+                                  "ends stride in ") +
+                      setting.function(kStep) +
+                      "; run.json and the report are not complete, and rows may be missing"));
+  CHECK(last_time(workspace) == kStep.last);
+  CHECK_THAT(error_after("lock memory"),
+             Contains("stride: error: signal 11 (SIGSEGV) ends stride; run.json"));
 }
 
 TEST_CASE("a unit whose state may not be saved is never asked for it") {

@@ -190,6 +190,12 @@ TEST_CASE("a unit that overwrites the shared memory harms itself only") {
                       "memory"));
 }
 
+TEST_CASE("a unit that overwrites the name of the function that it crashes in") {
+  const Workspace workspace = hosted_beside_a_filter();
+  CHECK_THAT(error_of(workspace, does("overwrite and abort", {"--unit-timeout", "60"})),
+             Contains("has written into the shared memory in an unknown function"));
+}
+
 TEST_CASE("a unit in a sandbox cannot kill its parent") {
   const Workspace workspace = hosted_beside_a_filter();
   CHECK_THAT(error_of(workspace, does("kill parent")),

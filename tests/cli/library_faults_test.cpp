@@ -150,6 +150,21 @@ TEST_CASE("a library that calls exit(0) after the run does not change the exit c
   CHECK_THAT(outcome.err, Contains("the fuse has blown"));
 }
 
+TEST_CASE("a library that ends the process by a system call after the run leaves no good code") {
+  if (kSanitized) return;
+  const Workspace workspace(Parts{component("faulty", "fmi3_faulty.fmu")});
+  const FaultOrder order("exit by system call at exit", "step", "0");
+  const auto error_with = [&](Arguments options) {
+    options.insert(options.end(), {"--quiet", "--step", "0.125"});
+    const Outcome outcome = workspace.run(options);
+    CHECK(outcome.exit_code == 1);
+    return outcome.err;
+  };
+  CHECK_THAT(error_with({}), Contains("exit() ends stride in a destructor or an exit function of a "
+                                      "library, after the command"));
+  CHECK_THAT(error_with({"--junit", "/dev/full"}), Contains("/dev/full: cannot write the file"));
+}
+
 // ---- What goes on when a library is unloaded ----
 
 namespace {

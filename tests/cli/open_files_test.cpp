@@ -1,5 +1,6 @@
 // Units in process that close or replace open files which are not theirs: the rows are kept, and it
 // is an error.
+#include "tests/build.h"
 #include "tests/cli/failures.h"
 
 using namespace stride::tests;
@@ -24,12 +25,14 @@ TEST_CASE("a unit that closes or replaces all open files fails the run, and lose
   const Workspace workspace = with_file_faults(GENERATE("2", "3"));
   REQUIRE(workspace.run({"--quiet", "--step", "0.125"}).exit_code == 0);
   const std::string expected = workspace.result("signals.csv");
-  const char* const fault = GENERATE("close files", "replace files");
+  const char* const fault = GENERATE("close files", "replace files", "keep closing files");
+  if (kSanitized && std::string(fault) == "keep closing files") return;  // a race of the unit's
   INFO(fault);
   const Outcome outcome = run_with_file_fault(workspace, fault);
   INFO(outcome.err);
   CHECK(outcome.exit_code == 1);
   CHECK(workspace.result("signals.csv") == expected);
+  CHECK(workspace.left_behind().empty());
   const nlohmann::json run = run_json(workspace);
   CHECK(run["outcome"] == "failed");
   CHECK_THAT(run["error"].get<std::string>(),

@@ -147,7 +147,11 @@ ChildOutcome run_in_child(const std::function<std::string()>& work, const ChildO
 
 std::string signal_name(int signal) {
   const char* const name = ::sigabbrev_np(signal);
-  return name != nullptr ? std::string("SIG") + name : "an unknown signal";
+  if (name != nullptr) return std::string("SIG") + name;
+  if (SIGRTMIN <= signal && signal <= SIGRTMAX) {
+    return "SIGRTMIN+" + std::to_string(signal - SIGRTMIN);
+  }
+  return "without name";
 }
 
 }  // namespace stride::isolation

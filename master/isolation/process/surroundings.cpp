@@ -14,10 +14,8 @@
 namespace stride::isolation {
 
 void reset_signal_handlers() {
-  for (const int signal :
-       {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGTRAP, SIGSYS, SIGHUP, SIGINT, SIGQUIT, SIGTERM,
-        SIGPIPE, SIGCHLD, SIGUSR1, SIGUSR2, SIGALRM, SIGXCPU}) {
-    ::signal(signal, SIG_DFL);
+  for (int signal = 1; signal < NSIG; ++signal) {
+    if (signal != SIGXFSZ) ::signal(signal, SIG_DFL);  // it is ignored, so that writing fails
   }
   sigset_t none;
   ::sigemptyset(&none);

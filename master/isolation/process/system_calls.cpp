@@ -134,6 +134,10 @@ void forbid_reaching_processes() {
   filter.deny(SCMP_SYS(ioprio_set), {not_own(1)});
   filter.deny(SCMP_SYS(ioprio_set), {argument(0, SCMP_CMP_MASKED_EQ, kInt, IOPRIO_WHO_USER)});
   filter.deny_requests({TIOCSPGRP, TIOCSCTTY});
+  // others that open the file wait for the process that has a lease on it
+  for (const int call : {SCMP_SYS(fcntl), SCMP_SYS(fcntl64)}) {
+    filter.deny(call, {argument(1, SCMP_CMP_MASKED_EQ, kInt, F_SETLEASE)});
+  }
   // hides the process from its supervisor
   filter.deny(SCMP_SYS(prctl), {argument(0, SCMP_CMP_MASKED_EQ, kInt, PR_SET_DUMPABLE)});
   filter.deny_all({SCMP_SYS(process_vm_readv), SCMP_SYS(process_vm_writev),

@@ -15,7 +15,8 @@ void forbid_network();
 /// No call that names another process (or a thread, by its number), and nothing that is shared with
 /// other processes by a key or a name: limits, priorities, processors, memory and files of others,
 /// the group in a terminal's foreground, System V memory, semaphores and queues, POSIX queues, keys
-/// of the kernel, performance counters. Signals and debuggers are Landlock's matter.
+/// of the kernel, performance counters, leases on files. Signals and debuggers are Landlock's
+/// matter.
 void forbid_reaching_processes();
 
 /// No system call that is newer than Linux 6.4: the answer is ENOSYS, as of an older kernel. So no

@@ -1,6 +1,7 @@
 #include "tests/test_units/faults/faults.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cfenv>
 #include <chrono>
 #include <cmath>
@@ -25,6 +26,7 @@
 #include <stride/results.h>
 
 #include "tests/test_units/faults/memory_faults.h"
+#include "tests/test_units/faults/process_faults.h"
 
 namespace stride::tests {
 namespace {
@@ -120,6 +122,17 @@ void cut_all_files() {
 
 void close_all_files() {
   for (int file = 0; file < 1024; ++file) ::close(file);
+}
+
+/// In a thread, again and again.
+void keep_closing_files() {
+  static std::atomic<bool> has_begun{false};
+  std::thread([] {
+    for (;; has_begun = true, std::this_thread::sleep_for(std::chrono::microseconds(500))) {
+      for (int file = 3; file < 100; ++file) ::close(file);
+    }
+  }).detach();
+  while (!has_begun) std::this_thread::yield();
 }
 
 void kill_parent() {
@@ -223,6 +236,13 @@ void close_streams() {
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) ::close(stream);
 }
 
+/// In a buffer that goes with the library.
+void buffer_output() {
+  static char buffer[BUFSIZ];
+  std::setvbuf(stdout, buffer, _IOFBF, sizeof buffer);
+  std::fputs("buffered", stdout);
+}
+
 /// Where the unit's files belong.
 std::string own_file(const char* name) { return stride::results_folder() / name; }
 
@@ -267,6 +287,7 @@ constexpr Fault kFaults[] = {
        for (;;) print();
      }},
     {"close files", close_all_files},
+    {"keep closing files", keep_closing_files},
     {"replace files", replace_all_files},
     {"move in files", move_in_all_files},
     {"cut files", cut_all_files},
@@ -283,6 +304,11 @@ constexpr Fault kFaults[] = {
     {"write nameless file", write_nameless_file},
     {"write temporary file", write_temporary_file},
     {"overwrite", overwrite_shared_memory},
+    {"overwrite and abort",
+     [] {
+       overwrite_shared_memory();
+       std::abort();
+     }},
     {"connect", connect},
     {"write temporary", write_temporary},
     {"SIGFPE", raise_signal<SIGFPE>},
@@ -292,6 +318,22 @@ constexpr Fault kFaults[] = {
     {"SIGTERM", raise_signal<SIGTERM>},
     {"SIGINT", raise_signal<SIGINT>},
     {"SIGUSR1", raise_signal<SIGUSR1>},
+    {"SIGQUIT", raise_signal<SIGQUIT>},
+    {"SIGPROF", raise_signal<SIGPROF>},
+    {"SIGXCPU", raise_signal<SIGXCPU>},
+    {"SIGRTMIN+3", [] { std::raise(SIGRTMIN + 3); }},
+    {"hidden signal", raise_hidden_signal},
+    {"alarm", await_alarm},
+    {"exec", become_program},
+    {"exec of path", become_program_of_path},
+    {"exec by system call", become_program_by_system_call},
+    {"become daemon", become_daemon},
+    {"exit by system call", exit_by_system_call},
+    {"exit by system call at exit", exit_by_system_call_at_exit},
+    {"run programs", run_programs},
+    {"fork by system call", fork_by_system_call},
+    {"damage free memory", damage_free_memory},
+    {"lock memory", lock_memory},
     {"throw int", [] { throw 42; }},
     {"throw bad_alloc", [] { throw std::bad_alloc(); }},
     {"throw exception", [] { throw std::runtime_error("the fuse has blown"); }},
@@ -316,6 +358,8 @@ constexpr Fault kFaults[] = {
     {"round up", [] { std::fesetround(FE_UPWARD); }},
     {"flush to zero", flush_to_zero},
     {"close streams", close_streams},
+    {"buffer output", buffer_output},
+    {"drop output stream", [] { stdout = nullptr; }},
     {"use terminal", use_terminal},
     {"link", plant_link},
     {"FIFO", plant_fifo},

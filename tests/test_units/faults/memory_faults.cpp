@@ -2,9 +2,12 @@
 
 #include <cerrno>
 #include <chrono>
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <fstream>
 #include <stdexcept>
+#include <string>
 #include <thread>
 #include <vector>
 
@@ -101,6 +104,29 @@ void allocate_in_children() {
     sleep_for_ever();
   }
   sleep_for_ever();
+}
+
+void damage_free_memory() {
+  constexpr std::size_t kLargest = 1032;  // of the pieces that the C library keeps in lists
+  for (std::size_t size = 24; size <= kLargest; size += 16) {
+    void* const first = std::malloc(size);
+    char* const second = static_cast<char*>(std::malloc(size));
+    std::free(first);
+    std::free(second);
+    for (volatile char* at = second; at < second + 8; at = at + 1) *at = 0x41;  // the next piece
+  }
+  std::abort();
+}
+
+void lock_memory() {
+  std::ifstream maps("/proc/self/maps");
+  for (std::string line; std::getline(maps, line);) {
+    unsigned long begin = 0, end = 0;
+    if (line.find("[heap]") == std::string::npos) continue;
+    if (std::sscanf(line.c_str(), "%lx-%lx", &begin, &end) != 2) continue;
+    ::mprotect(reinterpret_cast<void*>(begin), end - begin, PROT_NONE);
+    return;
+  }
 }
 
 }  // namespace stride::tests

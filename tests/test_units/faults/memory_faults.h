@@ -22,6 +22,11 @@ void allocate();
 /// Through a socket: no process has them open while they are on their way.
 [[noreturn]] void send_nameless_files();
 
+/// No memory can be allocated any more, and the process crashes.
+[[noreturn]] void damage_free_memory();
+/// What has been allocated can neither be read nor written any more.
+void lock_memory();
+
 }  // namespace stride::tests
 
 #endif

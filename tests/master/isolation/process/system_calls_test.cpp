@@ -1,5 +1,7 @@
 #include "master/isolation/process/system_calls.h"
 
+#include <cstdint>
+#include <cstring>
 #include <functional>
 #include <initializer_list>
 #include <string>
@@ -11,6 +13,7 @@
 #include <sched.h>
 #include <sys/ioctl.h>
 #include <sys/ipc.h>
+#include <sys/mman.h>
 #include <sys/msg.h>
 #include <sys/resource.h>
 #include <sys/sem.h>
@@ -23,6 +26,7 @@
 #include <sys/xattr.h>
 #include <utime.h>
 
+#include "master/isolation/process/sandbox.h"
 #include "tests/master/isolation/process/sandbox_support.h"
 
 using namespace stride::isolation;
@@ -148,6 +152,7 @@ TEST_CASE("no other process is reached by its number, a key or a name") {
        {"System V queues", [] { return ::msgget(0x5712de, 0); }},
        {"POSIX queues", [] { return ::mq_open("/stride-test", O_RDONLY); }},
        {"keys", [] { return ::syscall(SYS_keyctl, 0, -3, 0); }},
+       {"a lease", [&] { return ::fcntl(STDIN_FILENO, F_SETLEASE, F_RDLCK); }},
        {"a file by its handle", [] { return ::syscall(SYS_open_by_handle_at, -1, nullptr, 0); }}});
 }
 
@@ -252,26 +257,131 @@ TEST_CASE("calls that are newer than the filters do not exist") {
 }
 
 #ifdef __x86_64__
+namespace {
+
+/// As a 32-bit program makes a call: the answer, or an errno, negated.
+long call32(long number, long first = 0, long second = 0, long third = 0, long fourth = 0,
+            long fifth = 0) {
+  long result = number;
+  asm volatile("int $0x80"
+               : "+a"(result)
+               : "b"(first), "c"(second), "d"(third), "S"(fourth), "D"(fifth)
+               : "memory", "r8", "r9", "r10", "r11");
+  return result;
+}
+
+constexpr long kGetpid32 = 20, kSocket32 = 359;
+
+bool lacks_32_bit_calls() {
+  return is_missing("32-bit system call", [] {
+    if (in_child([] { return std::to_string(call32(kGetpid32)); }) != std::to_string(-ENOSYS)) {
+      return;
+    }
+    throw std::system_error(ENOSYS, std::generic_category(), "int $0x80");
+  });
+}
+
+/// Memory with addresses of 32 bits.
+class LowMemory {
+ public:
+  LowMemory()
+      : bytes_(static_cast<char*>(::mmap(nullptr, kSize, PROT_READ | PROT_WRITE,
+                                         MAP_PRIVATE | MAP_ANONYMOUS | MAP_32BIT, -1, 0))) {
+    REQUIRE(bytes_ != MAP_FAILED);
+  }
+  ~LowMemory() { ::munmap(bytes_, kSize); }
+  LowMemory(const LowMemory&) = delete;
+  LowMemory& operator=(const LowMemory&) = delete;
+
+  /// Its address.
+  long put(const void* content, std::size_t size) {
+    char* const place = bytes_ + used_;
+    std::memcpy(place, content, size);
+    used_ += (size + 7) / 8 * 8;
+    return reinterpret_cast<long>(place);
+  }
+  long put(const std::string& text) { return put(text.c_str(), text.size() + 1); }
+
+ private:
+  static constexpr std::size_t kSize = 4096;
+
+  char* bytes_;
+  std::size_t used_ = 0;
+};
+
+std::string name_of(long answer) { return answer >= 0 ? "done" : ::strerrorname_np(-answer); }
+
+/// In a sandbox that lets nothing be written.
+std::string in_sandbox(const std::function<long()>& call) {
+  return in_child([&] {
+    enter_sandbox({}, true);
+    return name_of(call());
+  });
+}
+
+}  // namespace
+
 TEST_CASE("a 32-bit call gets nothing that others do not") {
-  if (lacks_seccomp()) return;
-  const auto socket32 = [](long domain) {  // as a 32-bit program makes it
-    long result = 359;
-    asm volatile("int $0x80"
-                 : "+a"(result)
-                 : "b"(domain), "c"(static_cast<long>(SOCK_STREAM)), "d"(0L)
-                 : "memory", "r8", "r9", "r10", "r11");
-    return result;
+  if (lacks_seccomp() || lacks_32_bit_calls()) return;
+  const auto socket32 = [](long domain) {
+    return [=] { return name_of(call32(kSocket32, domain, SOCK_STREAM)); };
   };
-  const auto say32 = [&](long domain, auto before) {
-    return in_child([&] {
-      before();
-      return std::to_string(socket32(domain));
-    });
-  };
-  if (std::stol(say32(AF_INET, [] {})) == -ENOSYS) return;  // the kernel has no 32-bit programs
-  CHECK(std::stol(say32(AF_INET, [] {})) >= 0);
-  CHECK(say32(AF_INET, [] { filtered(forbid_network); }) == std::to_string(-EACCES));
-  CHECK(std::stol(say32(AF_UNIX, [] { filtered(forbid_network); })) >= 0);
+  CHECK(in_child(socket32(AF_INET)) == "done");
+  CHECK(say_filtered(forbid_network, socket32(AF_INET)) == "EACCES");
+  CHECK(say_filtered(forbid_network, socket32(AF_UNIX)) == "done");
+}
+
+TEST_CASE("a 32-bit call changes no file, and reaches nothing, outside of the sandbox") {
+  if (lacks_seccomp() || lacks_landlock() || lacks_32_bit_calls()) return;
+  const ScratchFolder scratch;
+  const auto path = write_file(scratch / "file", "text");
+  const int open = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  LowMemory low;
+  const long file = low.put(path.string()), other = low.put(path.string() + "2");
+  const long attribute = low.put("user.x");
+  const std::uint32_t words[] = {AF_INET, SOCK_STREAM, 0};
+  const long socket = low.put(words, sizeof words);
+  const std::vector<Attempt> attempts{
+      {"chmod", [=] { return call32(15, file, 0606); }},
+      {"fchmodat", [=] { return call32(306, AT_FDCWD, file, 0606); }},
+      {"lchown", [=] { return call32(16, file, 1, 1); }},
+      {"lchown32", [=] { return call32(198, file, 1, 1); }},
+      {"chown32", [=] { return call32(212, file, 1, 1); }},
+      {"fchownat", [=] { return call32(298, AT_FDCWD, file, 1, 1, 0); }},
+      {"utime", [=] { return call32(30, file, 0); }},
+      {"utimes", [=] { return call32(271, file, 0); }},
+      {"futimesat", [=] { return call32(299, AT_FDCWD, file, 0); }},
+      {"utimensat", [=] { return call32(320, AT_FDCWD, file, 0, 0); }},
+      {"utimensat_time64", [=] { return call32(412, AT_FDCWD, file, 0, 0); }},
+      {"setxattr", [=] { return call32(226, file, attribute, attribute, 1, 0); }},
+      {"removexattr", [=] { return call32(235, file, attribute); }},
+      {"socketcall(socket)", [=] { return call32(102, 1, socket); }},
+      {"socketcall(sendmsg)", [=] { return call32(102, 16, socket); }},
+      {"truncate", [=] { return call32(92, file, 0); }},
+      {"truncate64", [=] { return call32(193, file, 0, 0); }},
+      {"open", [=] { return call32(5, file, O_WRONLY); }},
+      {"open to truncate", [=] { return call32(5, file, O_RDONLY | O_TRUNC); }},
+      {"creat", [=] { return call32(8, other, 0600); }},
+      {"rename", [=] { return call32(38, file, other); }},
+      {"link", [=] { return call32(9, file, other); }},
+      {"symlink", [=] { return call32(83, file, other); }},
+      {"mkdir", [=] { return call32(39, other, 0700); }},
+      {"mknod", [=] { return call32(14, other, S_IFIFO | 0600, 0); }},
+      {"unlink", [=] { return call32(10, file); }},
+      {"lease", [=] { return call32(55, open, F_SETLEASE, F_RDLCK); }},
+      {"lease by fcntl64", [=] { return call32(221, open, F_SETLEASE, F_RDLCK); }},
+      {"System V memory", [] { return call32(117, 23, 0x5712de, 1, 0); }},
+      {"limits of others", [] { return call32(340, ::getppid(), RLIMIT_CORE, 0, 0); }},
+      {"priority", [] { return call32(97, PRIO_PROCESS, ::getppid(), 0); }},
+      {"memory of others", [] { return call32(348, ::getppid(), 0, 0, 0, 0); }}};
+  for (const Attempt& attempt : attempts) {
+    INFO(attempt.what);
+    const std::string answer = in_sandbox(attempt.call);
+    CHECK((answer == "EACCES" || answer == "EPERM" || answer == "EXDEV"));
+    CHECK(content(path) == "text");
+    CHECK_FALSE(std::filesystem::exists(path.string() + "2"));
+  }
+  ::close(open);
 }
 #endif
 
