@@ -82,7 +82,7 @@ std::string option_hint(const CLI::App& command, const std::vector<std::string>&
     const std::string meant = stride::core::nearest(word.substr(0, word.find('=')), names);
     if (!meant.empty()) return fmt::format("did you mean '{}'?", meant);
   }
-  return fmt::format("'{} --help' lists its options", full_name(command));
+  return fmt::format("'{} --help' lists its options", full_name(&command));
 }
 
 /// CLI11 takes "--isolate=" for "--isolate".

@@ -3,6 +3,7 @@
 #include <cerrno>
 #include <chrono>
 #include <cstdio>
+#include <cstdint>
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
@@ -110,10 +111,12 @@ void damage_free_memory() {
   constexpr std::size_t kLargest = 1032;  // of the pieces that the C library keeps in lists
   for (std::size_t size = 24; size <= kLargest; size += 16) {
     void* const first = std::malloc(size);
-    char* const second = static_cast<char*>(std::malloc(size));
+    void* const second = std::malloc(size);
+    const volatile auto address = reinterpret_cast<std::uintptr_t>(second);  // unseen by compilers
     std::free(first);
     std::free(second);
-    for (volatile char* at = second; at < second + 8; at = at + 1) *at = 0x41;  // the next piece
+    auto* const next_piece = reinterpret_cast<volatile char*>(address);
+    for (int i = 0; i < 8; ++i) next_piece[i] = 0x41;
   }
   std::abort();
 }
