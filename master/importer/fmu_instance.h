@@ -178,11 +178,17 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics, public Call
       fail_missing(name, capability);
   }
 
-  /// Keeps the unit's state by its function. A unit that fails in it, though it declares that it
-  /// can, goes on without: one warning says so, and from then on this does nothing. Whether the
-  /// state is kept; if not, it is null.
+  /// Keeps the unit's state by its function. A unit that fails in it or does not have it, though it
+  /// declares that it can, goes on without: one warning says so, and from then on this does
+  /// nothing. Whether the state is kept; if not, it is null.
   template <class Function>
   bool save_by(const char* name, Function* function, void*& state);
+  /// To be called before a state is restored. One that is null may be that of a unit without any,
+  /// or of a function that does nothing: one warning says so.
+  void check_state(const char* saved_by, const void* state) {
+    if (state == nullptr) [[unlikely]]
+      warn_of_null_state(saved_by);
+  }
   /// Why there is no state to be restored.
   [[noreturn]] void fail_without_state() const;
 
@@ -266,6 +272,7 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics, public Call
   [[noreturn]] void leave_fork() const;
   void restore_mode();
   std::string status_name(Status status) const;
+  std::string failure_of(const char* function, Status status);
   bool is_known(Status status) const;
   template <class Copy>
   void copy_each(const char* function, References references, std::size_t count, Copy&& copy);
@@ -275,7 +282,8 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics, public Call
   char major_version() const { return prefix_[3] != '\0' ? prefix_[3] : '1'; }
   bool may_be_pending() const { return major_version() != '3'; }
 
-  void give_up_saving(const char* function, Status status);
+  void give_up_saving(std::string failure);
+  void warn_of_null_state(const char* saved_by);
 
   const char* prefix_;
   std::string save_failure_;  ///< why the state cannot be saved
@@ -284,6 +292,7 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics, public Call
   std::vector<std::string> messages_;  ///< those of the present call that report a failure
   bool has_mode_warning_ = false;
   bool has_text_warning_ = false;
+  bool has_null_state_warning_ = false;
   core::Listed<FmuInstance> listed_{*this};
 };
 
