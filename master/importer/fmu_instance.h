@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <exception>
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -239,6 +240,17 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics, public Call
   void warn(const std::string& message) const;
 
   Time checked_time(double seconds, const char* what) const;
+  /// To be called before the initialization: the end of the run, if it is known.
+  void set_stop(std::optional<Time> stop) {
+    stop_seconds_ = stop ? to_seconds(*stop) : std::numeric_limits<double>::infinity();
+  }
+  /// The size of a step as the unit gets it. One whose sum with the beginning is rounded to a time
+  /// above the stop time, which units refuse, is the difference of the ends.
+  double size_of(const core::StepInterval& interval) const {
+    const double sum = interval.begin_seconds + interval.size_seconds;
+    const bool is_beyond = sum > stop_seconds_ && interval.end_seconds <= stop_seconds_;
+    return is_beyond ? interval.end_seconds - interval.begin_seconds : interval.size_seconds;
+  }
   /// Whether a time that the unit names is one of the step, the rounding of doubles aside, and what
   /// a unit that adds up its own internal steps may have drifted.
   static bool is_within(const core::StepInterval& interval, double seconds);
@@ -256,6 +268,7 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics, public Call
   bool is_fork_ = false;       ///< the present function has made this process by fork()
   const core::FloatingPointMode mode_ = core::FloatingPointMode::present();
   std::optional<Time> time_;
+  double stop_seconds_ = std::numeric_limits<double>::infinity();
   const std::atomic<bool>& is_unusable_;  ///< the library
   std::atomic<bool> has_messages_ = false;
   std::exception_ptr callback_failure_;
