@@ -193,9 +193,20 @@ void Instance::check_outcome(const Step& step) const {
   }
 }
 
+/// A size that is the difference of two points leads to the second one without rounding. Any other
+/// is a duration of its own, which counts from the exact time: from 4096 s on the rounded sum can
+/// be another picosecond.
+Time Instance::end_of_step(double point, double size) const {
+  const double end = point + size;
+  const bool is_difference = end - point == size;
+  const bool is_from_here = to_seconds(time_) == point && size > 0 && size <= kMaxSeconds;
+  if (is_difference || !is_from_here) return checked_time(end);
+  return later(time_, duration_from_seconds(size));
+}
+
 Instance::StepOutcome Instance::do_step(double point, double size) {
   const Time from = checked_time(point);
-  const Time to = checked_time(point + size);
+  const Time to = end_of_step(point, size);
   check_step(point, size, from, to);
   step_point_ = point;
   step_size_ = size;

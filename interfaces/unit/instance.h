@@ -135,6 +135,7 @@ class Instance final : private InputUpdater {
 
  private:
   void build();
+  Time end_of_step(double point, double size) const;
   void check_step(double point, double size, Time from, Time to) const;
   Step step_to(Time to, bool may_return_early);
   StepOutcome step_through_events(Time to);

@@ -2,6 +2,7 @@
 #ifndef STRIDE_MASTER_ALGORITHM_UNIT_H
 #define STRIDE_MASTER_ALGORITHM_UNIT_H
 
+#include <cmath>
 #include <memory>
 #include <optional>
 #include <span>
@@ -16,7 +17,12 @@
 
 namespace stride::core {
 
-/// A communication step; its ends also in seconds, as they are passed to units.
+/// A communication step; its ends and its size also in seconds, as they are passed to units.
+///
+/// Each is converted from integer time by itself, so a regular step has the same size everywhere,
+/// and units that compare it with their own period accept it. The end is then the sum of beginning
+/// and size but for the rounding of that sum. Where the rounding of the ends is more than a
+/// millionth of the step, its size is their difference.
 struct StepInterval {
   StepInterval(Time step_from, Time step_to)
       : StepInterval(step_from, to_seconds(step_from), step_to) {}
@@ -25,10 +31,15 @@ struct StepInterval {
       : from(step_from),
         to(step_to),
         begin_seconds(from_seconds),
-        end_seconds(to_seconds(step_to)) {}
+        end_seconds(to_seconds(step_to)),
+        size_seconds(to_seconds(step_to - step_from)) {
+    const double difference = end_seconds - begin_seconds;
+    if (std::abs(size_seconds - difference) > 1e-6 * size_seconds) size_seconds = difference;
+  }
 
   Time from, to;
   double begin_seconds, end_seconds;
+  double size_seconds;  ///< 0 if the ends are the same double
 };
 
 /// Variables of one type, read or written by one call, and the block that holds their values.

@@ -64,6 +64,15 @@ std::string how_to_export(const std::vector<std::string>& others) {
   return "export the unit for this platform";
 }
 
+/// The folder of this name, also by another case, if there is none of the same; else the name.
+std::string platform_folder(const fs::path& binaries, const std::string& name) {
+  if (core::is_folder(binaries / name)) return name;
+  for (const std::string& other : folder_names(binaries)) {
+    if (core::lower_case(other) == name) return other;
+  }
+  return name;
+}
+
 std::vector<fs::path> libraries_in(const fs::path& folder) {
   std::vector<fs::path> libraries = core::folder_entries(folder);
   std::erase_if(libraries, [](const fs::path& path) { return path.extension() != ".so"; });
@@ -122,7 +131,7 @@ FoundLibrary find_library(const fs::path& fmu_folder, const std::string& fmi_ver
   if (core::is_file(fmu_folder / expected)) return {fmu_folder / expected, ""};
   const core::Context context{.where = where, .unit = model_identifier};
   for (const std::string& name : names) {
-    const fs::path folder = fs::path("binaries") / name;
+    const fs::path folder = fs::path("binaries") / platform_folder(fmu_folder / "binaries", name);
     const std::vector<fs::path> libraries = libraries_in(fmu_folder / folder);
     if (libraries.empty()) continue;
     const auto other = find_misnamed(libraries, model_identifier);

@@ -24,19 +24,57 @@ std::optional<Duration> read_seconds(const xml::Element& element, const char* at
   }
 }
 
-/// One that no solver can have is ignored.
-void read_tolerance(const xml::Element& experiment, core::UnitDescription& unit) {
-  const auto tolerance = experiment.number<double>("tolerance");
-  if (!tolerance) return;
-  if (std::isfinite(*tolerance) && *tolerance > 0) {
-    unit.default_tolerance = tolerance;
-    return;
+/// Reads <DefaultExperiment>, which is a proposal: what cannot be used of it is ignored.
+class Experiment {
+ public:
+  Experiment(const xml::Element& element, core::UnitDescription& unit)
+      : element_(element), unit_(unit) {}
+
+  /// Nothing if there is none, or none that `fits`, which a warning says.
+  template <class Fits>
+  std::optional<double> number(const char* attribute, const char* expected, Fits&& fits) {
+    const auto text = element_.attribute(attribute);
+    if (!text) return std::nullopt;
+    const auto words = xml::split(*text);
+    const auto value = words.size() == 1 ? xml::to_number<double>(words.front()) : std::nullopt;
+    if (value && std::isfinite(*value) && fits(*value)) return value;
+    ignore(attribute, expected);
+    return std::nullopt;
   }
-  unit.warnings.push_back(
-      core::to_text({.where = experiment.where()}) +
-      fmt::format("tolerance=\"{}\" of {} is ignored: expected a positive number",
-                  *experiment.attribute("tolerance"), experiment.tag()));
-}
+
+  std::optional<Duration> seconds(const char* attribute) {
+    const auto value = number(attribute, "a number of seconds within 9.2e6",
+                              [](double v) { return std::abs(v) <= kMaxSeconds; });
+    return value ? std::optional(duration_from_seconds(*value)) : std::nullopt;
+  }
+
+  std::optional<Duration> step_size() {
+    const auto value = number("stepSize", "a positive number of seconds within 9.2e6",
+                              [](double v) { return v >= 0.5e-12 && v <= kMaxSeconds; });
+    return value ? std::optional(duration_from_seconds(*value)) : std::nullopt;
+  }
+
+  /// One beyond the time that can be simulated cannot be reached, but is no mistake.
+  std::optional<Time> stop() {
+    const Duration start = seconds("startTime").value_or(Duration{});
+    const auto value = number("stopTime", "a number of seconds", [](double) { return true; });
+    if (!value || std::abs(*value) > kMaxSeconds) return std::nullopt;
+    const Duration stop = duration_from_seconds(*value);
+    if (stop > start) return Time(stop);
+    ignore("stopTime", fmt::format("a time after the start, {} s", core::to_text(start)));
+    return std::nullopt;
+  }
+
+ private:
+  void ignore(const char* attribute, const std::string& expected) {
+    unit_.warnings.push_back(core::to_text({.where = element_.where()}) +
+                             fmt::format("{}=\"{}\" of {} is ignored: expected {}", attribute,
+                                         *element_.attribute(attribute), element_.tag(), expected));
+  }
+
+  xml::Element element_;
+  core::UnitDescription& unit_;
+};
 
 }  // namespace
 
@@ -93,23 +131,13 @@ void read_units(const xml::Element& root, core::UnitDescription& unit) {
 }
 
 void read_default_experiment(const xml::Element& root, core::UnitDescription& unit) {
-  const auto experiment = root.child("DefaultExperiment");
-  if (!experiment) return;
-  unit.default_step = read_step_size(*experiment, "stepSize");
-  read_tolerance(*experiment, unit);
-  const Duration start = read_seconds(*experiment, "startTime").value_or(Duration{});
-  const auto seconds = experiment->number<double>("stopTime");
-  // such an experiment cannot be run to its end, but the unit can be used in others
-  if (seconds && std::isfinite(*seconds) && *seconds > kMaxSeconds) return;
-  const auto stop = read_seconds(*experiment, "stopTime");
-  if (!stop) return;
-  if (*stop <= start) {
-    experiment->fail(
-        fmt::format("stopTime=\"{}\" of <DefaultExperiment>: expected a time at least a "
-                    "picosecond after the start, {} s",
-                    *experiment->attribute("stopTime"), core::to_text(start)));
-  }
-  unit.default_stop = Time(*stop);
+  const auto element = root.child("DefaultExperiment");
+  if (!element) return;
+  Experiment experiment(*element, unit);
+  unit.default_step = experiment.step_size();
+  unit.default_tolerance =
+      experiment.number("tolerance", "a positive number", [](double v) { return v > 0; });
+  unit.default_stop = experiment.stop();
 }
 
 }  // namespace stride::importer

@@ -22,7 +22,8 @@ std::string read_model_identifier(const xml::Element& owner);
 void read_capabilities(const xml::Element& co_simulation, core::UnitDescription& unit);
 /// Nothing if there is no such attribute; it must be positive.
 std::optional<Duration> read_step_size(const xml::Element& element, const char* attribute);
-/// <UnitDefinitions> and <DefaultExperiment>.
+/// <UnitDefinitions>, and <DefaultExperiment>, of which attributes that cannot be used are ignored,
+/// with a warning for each.
 void read_units(const xml::Element& root, core::UnitDescription& unit);
 void read_default_experiment(const xml::Element& root, core::UnitDescription& unit);
 

@@ -186,6 +186,10 @@ void Fmu::warn_of_library(const std::string& name, const InstanceOptions& option
                             "for it",
                             library->python()));
   }
+  for (const fs::path& companion : library->companions()) {
+    options.log(name, Status::Ok, "stride",
+                fmt::format("its library needs '{}', which was loaded for it", companion.string()));
+  }
   if (!library_warning_.empty()) options.log(name, Status::Warning, "stride", library_warning_);
   if (changes.empty()) return;
   options.log(name, Status::Warning, "stride",

@@ -114,17 +114,24 @@ void FmuInstance::fail_call(const char* function, Status status) {
   } else {
     hint = was_restored_ ? state_hint(name_) : state_hint(function, name_);
   }
-  fail(fmt::format("{} returned {}: {}", function, status_name(status), take_messages(function)),
-       hint);
+  fail(failure_of(function, status), hint);
 }
 
 // ---- States ----
 
-void FmuInstance::give_up_saving(const char* function, Status status) {
-  save_failure_ =
-      fmt::format("{} returned {}: {}", function, status_name(status), take_messages(function));
+void FmuInstance::give_up_saving(std::string failure) {
+  save_failure_ = std::move(failure);
   warn(fmt::format("{}; its state is not saved any more, so it cannot be rolled back; {}",
                    save_failure_, state_hint(name_)));
+}
+
+void FmuInstance::warn_of_null_state(const char* saved_by) {
+  if (std::exchange(has_null_state_warning_, true)) return;
+  warn(
+      fmt::format("{} returned {} and no state (NULL), which is restored now; if the unit keeps "
+                  "none of its own, it goes on as if nothing were undone, and its results are "
+                  "wrong: compare it by stride verify --check restore; {}",
+                  saved_by, status_name(Status::Ok), state_hint(name_)));
 }
 
 void FmuInstance::fail_without_state() const {
@@ -196,6 +203,10 @@ void FmuInstance::restore_process(const char* function) {
                             : ""));
 }
 
+std::string FmuInstance::failure_of(const char* function, Status status) {
+  return fmt::format("{} returned {}: {}", function, status_name(status), take_messages(function));
+}
+
 std::string FmuInstance::status_name(Status status) const {
   constexpr const char* kNames[] = {"OK", "Warning", "Discard", "Error", "Fatal", "Pending"};
   if (is_known(status)) return std::string(prefix_) + kNames[static_cast<std::size_t>(status)];
@@ -213,8 +224,10 @@ void FmuInstance::fail(const std::string& message, const std::string& hint) cons
 }
 
 void FmuInstance::fail_missing(const char* name, const char* capability) const {
-  fail(fmt::format("its library does not export {}", name),
-       fmt::format("a unit with {} must export it", capability));
+  const std::string hint = state_hint(name, name_);
+  fail(
+      fmt::format("its library does not export {}", name),
+      fmt::format("a unit with {} must export it{}{}", capability, hint.empty() ? "" : "; ", hint));
 }
 
 std::size_t unfinished_calls(std::span<UnitCall> calls) noexcept {

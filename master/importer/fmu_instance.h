@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <exception>
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -182,11 +183,17 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics, public Call
       fail_missing(name, capability);
   }
 
-  /// Keeps the unit's state by its function. A unit that fails in it, though it declares that it
-  /// can, goes on without: one warning says so, and from then on this does nothing. Whether the
-  /// state is kept; if not, it is null.
+  /// Keeps the unit's state by its function. A unit that fails in it or does not have it, though it
+  /// declares that it can, goes on without: one warning says so, and from then on this does
+  /// nothing. Whether the state is kept; if not, it is null.
   template <class Function>
   bool save_by(const char* name, Function* function, void*& state);
+  /// To be called before a state is restored. One that is null may be that of a unit without any,
+  /// or of a function that does nothing: one warning says so.
+  void check_state(const char* saved_by, const void* state) {
+    if (state == nullptr) [[unlikely]]
+      warn_of_null_state(saved_by);
+  }
   /// Why there is no state to be restored.
   [[noreturn]] void fail_without_state() const;
 
@@ -237,6 +244,17 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics, public Call
   void warn(const std::string& message) const;
 
   Time checked_time(double seconds, const char* what) const;
+  /// To be called before the initialization: the end of the run, if it is known.
+  void set_stop(std::optional<Time> stop) {
+    stop_seconds_ = stop ? to_seconds(*stop) : std::numeric_limits<double>::infinity();
+  }
+  /// The size of a step as the unit gets it. One whose sum with the beginning is rounded to a time
+  /// above the stop time, which units refuse, is the difference of the ends.
+  double size_of(const core::StepInterval& interval) const {
+    const double sum = interval.begin_seconds + interval.size_seconds;
+    const bool is_beyond = sum > stop_seconds_ && interval.end_seconds <= stop_seconds_;
+    return is_beyond ? interval.end_seconds - interval.begin_seconds : interval.size_seconds;
+  }
   /// Whether a time that the unit names is one of the step, the rounding of doubles aside, and what
   /// a unit that adds up its own internal steps may have drifted.
   static bool is_within(const core::StepInterval& interval, double seconds);
@@ -254,6 +272,7 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics, public Call
   bool is_fork_ = false;       ///< the present function has made this process, by fork()
   const core::FloatingPointMode mode_ = core::FloatingPointMode::present();
   std::optional<Time> time_;
+  double stop_seconds_ = std::numeric_limits<double>::infinity();
   const std::atomic<bool>& is_unusable_;  ///< the library
   std::atomic<bool> has_messages_ = false;
   std::exception_ptr callback_failure_;
@@ -270,6 +289,7 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics, public Call
   [[noreturn]] void leave_fork() const;
   void restore_mode();
   std::string status_name(Status status) const;
+  std::string failure_of(const char* function, Status status);
   bool is_known(Status status) const;
   template <class Copy>
   void copy_each(const char* function, References references, std::size_t count, Copy&& copy);
@@ -279,7 +299,8 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics, public Call
   char major_version() const { return prefix_[3] != '\0' ? prefix_[3] : '1'; }
   bool may_be_pending() const { return major_version() != '3'; }
 
-  void give_up_saving(const char* function, Status status);
+  void give_up_saving(std::string failure);
+  void warn_of_null_state(const char* saved_by);
 
   const char* prefix_;
   std::string save_failure_;  ///< why the state cannot be saved
@@ -288,6 +309,7 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics, public Call
   std::vector<std::string> messages_;  ///< those of the present call that report a failure
   bool has_mode_warning_ = false;
   bool has_text_warning_ = false;
+  bool has_null_state_warning_ = false;
   core::Listed<FmuInstance> listed_{*this};
 };
 

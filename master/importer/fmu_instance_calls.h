@@ -75,6 +75,10 @@ template <class Function>
 bool FmuInstance::save_by(const char* name, Function* function, void*& state) {
   if (!save_failure_.empty()) [[unlikely]]
     return false;
+  if (function == nullptr) {
+    give_up_saving(std::string("its library does not export ") + name);
+    return false;
+  }
   check_callable(name);
   const auto status =
       static_cast<Status>(guarded(name, [&] { return function(instance_, &state); }));
@@ -82,7 +86,7 @@ bool FmuInstance::save_by(const char* name, Function* function, void*& state) {
     return true;
   if (status == Status::Error || status == Status::Discard) {
     state = nullptr;  // what a failed call leaves there is undefined
-    give_up_saving(name, status);
+    give_up_saving(failure_of(name, status));
     return false;
   }
   if (check_status(name, status) == Status::Pending) fail_call(name, status);

@@ -32,6 +32,11 @@ ModelDescription read(const xml::Document& document) {
   if (root.name().local != "fmiModelDescription") {
     root.fail(fmt::format("the document is a {}; expected <fmiModelDescription>", root.tag()));
   }
+  if (!root.name().name_space.empty()) {
+    root.fail(fmt::format("{} is in the namespace '{}'; that of FMI is in none", root.tag(),
+                          root.name().name_space),
+              "leave out the xmlns=\"…\" of this element");
+  }
   ModelDescription unit;
   unit.warnings = document.warnings();
   unit.fmi_version = root.required("fmiVersion");

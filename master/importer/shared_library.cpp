@@ -13,6 +13,7 @@
 #include "master/importer/binaries.h"
 #include "master/importer/library_file.h"
 #include "master/importer/python_library.h"
+#include "master/util/input_file.h"
 #include "master/util/lower_case.h"
 #include "master/util/process/process_state.h"
 
@@ -68,14 +69,55 @@ std::string hint_for(const std::string& reason) {
   return fmt::format("expected a shared library for {}", platform());
 }
 
+/// The library that the loader's message says is missing; empty if it is about something else, or
+/// about `opened` itself.
+std::string missing_library(const std::string& reason, const std::string& opened) {
+  const std::size_t end = reason.find(": cannot open shared object file");
+  if (end == std::string::npos) return "";
+  const std::string missing = reason.substr(0, end);
+  return missing == opened ? "" : missing;
+}
+
+/// Where an FMU may have a library that its own needs, beside it or in the resources; empty if
+/// there is none.
+fs::path find_companion(const fs::path& library, const std::string& name) {
+  const fs::path folder = library.parent_path();
+  const fs::path binaries = folder.parent_path();
+  std::vector<fs::path> folders{folder};
+  if (binaries.filename() == "binaries") {
+    const fs::path resources = binaries.parent_path() / "resources";
+    folders.insert(folders.end(), {binaries, resources, resources / folder.filename()});
+  }
+  for (const fs::path& candidate : folders) {
+    if (core::is_file(candidate / name)) return candidate / name;
+  }
+  return {};
+}
+
+/// It is there, and cannot be loaded for the unit, since the loader would not know it again.
+[[noreturn]] void fail_by_name(const SharedLibrary& library, const std::string& head,
+                               const std::string& missing, const fs::path& found) {
+  const fs::path from_unit = found.lexically_relative(library.path().parent_path());
+  const fs::path shown = fs::path(library.shown_as()).parent_path() / from_unit;
+  core::fail_input(
+      library.user(),
+      fmt::format("{}it needs the shared library '{}', which is there, as '{}', where the loader "
+                  "does not look for it",
+                  head, missing, shown.lexically_normal().string()),
+      fmt::format("give it the name by which it is needed (patchelf --set-soname {}), let the "
+                  "unit's library name its folder (patchelf --set-rpath '$ORIGIN'), or name a "
+                  "folder that has it in LD_LIBRARY_PATH",
+                  missing));
+}
+
 /// Turns the loader's message (glibc's dlerror) into what is missing and how to get it.
 [[noreturn]] void fail_to_load(const SharedLibrary& library, std::string reason) {
   const core::Context& context = library.user();
   const std::string path = library.path().string();
   const std::string head = fmt::format("the library '{}' cannot be loaded: ", library.shown_as());
-  constexpr std::string_view kNotFound = ": cannot open shared object file";
-  const std::string missing = reason.substr(0, reason.find(kNotFound));
-  if (missing.size() != reason.size() && missing != path) {
+  if (const std::string missing = missing_library(reason, path); !missing.empty()) {
+    const fs::path found = find_companion(library.path(), missing);
+    if (!found.empty()) fail_by_name(library, head, missing, found);
     core::fail_input(
         context,
         fmt::format("{}it needs the shared library '{}', which was not found", head, missing),
@@ -117,6 +159,11 @@ SharedLibrary::SharedLibrary(const fs::path& path, core::Context user, const fs:
     : path_(fs::absolute(path)),
       shown_as_(shown_as.empty() ? path_.string() : shown_as.string()),
       user_(std::move(user)) {
+  if (core::is_lfs_pointer(path_)) {
+    core::fail_input(user_,
+                     fmt::format("'{}' is {}, not the library", shown_as_, core::kLfsPointer),
+                     core::kLfsHint);
+  }
   if (const std::string damage = find_damage(path_); !damage.empty()) {
     core::fail_input(user_, fmt::format("the library '{}' cannot be loaded: {}", shown_as_, damage),
                      "get another copy of the unit, or export it again");
@@ -131,14 +178,36 @@ SharedLibrary::SharedLibrary(const fs::path& path, core::Context user, const fs:
 /// Returns the loader's message if the library cannot be loaded.
 std::string SharedLibrary::load() {
   const Work work("loading", *this);
-  const auto open = [&]() -> std::string {
-    handle_.reset(::dlopen(path_.c_str(), RTLD_NOW | RTLD_LOCAL));
-    return handle_ ? "" : ::dlerror();
-  };
   std::string reason = open();
   if (!is_of_python(undefined_symbol(reason))) return reason;
   python_ = load_python();
   return python_.empty() ? reason : open();
+}
+
+/// Likewise. Libraries that it needs, and they in turn, are opened before it where they are missing
+/// and in the FMU: the loader takes one of the name that is loaded already as if it had found it.
+std::string SharedLibrary::open() {
+  for (std::vector<fs::path> wanted{path_}; true;) {
+    Handle handle(::dlopen(wanted.back().c_str(), RTLD_NOW | RTLD_LOCAL));
+    if (!handle) {
+      std::string reason = ::dlerror();
+      const std::string missing = missing_library(reason, wanted.back());
+      const fs::path found = missing.empty() ? fs::path() : find_companion(path_, missing);
+      const bool is_tried =
+          std::ranges::count(wanted, found) + std::ranges::count(companions_, found);
+      if (found.empty() || is_tried || !find_damage(found).empty()) return reason;
+      wanted.push_back(found);
+      continue;
+    }
+    const fs::path opened = wanted.back();
+    wanted.pop_back();
+    if (wanted.empty()) {
+      handle_ = std::move(handle);
+      return "";
+    }
+    companions_.push_back(opened);
+    companion_handles_.push_back(std::move(handle));
+  }
 }
 
 SharedLibrary::~SharedLibrary() {
@@ -148,6 +217,7 @@ SharedLibrary::~SharedLibrary() {
   }
   const Work work("unloading", *this);
   handle_.reset();
+  companion_handles_.clear();
 }
 
 bool SharedLibrary::can_be_unloaded() const noexcept {

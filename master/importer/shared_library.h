@@ -24,7 +24,9 @@ namespace stride::importer {
 class SharedLibrary {
  public:
   /// Loads it with all its symbols resolved and kept to itself (RTLD_NOW, RTLD_LOCAL). Where a
-  /// symbol of Python is missing, Python's library is loaded for it. Throws core::Error of the kind
+  /// symbol of Python is missing, Python's library is loaded for it. A library that it needs, and
+  /// that the loader does not find, is loaded from its own folder, or from the resources of its
+  /// FMU, if it is there and has a name of its own (DT_SONAME). Throws core::Error of the kind
   /// Input that names the shared library or the symbol that is missing, and for a file that is cut
   /// off or damaged. `user` is the place that names the unit, and a component, if it is known;
   /// messages call the file `shown_as`, or by its path.
@@ -45,6 +47,9 @@ class SharedLibrary {
   const std::vector<std::string>& changes() const { return changes_; }
   /// The name of Python's library, if it was loaded for this one; else empty.
   const std::string& python() const { return python_; }
+
+  /// The paths of the libraries that were loaded for it from its own FMU.
+  const std::vector<std::filesystem::path>& companions() const { return companions_; }
 
   /// To be called when an instance has returned the status Fatal: after it no function of any
   /// instance may be called (FMI 3.0, 2.2.4; FMI 2.0, 2.1.3). Holds for all objects of the same
@@ -82,7 +87,9 @@ class SharedLibrary {
   struct Closer {
     void operator()(void* handle) const;
   };
+  using Handle = std::unique_ptr<void, Closer>;
   std::string load();
+  std::string open();
   void* address(const std::string& symbol) const;
   bool can_be_unloaded() const noexcept;
 
@@ -93,7 +100,9 @@ class SharedLibrary {
   const core::Remnants remnants_;
   std::string python_;
   std::vector<std::string> changes_;
-  std::unique_ptr<void, Closer> handle_;
+  std::vector<std::filesystem::path> companions_;
+  std::vector<Handle> companion_handles_;
+  Handle handle_;
   std::atomic<bool>* is_unusable_ = nullptr;
 };
 

@@ -84,8 +84,18 @@ std::optional<xml::Element> TypeDefinitions::declared(const xml::Element& elemen
   const auto name = element.attribute("declaredType");
   if (!name) return std::nullopt;
   if (const auto found = types_.find(*name); found != types_.end()) return found->second;
-  element.fail(
-      fmt::format("declaredType=\"{}\": there is no such type in <TypeDefinitions>", *name));
+  if (missing_.insert(*name).second) {
+    warnings_->push_back(core::to_text({.where = element.where()}) +
+                         fmt::format("declaredType=\"{}\" is ignored: there is no such type in "
+                                     "<TypeDefinitions>",
+                                     *name));
+  }
+  return std::nullopt;
+}
+
+void TypeDefinitions::fail_without(const xml::Element& enumeration) {
+  enumeration.fail(fmt::format("declaredType=\"{}\": there is no such type in <TypeDefinitions>",
+                               enumeration.required("declaredType")));
 }
 
 core::Causality read_causality(const xml::Element& variable) {
@@ -125,8 +135,8 @@ double read_nominal(const xml::Element& element, ValueType type,
   return std::isfinite(nominal.value_or(0)) ? std::abs(nominal.value_or(0)) : 0;
 }
 
-void check_start(const xml::Element& element, const core::Variable& variable,
-                 std::size_t elements) {
+void check_start(const xml::Element& element, core::Variable& variable,
+                 std::vector<std::string>& warnings, std::size_t elements) {
   const bool is_text = variable.type == ValueType::String || variable.type == ValueType::Binary;
   const std::size_t count = is_text ? elements : xml::split(variable.start).size();
   if (!is_text && count == 0 && variable.size > 0 && element.attribute("start")) {
@@ -140,6 +150,12 @@ void check_start(const xml::Element& element, const core::Variable& variable,
                  "give one value for each element, separated by blanks");
   }
   if (variable.type == ValueType::String) return;
+  if (auto meant = core::meant_value(variable.type, variable.start)) {
+    warnings.push_back(
+        core::to_text({.where = element.where()}) +
+        fmt::format("start=\"{}\" of '{}' is taken for {}", variable.start, variable.name, *meant));
+    variable.start = std::move(*meant);
+  }
   core::Variable form;  // what an element has to be
   form.type = variable.type == ValueType::Enumeration ? ValueType::Int64 : variable.type;
   try {

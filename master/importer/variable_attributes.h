@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -38,13 +39,21 @@ class VariableNames {
 /// The types that are declared by name, each by the element that defines it.
 class TypeDefinitions {
  public:
+  /// What is odd is added to `warnings`, which must outlive it.
+  explicit TypeDefinitions(std::vector<std::string>& warnings) : warnings_(&warnings) {}
+
   /// Throws core::Error of the kind Input at the definition whose name is there already.
   void add(const xml::Element& definition, const xml::Element& type);
-  /// The `declaredType` of an element, if it has one, which must be there.
+  /// The `declaredType` of an element, if it has one. One that is not there is ignored, with a
+  /// warning for each.
   std::optional<xml::Element> declared(const xml::Element& element) const;
+  /// Throws core::Error of the kind Input for an Enumeration, which must have one.
+  [[noreturn]] static void fail_without(const xml::Element& enumeration);
 
  private:
   std::map<std::string, xml::Element> types_;
+  mutable std::set<std::string> missing_;
+  std::vector<std::string>* warnings_;
 };
 
 // Each throws core::Error of the kind Input where the attribute has another value than it may.
@@ -68,8 +77,9 @@ double read_nominal(const xml::Element& element, core::ValueType type,
 /// Throws where the start value of a variable, whose size is known, is not of its type, is empty
 /// though its type is no text, or has neither one element nor as many as the variable. `elements`:
 /// how many a String or Binary has.
-void check_start(const xml::Element& element, const core::Variable& variable,
-                 std::size_t elements = 1);
+/// A value of another form that has one meaning is replaced by it, with a warning.
+void check_start(const xml::Element& element, core::Variable& variable,
+                 std::vector<std::string>& warnings, std::size_t elements = 1);
 /// Throws where the least or the greatest value of a variable is no number, or the least one is
 /// above the greatest one.
 void check_limits(const xml::Element& element, const core::Variable& variable);

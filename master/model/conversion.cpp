@@ -146,6 +146,7 @@ class Composer {
         segments_[segment].transformation.kind != Transformation::Kind::None;
     if (is_checked_later || converts_without_loss(*from.type, *to.type, from.items)) return;
     if (is_real(*from.type) && is_real(*to.type)) return;
+    if (is_boolean_conversion(segment)) return;
     fail(fmt::format(
              "cannot connect {}: {} and {} are different types, and {}", wire(segment),
              core::name(*from.type), core::name(*to.type),
@@ -156,6 +157,15 @@ class Composer {
              ? "an <ssc:IntegerMappingTransformation> whose targets all fit defines which become "
                "which; otherwise put a unit between them that converts the value"
              : "put a unit between them that converts the value, or use one with another type");
+  }
+
+  /// What is behind a number that became a Boolean must be one, too: the number goes to the end.
+  bool is_boolean_conversion(std::size_t segment) const {
+    const auto is_boolean = [](const PathConnector& c) { return c.type == ValueType::Boolean; };
+    if (boolean_conversion(type(segment), type(segment + 1)).empty()) return false;
+    return is_boolean(path_[segment]) ||
+           std::all_of(path_.begin() + static_cast<std::ptrdiff_t>(segment) + 1, path_.end(),
+                       is_boolean);
   }
 
   /// Which types a transformation is for: SSP 2.0, "Transformation Choice".
@@ -363,6 +373,19 @@ bool converts_without_loss(ValueType from, ValueType to, const EnumerationItems&
                        [&](const auto& item) { return target->holds(item.second); });
   }
   return target->holds(*source);
+}
+
+std::string boolean_conversion(ValueType from, ValueType to) {
+  const auto is_plain_integer = [](ValueType type) {
+    return is_integer(type) && type != ValueType::Enumeration;
+  };
+  if (from == ValueType::Boolean && (is_real(to) || is_plain_integer(to))) {
+    return "true becomes 1, false 0";
+  }
+  if (is_plain_integer(from) && to == ValueType::Boolean) {
+    return "0 becomes false, any other number true";
+  }
+  return "";
 }
 
 std::vector<PathConnector> completed(std::vector<PathConnector> path) {

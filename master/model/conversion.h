@@ -26,6 +26,7 @@ struct Conversion {
   std::vector<std::int64_t> valid;
 
   bool is_identity() const { return linear.is_identity() && map.empty(); }
+  bool operator==(const Conversion&) const = default;
 };
 
 /// The mapped number.
@@ -73,7 +74,8 @@ std::vector<PathConnector> completed(std::vector<PathConnector> path);
 /// Composes the segments between the connectors of a path, of which there is one more. Throws Error
 /// (Input) at `context`, or at the transformation that is wrong, for units that cannot be converted
 /// into each other, types that cannot or could lose something, and transformations that do not fit
-/// the types.
+/// the types. A Boolean becomes a number, 1 or 0, and a whole number at the end of the path a
+/// Boolean: see boolean_conversion().
 Conversion compose(const std::vector<PathConnector>& path, std::span<const PathSegment> segments,
                    const Context& context);
 
@@ -89,6 +91,11 @@ TextConversion compose_text(const std::string& text, const std::vector<PathConne
 /// Whether each value of `from` is representable in `to`. An Enumeration converts if all of its
 /// items do.
 bool converts_without_loss(ValueType from, ValueType to, const EnumerationItems& items);
+
+/// What values become between a Boolean and a number, which neither FMI nor SSP defines: "true
+/// becomes 1, false 0", "0 becomes false, any other number true". Empty for other types, and those
+/// that are not converted.
+std::string boolean_conversion(ValueType from, ValueType to);
 
 }  // namespace stride::core
 

@@ -12,6 +12,7 @@
 
 #include "master/model/unknown_variable.h"
 #include "master/util/limited_warnings.h"
+#include "master/util/message_text.h"
 #include "master/util/suggest.h"
 
 namespace stride::core {
@@ -220,12 +221,29 @@ PathConnector System::path_connector(VariableId id) const {
           end.items, false};
 }
 
-Connection System::connect(const ConnectionDeclaration& wanted, const Ends& ends) const {
+Connection System::connect(const ConnectionDeclaration& wanted, const Ends& ends) {
   const auto [from, to] = ends;
   check_ends(wanted, from, to);
   Way way(path_connector(from));
   way.go(wanted, path_connector(to));
-  return {from, to, compose(way.path, way.segments, {wanted.where, {}, {}, {}})};
+  return {from, to, converted_on(way.path, way.segments, wanted.where)};
+}
+
+/// With a warning for each change of type that the standards do not define.
+Conversion System::converted_on(const std::vector<PathConnector>& path,
+                                const std::vector<PathSegment>& segments, const Location& where) {
+  Conversion conversion = compose(path, segments, {where, {}, {}, {}});
+  const std::vector<PathConnector> whole = completed(path);
+  for (std::size_t i = 0; i + 1 < whole.size(); ++i) {
+    const std::string becomes = boolean_conversion(*whole[i].type, *whole[i + 1].type);
+    if (becomes.empty()) continue;
+    warnings_.push_back(
+        to_text({.where = where}) +
+        fmt::format("'{}', a value of the type {}, is connected to '{}' of the type {}: {}",
+                    whole[i].name, core::name(*whole[i].type), whole[i + 1].name,
+                    core::name(*whole[i + 1].type), becomes));
+  }
+  return conversion;
 }
 
 /// Nothing, and a warning, where a parameter set holds a value for no component, as SSP allows.
@@ -269,7 +287,7 @@ std::vector<System::Target> System::find_targets(const SystemDeclaration& declar
   return targets;
 }
 
-ValueBlock System::start_value(const StartDeclaration& wanted, VariableId id) const {
+ValueBlock System::start_value(const StartDeclaration& wanted, VariableId id) {
   const Variable& target = variable(id);
   const UnitDescription& description = *components_[id.component].description;
   const Context context{wanted.where, wanted.component, wanted.variable, {}};
@@ -284,8 +302,13 @@ ValueBlock System::start_value(const StartDeclaration& wanted, VariableId id) co
   Way way({"the value", {}, unit, {}, true});
   way.go(wanted, path_connector(id));
   const auto [text, linear] = compose_text(wanted.value, way.path, way.segments, context);
+  const std::optional<std::string> meant = meant_value(target.type, text);
+  if (meant) {
+    warnings_.push_back(to_text(context) +
+                        fmt::format("'{}' is taken for {}", name_text(text), *meant));
+  }
   try {
-    ValueBlock value = parse(target, text);
+    ValueBlock value = parse(target, meant.value_or(text));
     convert_start(value, linear);
     check_range(target, value, context);
     return value;
@@ -359,7 +382,7 @@ void System::add_output(const OutputDeclaration& wanted) {
   for (const ViaDeclaration& via : wanted.via) way.go(via.connector, via.segment);
   const std::vector<PathConnector> path = completed(way.path);
   const PathConnector& end = path.back();
-  SystemOutput output{from, compose(path, way.segments, {wanted.where, {}, {}, {}}), source};
+  SystemOutput output{from, converted_on(path, way.segments, wanted.where), source};
   output.variable.name = end.name;
   output.variable.aliases.clear();
   output.variable.type = *end.type;

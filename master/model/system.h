@@ -68,7 +68,7 @@ class System {
   /// Those of structural parameters, sorted by component; the sizes of the components' arrays, in
   /// their descriptions, follow from them.
   const std::vector<StartValue>& structural_values() const { return structural_values_; }
-  /// Start values that were ignored, as text.
+  /// What was ignored, or taken for something that it is not by the standards, as text.
   const std::vector<std::string>& warnings() const { return warnings_; }
 
   const Variable& variable(VariableId id) const {
@@ -123,14 +123,16 @@ class System {
   using Ends = std::pair<VariableId, VariableId>;
   std::optional<Ends> find_ends(const SystemDeclaration& declaration,
                                 const ConnectionDeclaration& wanted, Diagnostics& diagnostics);
-  static void check_only(const ConnectionDeclaration& declaration,
-                         const ConnectionDeclaration* first);
-  Connection connect(const ConnectionDeclaration& declaration, const Ends& ends) const;
+  void add_second(const ConnectionDeclaration& declaration, const Connection& connection,
+                  const ConnectionDeclaration& first);
+  Connection connect(const ConnectionDeclaration& declaration, const Ends& ends);
+  Conversion converted_on(const std::vector<PathConnector>& path,
+                          const std::vector<PathSegment>& segments, const Location& where);
   void check_ends(const ConnectionDeclaration& declaration, VariableId from, VariableId to) const;
   PathConnector path_connector(VariableId id) const;
   void note_missing(const StartDeclaration& declaration);
   void note_replaced(const StartDeclaration& declaration, VariableId id);
-  ValueBlock start_value(const StartDeclaration& declaration, VariableId id) const;
+  ValueBlock start_value(const StartDeclaration& declaration, VariableId id);
 
   std::string name_;
   std::vector<Component> components_;

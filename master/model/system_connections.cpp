@@ -45,7 +45,8 @@ void System::add_connections(const SystemDeclaration& declaration, Diagnostics& 
     if (!ends) continue;
     diagnostics.attempt([&] {
       const Connection connection = connect(wanted, *ends);
-      check_only(wanted, sources.emplace(connection.to, &wanted).first->second);
+      const auto [source, is_first] = sources.emplace(connection.to, &wanted);
+      if (!is_first) return add_second(wanted, connection, *source->second);
       connections_.push_back(connection);
     });
   }
@@ -122,12 +123,23 @@ std::optional<System::Ends> System::find_ends(const SystemDeclaration& declarati
   return Ends{*from, *to};
 }
 
-void System::check_only(const ConnectionDeclaration& wanted, const ConnectionDeclaration* first) {
-  if (&wanted == first) return;
+/// One that says the same once more is ignored.
+void System::add_second(const ConnectionDeclaration& wanted, const Connection& connection,
+                        const ConnectionDeclaration& first) {
+  const auto same = std::ranges::find(connections_, connection.to, &Connection::to);
+  if (same != connections_.end() && same->from == connection.from &&
+      same->conversion == connection.conversion) {
+    warnings_.push_back(to_text({.where = wanted.where}) +
+                        fmt::format("the connection of '{}' to '{}' is there already, in line {}; "
+                                    "this one is ignored",
+                                    full_name(connection.from), full_name(connection.to),
+                                    first.where.line));
+    return;
+  }
   fail_input({wanted.where, wanted.to_component, wanted.to_connector, {}},
              fmt::format("this input has two sources: '{}.{}' here and '{}.{}' in line {}",
-                         wanted.from_component, wanted.from_connector, first->from_component,
-                         first->from_connector, first->where.line),
+                         wanted.from_component, wanted.from_connector, first.from_component,
+                         first.from_connector, first.where.line),
              "remove one of the two connections");
 }
 

@@ -38,6 +38,7 @@ struct LinearConversion {
   double factor = 1;
   double offset = 0;
   bool is_identity() const { return factor == 1 && offset == 0; }
+  bool operator==(const LinearConversion&) const = default;
 };
 
 /// How values in one unit become values in another. Where one side has none they are taken as they

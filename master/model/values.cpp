@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "master/util/hex.h"
+#include "master/util/lower_case.h"
 #include "master/util/message_text.h"
 
 namespace stride::core {
@@ -69,6 +70,19 @@ void parse_enumeration(const Variable& variable, const std::string& text, std::i
     names += (names.empty() ? "" : ", ") + item;
   }
   reject(text, "one of " + names);
+}
+
+/// A word of such a text, or the word itself.
+std::string meant_word(ValueType type, const std::string& word) {
+  if (type == ValueType::Boolean) {
+    const std::string lower = lower_case(word);
+    return lower == "true" || lower == "false" ? lower : word;
+  }
+  const std::size_t digits = word.starts_with('-') ? 1 : 0;
+  const std::size_t point = word.find_first_not_of("0123456789", digits);
+  const bool is_whole = point != word.npos && point > digits && word[point] == '.' &&
+                        word.find_first_not_of('0', point + 1) == word.npos;
+  return is_whole ? word.substr(0, point) : word;
 }
 
 template <class T>
@@ -179,6 +193,20 @@ ValueBlock parse(const Variable& variable, const std::string& text) {
     for (std::size_t i = 0; i < words.size(); ++i) parse_element(variable, words[i], values[i]);
   });
   return block;
+}
+
+std::optional<std::string> meant_value(ValueType type, const std::string& text) {
+  const bool may_differ = !is_real(type) && element_size(type) > 0 && type != ValueType::Clock &&
+                          type != ValueType::Enumeration;
+  if (!may_differ) return std::nullopt;
+  std::string meant;
+  bool differs = false;
+  for (const std::string& word : split(text)) {
+    const std::string value = meant_word(type, word);
+    differs |= value != word;
+    meant += (meant.empty() ? "" : " ") + value;
+  }
+  return differs ? std::optional(meant) : std::nullopt;
 }
 
 std::string element_text(const ValueBlock& block, std::size_t element) {

@@ -5,6 +5,7 @@
 #include <cassert>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <type_traits>
@@ -118,6 +119,13 @@ To converted(const From& value, const Conversion& conversion) {
     if (conversion.linear.is_identity()) return static_cast<To>(value);
     return static_cast<To>(conversion.linear.factor * value + conversion.linear.offset);
   } else {
+    if constexpr (std::is_floating_point_v<To>) {
+      // a path may change the type first, and transform the number then
+      if (!conversion.linear.is_identity()) {
+        return static_cast<To>(conversion.linear.factor * static_cast<double>(value) +
+                               conversion.linear.offset);
+      }
+    }
     if (conversion.map.empty()) return static_cast<To>(value);
     return static_cast<To>(mapped(conversion.map, static_cast<std::int64_t>(value)));
   }
@@ -134,6 +142,10 @@ bool is_same(const ValueBlock& a, std::size_t a_element, const ValueBlock& b,
 /// Boolean, the item's name or number for Enumeration, hexadecimal digits for Binary, the text
 /// itself for String. Throws std::invalid_argument whose text contains what was expected.
 ValueBlock parse(const Variable& variable, const std::string& text);
+
+/// The value that a text of another form is meant to be, which some tools write: "true" for "True"
+/// or "TRUE", "2" for the "2.0" of an integer. Nothing for any other text, and for other types.
+std::optional<std::string> meant_value(ValueType type, const std::string& text);
 
 /// The text of one element: shortest decimal form that reads back the same, "true"/"false",
 /// hexadecimal digits.

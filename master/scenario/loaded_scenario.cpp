@@ -214,11 +214,15 @@ void LoadedScenario::choose_times(const ScenarioRequest& request) {
     spdlog::warn("the run ends where it starts, at {} s, so it has initial values only",
                  core::to_text(options_.start));
   }
-  if (options_.stop < options_.start) {
-    core::fail_input(of_file(),
-                     fmt::format("the stop time {} s is before the start time {} s",
-                                 core::to_text(options_.stop), core::to_text(options_.start)));
-  }
+  if (options_.stop >= options_.start) return;
+  const bool is_of_units = request.stop.empty() && !scenario_.stop;
+  core::fail_input(
+      of_file(),
+      fmt::format("the stop time {} s{} is before the start time {} s",
+                  core::to_text(options_.stop),
+                  is_of_units ? ", which is that of the units' DefaultExperiment," : "",
+                  core::to_text(options_.start)),
+      "give a later one by --stop SECONDS or <ssd:DefaultExperiment stopTime=\"…\"/>");
 }
 
 void LoadedScenario::choose_steps(const StepSettings& request) {

@@ -32,11 +32,11 @@ void read_default_experiment(const xml::Element& root, Scenario& scenario) {
   experiment->allow_children({{ssp::kSsd, "Annotations"}});
   scenario.start = read_instant(*experiment, "startTime");
   scenario.stop = read_instant(*experiment, "stopTime");
-  if (scenario.stop && *scenario.stop <= scenario.start.value_or(Time{})) {
+  if (scenario.stop && *scenario.stop < scenario.start.value_or(Time{})) {
     experiment->fail(
-        fmt::format("the run would end at {} s, before or where it starts ({} s)",
+        fmt::format("the run would end at {} s, before it starts ({} s)",
                     core::to_text(*scenario.stop), core::to_text(scenario.start.value_or(Time{}))),
-        "give a stopTime above the startTime");
+        "give a stopTime that is not below the startTime");
   }
 }
 

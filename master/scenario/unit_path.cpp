@@ -69,7 +69,9 @@ fs::path find_unit_shown_as(const fs::path& path, const std::string& shown_as,
     if (core::path_exists(candidate)) return candidate;
     searched += fmt::format("\n    {}", folder.string());
   }
-  const std::vector<std::string> known = known_units(folders);
+  std::vector<fs::path> places{path.has_parent_path() ? path.parent_path() : fs::path(".")};
+  places.insert(places.end(), folders.begin(), folders.end());
+  const std::vector<std::string> known = known_units(places);
   core::fail_input({where, {}, {}, {}},
                    fmt::format("there is no unit '{}', and none named '{}' in{}", shown_as,
                                path.filename().string(), searched),

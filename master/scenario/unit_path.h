@@ -15,7 +15,8 @@ namespace stride::scenario {
 std::vector<std::filesystem::path> unit_folders();
 
 /// The path itself if it exists, else the file of that name in the first unit folder that has it.
-/// Throws core::Error (Input) that lists the searched folders.
+/// Throws core::Error (Input) that lists the searched folders, with the nearest name there and
+/// beside the path.
 std::filesystem::path find_unit(const std::filesystem::path& path, const core::Location& where);
 /// Likewise; errors name the path `shown_as`.
 std::filesystem::path find_unit_shown_as(const std::filesystem::path& path,

@@ -16,6 +16,7 @@
 #include "master/ssp/transformation.h"
 #include "master/ssp/uri.h"
 #include "master/util/input_file.h"
+#include "master/util/lower_case.h"
 #include "master/util/suggest.h"
 #include "master/util/xml/document.h"
 
@@ -192,9 +193,12 @@ class SystemReader {
     reading_.warnings.push_back(core::to_text({.where = element.where()}) + message);
   }
 
+  /// What is written, if that is a type, else what its source says.
   static std::string type_of(const xml::Element& component) {
-    if (const auto type = component.attribute("type")) return *type;
-    const std::string source = component.required("source");
+    const std::string type = core::lower_case(component.attribute_or("type"));
+    if (type == kFmuType || type == kSystemType || type == kPackageType) return type;
+    const std::string source = core::lower_case(component.required("source"));
+    if (!type.empty() && !source.ends_with(".fmu")) return type;
     if (source.starts_with('#') || source.ends_with(".ssd")) return kSystemType;
     if (source.ends_with(".ssp")) return kPackageType;
     return kFmuType;
@@ -212,8 +216,13 @@ class SystemReader {
                                  fmt::format("the types '{}', '{}' and '{}' are read", kFmuType,
                                              kSystemType, kPackageType));
     }
-    const std::string implementation = component.attribute_or("implementation", "any");
-    if (implementation == "any" || implementation == "CoSimulation") return;
+    const std::string written = component.attribute_or("type");
+    if (!written.empty() && core::lower_case(written) != type) {
+      warn(component, fmt::format("type=\"{}\" of a component is taken for '{}'", written, type));
+    }
+    const std::string implementation = component.attribute_or("implementation");
+    const std::string word = core::lower_case(implementation);
+    if (word.empty() || word == "any" || word == "cosimulation") return;
     warn(component,
          fmt::format("the FMU is meant for '{}'; stride uses its Co-Simulation interface, "
                      "if it has one",

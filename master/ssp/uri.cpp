@@ -57,9 +57,22 @@ FoundFile find_elsewhere(std::string path, const std::filesystem::path& folder) 
   return if_there(folder / "resources" / path);
 }
 
+[[noreturn]] void fail_windows(const xml::Element& element, const std::string& source) {
+  element.fail(fmt::format("source=\"{}\" is a path of Windows", source),
+               "name the file relative to this one");
+}
+
+/// As "/C:/unit.fmu" in a URI.
+bool has_drive(std::string_view path) {
+  path.remove_prefix(path.starts_with('/') ? 1 : 0);
+  const auto is_letter = [](char c) { return (c | 0x20) >= 'a' && (c | 0x20) <= 'z'; };
+  return path.size() > 2 && is_letter(path[0]) && (path[1] == ':' || path[1] == '|') &&
+         (path[2] == '/' || path[2] == '\\');
+}
+
 [[noreturn]] void fail_scheme(const xml::Element& element, const std::string& source,
                               const std::string& scheme) {
-  if (scheme == "proxyfmu") {
+  if (scheme == "proxyfmu" || scheme == "proxy-fmu") {
     element.fail(
         fmt::format("source=\"{}\": this requires a server, proxy-fmu, that runs an FMU in another "
                     "process",
@@ -68,10 +81,7 @@ FoundFile find_elsewhere(std::string path, const std::filesystem::path& folder) 
         "components=\"…\"/> "
         "or --isolate");
   }
-  if (scheme.size() == 1) {
-    element.fail(fmt::format("source=\"{}\" is a path of Windows", source),
-                 "name the file relative to this one");
-  }
+  if (scheme.size() == 1) fail_windows(element, source);
   element.fail(fmt::format("source=\"{}\": only files can be read, not '{}:'", source, scheme),
                "download it, and name the file relative to this one");
 }
@@ -104,6 +114,7 @@ Source source_of(const xml::Element& element, const std::filesystem::path& folde
                  "write %3F if the file's name has a '?'");
   }
   const std::string path = percent_decoded(rest, element);
+  if (has_drive(path) && !core::path_exists(folder / path)) fail_windows(element, source);
   return {find_elsewhere(path, folder).value_or((folder / path).lexically_normal()),
           percent_decoded(fragment, element)};
 }

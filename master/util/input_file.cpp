@@ -68,6 +68,8 @@ Context at(const fs::path& file, const std::string& shown_as) {
              "check that it is a file that you may read");
 }
 
+constexpr std::string_view kLfsBeginning = "version https://git-lfs.github.com/spec/";
+
 }  // namespace
 
 Descriptor open_input(const fs::path& file, const Location& where) {
@@ -118,6 +120,12 @@ std::string head_of(const fs::path& file, std::size_t count) {
   }
   return head;
 }
+
+bool is_lfs_pointer(const fs::path& file) {
+  return begins_as_lfs_pointer(head_of(file, kLfsBeginning.size()));
+}
+
+bool begins_as_lfs_pointer(std::string_view content) { return content.starts_with(kLfsBeginning); }
 
 void copy_input(const fs::path& file, const fs::path& copy) {
   const Descriptor opened = open_input(file);

@@ -34,6 +34,13 @@ std::string read_input(const std::filesystem::path& file, const std::string& sho
 /// The first bytes, fewer where there are fewer; none where the file cannot be read.
 std::string head_of(const std::filesystem::path& file, std::size_t count);
 
+/// Whether the file is what Git has in place of a large one (Git LFS) that was not fetched.
+bool is_lfs_pointer(const std::filesystem::path& file);
+/// Likewise, of what a file holds.
+bool begins_as_lfs_pointer(std::string_view content);
+inline constexpr const char* kLfsPointer = "a pointer of Git LFS";
+inline constexpr const char* kLfsHint = "fetch the file itself in its repository: git lfs pull";
+
 /// Copies such a file to a new one. Throws Error (Input) where it cannot be read, and Error (Run)
 /// where the copy cannot be written.
 void copy_input(const std::filesystem::path& file, const std::filesystem::path& copy);

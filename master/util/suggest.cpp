@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include "master/util/lower_case.h"
+
 namespace stride::core {
 namespace {
 
@@ -41,6 +43,10 @@ std::size_t edit_distance(std::string_view a, std::string_view b, std::size_t li
 }  // namespace
 
 std::string nearest(const std::string& word, std::span<const std::string> candidates) {
+  const std::string lower = lower_case(word);
+  for (const std::string& candidate : candidates) {
+    if (candidate.size() == word.size() && lower_case(candidate) == lower) return candidate;
+  }
   std::string best;
   std::size_t best_distance = std::max<std::size_t>(2, word.size() / 3) + 1;
   for (const std::string& candidate : candidates) {

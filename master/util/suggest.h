@@ -6,8 +6,8 @@
 
 namespace stride::core {
 
-/// The candidate with the smallest edit distance (Levenshtein), or an empty text if none is near
-/// enough to be what was meant.
+/// The candidate that differs by case only, else the one with the smallest edit distance
+/// (Levenshtein), or an empty text if none is near enough to be what was meant.
 std::string nearest(const std::string& word, std::span<const std::string> candidates);
 
 /// "did you mean 'x'?", or else "known are: a, b, c" (shortened where there are many).

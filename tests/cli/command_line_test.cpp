@@ -74,6 +74,12 @@ TEST_CASE("a stop time before the start time is refused") {
   const Workspace workspace(parts);
   CHECK_THAT(input_error_of(workspace.run({"--stop", "1"})),
              Contains("the stop time 1 s is before the start time 2 s"));
+  parts.components = component("first", "fmi2_relaxation.fmu");
+  parts.connections = "";
+  parts.experiment = "<ssd:DefaultExperiment startTime=\"5\"/>\n";
+  CHECK_THAT(input_error_of(Workspace(parts).run()),
+             Contains("that of the units' DefaultExperiment, is before the start time 5 s") &&
+                 Contains("--stop SECONDS"));
 }
 
 TEST_CASE("without a stop time anywhere, the message says where to give one") {

@@ -129,3 +129,48 @@ TEST_CASE("a system as tools write it runs, with a warning for each thing that h
   CHECK(times.size() == 21);  // to the unit's own stop time
   CHECK(workspace.signals().numbers("unit.x").back() == Approx(3 - 2 * std::exp(-2)));
 }
+
+TEST_CASE("a Boolean is connected to a Real, as 1 or 0, with a warning for the connection") {
+  const Workspace workspace(
+      Parts{component("valve", "fmi2_types.fmu",
+                      "<ssd:ParameterBindings><ssd:ParameterBinding><ssd:ParameterValues>"
+                      "<ssv:ParameterSet "
+                      "xmlns:ssv=\"http://ssp-standard.org/SSP1/SystemStructureParameterValues\" "
+                      "version=\"1.0\" name=\"p\"><ssv:Parameters><ssv:Parameter name=\"boolean\">"
+                      "<ssv:Boolean value=\"true\"/></ssv:Parameter></ssv:Parameters>"
+                      "</ssv:ParameterSet></ssd:ParameterValues></ssd:ParameterBinding>"
+                      "</ssd:ParameterBindings>") +
+                component("tank", "fmi2_relaxation.fmu") + component("other", "fmi2_types.fmu"),
+            connection("valve.boolean.echo", "tank.u") +
+                connection("valve.boolean.echo", "other.integer") +
+                connection("valve.integer.echo", "other.boolean")});
+  const Arguments hosting = GENERATE(Arguments{"--quiet"}, Arguments{"--quiet", "--isolate"});
+  const Outcome outcome = workspace.run(hosting);
+  INFO(outcome.err);
+  REQUIRE(outcome.exit_code == 0);
+  CHECK_THAT(outcome.err,
+             Contains("test.ssd:") &&
+                 Contains("'valve.boolean.echo', a value of the type Boolean, is connected to "
+                          "'tank.u' of the type Float64: true becomes 1, false 0") &&
+                 Contains("'other.boolean' of the type Boolean: 0 becomes false"));
+  CHECK(workspace.signals().numbers("tank.x").back() == 1);  // where it starts; else it falls to 0
+  CHECK(workspace.signals().numbers("other.integer.echo").back() == 1);
+  const Outcome completed = workspace.stride({"complete", "test.ssd", "-o", "completed.ssd"});
+  CHECK(completed.exit_code == 0);
+  CHECK(workspace.stride({"run", "completed.ssd", "--quiet", "--out", "again"}).exit_code == 0);
+}
+
+TEST_CASE("a source that differs by case from a file beside it is named with it") {
+  const Workspace workspace(Parts{component("unit", "Plain.fmu")});
+  fs::copy_file(test_fmu("fmi2_relaxation"), workspace / "plain.fmu");
+  CHECK_THAT(input_error_of(workspace.run()), Contains("did you mean 'plain.fmu'?"));
+}
+
+TEST_CASE("a run of a system that ends where it starts has initial values, however it is said") {
+  Parts parts{component("unit", "fmi2_relaxation.fmu")};
+  parts.experiment = "<ssd:DefaultExperiment startTime=\"1\" stopTime=\"1\"/>\n";
+  const Workspace workspace(parts);
+  const Outcome outcome = workspace.run({"--quiet"});
+  CHECK(outcome.exit_code == 0);
+  CHECK_THAT(outcome.err, Contains("the run ends where it starts, at 1 s"));
+}

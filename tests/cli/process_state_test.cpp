@@ -149,10 +149,12 @@ TEST_CASE("the only unit without a host is the one that has changed the process"
 
 TEST_CASE("FMI 2.0: a floating-point mode that a step leaves behind") {
   const Workspace workspace = beside_others("fmi2_faulty.fmu");
-  REQUIRE(run_without_meddling(workspace).exit_code == 0);
+  // the step is a power of 2, so the unit's own times are the same in any mode
+  const Arguments step{"--step", "0.0009765625"};
+  REQUIRE(run_without_meddling(workspace, step).exit_code == 0);
   const std::string expected = numbers(workspace);
   const FaultOrder order("round up", "step", "0.5");
-  const Outcome outcome = run_without_meddling(workspace);
+  const Outcome outcome = run_without_meddling(workspace, step);
   CHECK(outcome.exit_code == 0);
   CHECK_THAT(outcome.err, Contains("fmi2DoStep left another floating-point mode behind"));
   CHECK(numbers(workspace) == expected);

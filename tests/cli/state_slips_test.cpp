@@ -73,10 +73,16 @@ TEST_CASE("without its own functions for its state it follows the others") {
     CHECK(run_with_slip(workspace, slip).exit_code == 0);
 }
 
-TEST_CASE("a state that is a null pointer is one") {
+TEST_CASE("a state that is a null pointer is one, with a warning where it is restored") {
   const Workspace workspace = behind("fmi2_turner.fmu");
   REQUIRE(run_with_slip(workspace, "0").exit_code == 0);
   const std::string expected = workspace.result("signals.csv");
-  CHECK(run_with_slip(workspace, "4").exit_code == 0);
+  const Outcome outcome = run_with_slip(workspace, "4");
+  CHECK(outcome.exit_code == 0);
   CHECK(workspace.result("signals.csv") == expected);
+  const std::string warning = "unit 'forgetter': fmi2GetFMUstate returned fmi2OK and no state";
+  CHECK_THAT(outcome.err,
+             Contains(warning) && Contains("<stride:StateSaving components=\"forgetter\""));
+  CHECK(outcome.err.find(warning) == outcome.err.rfind(warning));
+  CHECK(run_with_slip(behind("fmi2_relaxation.fmu"), "4").err == "");
 }

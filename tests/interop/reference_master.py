@@ -97,15 +97,15 @@ class Master:
         self.given = {}  # what each input was set to last
 
     def run(self):
-        points = [float(point) for point in self.system.points()]
-        self._initialize(points[-1])
+        points = self.system.points()  # exact, as are the sizes of the steps between them
+        self._initialize(float(points[-1]))
         initial = {unit for unit in self.units.values() if unit.has_event_mode}
         end = self._settle(initial, in_event_mode=initial)
-        self._record(points[0])
+        self._record(float(points[0]))
         for start, target in zip(points, points[1:]):
             if end:
                 break
-            end = self._step(start, target)
+            end = self._step(float(start), float(target), float(target - start))
         for unit in self.units.values():
             unit.close()
         return self.table
@@ -125,9 +125,9 @@ class Master:
             if not unit.is_fmi1:
                 unit.fmu.exitInitializationMode()
 
-    def _step(self, start, target):
+    def _step(self, start, target, size):
         self._exchange(lambda _: True)
-        answers = {unit: unit.step(start, target - start) for unit in self.units.values()}
+        answers = {unit: unit.step(start, size) for unit in self.units.values()}
         end = self._settle({unit for unit, (event, _) in answers.items() if event})
         ended = [when for _, when in answers.values() if when is not None]
         self._record(min(ended, default=target))

@@ -58,7 +58,8 @@ void read_fmi1_capabilities(const xml::Element& stand_alone, core::UnitDescripti
 /// Reads <ModelVariables>.
 class Fmi1Variables {
  public:
-  Fmi1Variables(const xml::Element& root, core::UnitDescription& unit) : unit_(unit) {
+  Fmi1Variables(const xml::Element& root, core::UnitDescription& unit)
+      : unit_(unit), types_(unit.warnings) {
     const auto list = root.child("ModelVariables");
     if (!list) root.fail("<ModelVariables> is missing");
     read_types(root);
@@ -105,7 +106,7 @@ class Fmi1Variables {
     read_kind(element, variable);
     variable.initial = read_initial(element, variable);
     variable.start = typed.attribute_or("start");
-    check_start(typed, variable);
+    check_start(typed, variable, unit_.warnings);
     const auto declared = types_.declared(typed);
     variable.unit = inherited(typed, declared, "unit");
     variable.min = inherited(typed, declared, "min");

@@ -46,6 +46,7 @@ core::Capability* Fmi1Unit::find_capability(core::CapabilityId id) {
 
 void Fmi1Unit::enter_initialization(Time start, std::optional<Time> stop) {
   time_ = start;
+  set_stop(stop);
   call_and_restore("fmiInitializeSlave", fmi_.InitializeSlave, to_seconds(start),
                    static_cast<fmi1Boolean>(stop.has_value()), to_seconds(stop.value_or(Time{})));
 }
@@ -80,7 +81,7 @@ core::StepResult Fmi1Unit::step(const core::StepInterval& interval,
                                 const core::StepValues& values) {
   for (const core::BoundValues& input : values.inputs) set(input.references, *input.block);
   time_ = interval.from;
-  const double size = interval.end_seconds - interval.begin_seconds;
+  const double size = size_of(interval);
   core::StepResult result{.reached = interval.to};
   if (size > 0) {  // else it is the same instant to the unit, whose time is a double
     const fmi1Boolean is_new = is_new_step_ ? fmi1True : fmi1False;

@@ -53,7 +53,8 @@ xml::Element type_element(const xml::Element& parent) {
 /// Reads <ModelVariables>.
 class Variables {
  public:
-  Variables(const xml::Element& root, core::UnitDescription& unit) : unit_(unit) {
+  Variables(const xml::Element& root, core::UnitDescription& unit)
+      : unit_(unit), types_(unit.warnings) {
     const auto list = root.child("ModelVariables");
     if (!list) root.fail("<ModelVariables> is missing");
     read_types(root);
@@ -95,7 +96,7 @@ class Variables {
     variable.variability = variability(element, variable);
     variable.initial = read_initial(element, variable);
     variable.start = typed.attribute_or("start");
-    check_start(typed, variable);
+    check_start(typed, variable, unit_.warnings);
     const auto declared = declared_type(typed);
     variable.unit = inherited(typed, declared, "unit");
     variable.min = inherited(typed, declared, "min");
@@ -106,7 +107,7 @@ class Variables {
                                    variable.causality == Causality::Input &&
                                    variable.variability == Variability::Continuous;
     if (variable.type != ValueType::Enumeration) return variable;
-    if (!declared) typed.required("declaredType");
+    if (!declared) TypeDefinitions::fail_without(typed);
     variable.items = read_items(*declared);
     return variable;
   }

@@ -49,6 +49,7 @@ core::Capability* Fmi2Unit::find_capability(core::CapabilityId id) {
 /// Start values come after fmi2SetupExperiment, as in other importers: some units reset them there.
 void Fmi2Unit::enter_initialization(Time start, std::optional<Time> stop) {
   time_ = start;
+  set_stop(stop);
   const auto tolerance = parts_.description->default_tolerance;
   call_and_restore("fmi2SetupExperiment", fmi_.SetupExperiment, tolerance ? fmi2True : fmi2False,
                    tolerance.value_or(0), to_seconds(start), stop ? fmi2True : fmi2False,
@@ -161,8 +162,7 @@ core::StepResult Fmi2Unit::step(const core::StepInterval& interval,
                                 const core::StepValues& values) {
   for (const core::BoundValues& input : values.inputs) set(input);
   time_ = interval.from;
-  // no other double lands nearer to the end
-  const double size = interval.end_seconds - interval.begin_seconds;
+  const double size = size_of(interval);
   if (!(size > 0)) {  // to the unit, whose time is a double, it is the same instant
     time_ = interval.to;
     return {.reached = interval.to};

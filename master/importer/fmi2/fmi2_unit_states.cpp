@@ -17,7 +17,6 @@ void Fmi2Unit::restore_state() {
 }
 
 bool Fmi2Unit::save(SavedState& saved) {
-  require("fmi2GetFMUstate", fmi_.GetFMUstate, kFmi2Saving);
   saved.is_present = save_by("fmi2GetFMUstate", fmi_.GetFMUstate, saved.state);
   saved.time = time_;
   saved.is_instantiated_only = is_instantiated_only_;
@@ -28,6 +27,7 @@ bool Fmi2Unit::save(SavedState& saved) {
 void Fmi2Unit::restore(const SavedState& saved) {
   if (!saved.is_present) fail_without_state();
   require("fmi2SetFMUstate", fmi_.SetFMUstate, kFmi2Saving);
+  check_state("fmi2GetFMUstate", saved.state);
   call("fmi2SetFMUstate", fmi_.SetFMUstate, saved.state);
   was_restored_ = true;
   time_ = saved.time;

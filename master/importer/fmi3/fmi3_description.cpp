@@ -22,8 +22,9 @@ using VariableIndex = std::map<core::ValueReference, std::size_t>;
 
 // ---- Variables, with what their declared types add ----
 
-TypeDefinitions read_type_definitions(const xml::Element& root) {
-  TypeDefinitions types;
+TypeDefinitions read_type_definitions(const xml::Element& root,
+                                      std::vector<std::string>& warnings) {
+  TypeDefinitions types(warnings);
   const auto definitions = root.child("TypeDefinitions");
   if (!definitions) return types;
   for (const xml::Element& definition : definitions->children()) {
@@ -80,7 +81,7 @@ core::Variable read_variable(const xml::Element& element, ValueType type,
   }
   variable.intermediate_update = element.flag("intermediateUpdate");
   if (type != ValueType::Enumeration) return variable;
-  if (!declared) element.required("declaredType");
+  if (!declared) TypeDefinitions::fail_without(element);
   variable.items = read_items(*declared);
   return variable;
 }
@@ -88,8 +89,8 @@ core::Variable read_variable(const xml::Element& element, ValueType type,
 /// Resolves the relations of variables: names, references, clocks, dimensions.
 class Linker {
  public:
-  Linker(std::vector<core::Variable>& variables, const std::vector<xml::Element>& elements)
-      : variables_(variables), elements_(elements) {}
+  Linker(core::UnitDescription& unit, const std::vector<xml::Element>& elements)
+      : variables_(unit.variables), warnings_(unit.warnings), elements_(elements) {}
 
   VariableIndex run() {
     for (std::size_t i = 0; i < variables_.size(); ++i) add(i);
@@ -98,7 +99,7 @@ class Linker {
       read_dimensions(i);
     }
     for (std::size_t i = 0; i < variables_.size(); ++i) {
-      check_start(elements_[i], variables_[i], elements_[i].children("Start").size());
+      check_start(elements_[i], variables_[i], warnings_, elements_[i].children("Start").size());
       check_limits(elements_[i], variables_[i]);
     }
     return std::move(index_);
@@ -178,25 +179,26 @@ class Linker {
   int line(std::size_t i) const { return elements_[i].where().line; }
 
   std::vector<core::Variable>& variables_;
+  std::vector<std::string>& warnings_;
   const std::vector<xml::Element>& elements_;
   VariableNames names_;
   VariableIndex index_;
 };
 
 /// Appends the variables of <ModelVariables> in order.
-VariableIndex read_variables(const xml::Element& root, std::vector<core::Variable>& variables) {
+VariableIndex read_variables(const xml::Element& root, core::UnitDescription& unit) {
   const auto list = root.child("ModelVariables");
   if (!list) root.fail("<ModelVariables> is missing");
-  const TypeDefinitions types = read_type_definitions(root);
+  const TypeDefinitions types = read_type_definitions(root, unit.warnings);
   std::vector<xml::Element> elements;
   for (const xml::Element& element : list->children()) {
     if (element.is("", "Annotations")) continue;
     const auto type = find_named<ValueType>(element.name().local, core::kValueTypeCount);
     if (!type) element.fail(fmt::format("{} is not a type of FMI 3.0", element.tag()));
-    variables.push_back(read_variable(element, *type, types));
+    unit.variables.push_back(read_variable(element, *type, types));
     elements.push_back(element);
   }
-  return Linker(variables, elements).run();
+  return Linker(unit, elements).run();
 }
 
 // ---- Capabilities, dependencies, annotations ----
@@ -270,7 +272,7 @@ void read_annotation(const xml::Element& root, core::UnitDescription& unit) {
 void read_fmi3_description(const xml::Element& root, core::UnitDescription& unit) {
   unit.instantiation_token = root.given("instantiationToken");
   read_co_simulation(find_co_simulation(root), unit);
-  const VariableIndex index = read_variables(root, unit.variables);
+  const VariableIndex index = read_variables(root, unit);
   const auto structure = root.child("ModelStructure");
   if (!structure) root.fail("<ModelStructure> is missing");
   unit.outputs = read_unknowns(*structure, "Output", index);

@@ -89,6 +89,7 @@ void Fmi3Unit::exit_configuration_mode() {
 
 void Fmi3Unit::enter_initialization(Time start, std::optional<Time> stop) {
   time_ = start;
+  set_stop(stop);
   const auto tolerance = parts_.description->default_tolerance;
   call_and_restore("fmi3EnterInitializationMode", fmi_.EnterInitializationMode,
                    tolerance.has_value(), tolerance.value_or(0), to_seconds(start),
@@ -235,8 +236,7 @@ core::StepResult Fmi3Unit::step(const core::StepInterval& interval,
                                 const core::StepValues& values) {
   for (const core::BoundValues& input : values.inputs) set(input);
   time_ = interval.from;
-  // no other double lands nearer to the end
-  const double size = interval.end_seconds - interval.begin_seconds;
+  const double size = size_of(interval);
   if (!(size > 0)) {  // to the unit, whose time is a double, it is the same instant
     time_ = interval.to;
     return {.reached = interval.to};
@@ -308,7 +308,8 @@ void Fmi3Unit::compare_times(const core::StepInterval& interval, double last_suc
 }
 
 Time Fmi3Unit::reached_early(const core::StepInterval& interval, double last_successful) const {
-  if (last_successful == interval.end_seconds)
+  const double sum = interval.begin_seconds + interval.size_seconds;
+  if (last_successful == interval.end_seconds || last_successful == sum)
     return interval.to;  // a double cannot always distinguish it
   if (!options_.early_return_allowed) {
     fail("fmi3DoStep returned early, which was not allowed at its instantiation");

@@ -10,7 +10,6 @@ constexpr const char* kFmi3Serializing = "canSerializeFMUState";
 }  // namespace
 
 void Fmi3Unit::save_state() {
-  require("fmi3GetFMUState", fmi_.GetFMUState, kFmi3Saving);
   SavedState& saved = states_.chosen();
   saved.is_present = save_by("fmi3GetFMUState", fmi_.GetFMUState, saved.state);
   saved.time = time_;
@@ -20,6 +19,7 @@ void Fmi3Unit::restore_state() {
   const SavedState& saved = states_.chosen();
   if (!saved.is_present) fail_without_state();
   require("fmi3SetFMUState", fmi_.SetFMUState, kFmi3Saving);
+  check_state("fmi3GetFMUState", saved.state);
   call("fmi3SetFMUState", fmi_.SetFMUState, saved.state);
   was_restored_ = true;
   time_ = saved.time;

@@ -122,6 +122,9 @@ class Extraction {
     file_ = core::open_input(archive_, where_);
     archive_read_support_format_zip(reader_.get());
     if (archive_read_open_fd(reader_.get(), file_.number(), kPiece) != ARCHIVE_OK) {
+      if (core::is_lfs_pointer(archive_)) {
+        fail(fmt::format("is {}, not the archive", core::kLfsPointer), core::kLfsHint);
+      }
       fail("is not a zip archive", expected_);
     }
   }

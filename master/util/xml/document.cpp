@@ -44,12 +44,24 @@ DecodedText decode_text(std::string bytes, const std::string& file) {
     fail(file, "this is a packed archive (such as .ssp or .fmu), expected an XML file",
          "unpack it, and name the SystemStructure.ssd inside it");
   }
-  DecodedText decoded = decode(std::move(bytes), file);
-  if (decoded.text.find('\0') != std::string::npos) {
+  if (core::begins_as_lfs_pointer(bytes)) {
+    fail(file, fmt::format("this is {}, expected an XML file", core::kLfsPointer), core::kLfsHint);
+  }
+  return decode(std::move(bytes), file);
+}
+
+/// Some tools write them behind the end of a document; elsewhere they are an error.
+void strip_nuls(std::string& text, const std::string& file, std::vector<std::string>& warnings) {
+  constexpr std::string_view kFill("\0 \t\r\n", 5);
+  const std::size_t first = text.find('\0');
+  if (first == std::string::npos) return;
+  if (text.find_first_not_of(kFill, first) != std::string::npos) {
     fail(file, "there is a NUL character in it, which no XML file has",
          "save it as XML with the encoding UTF-8");
   }
-  return decoded;
+  text.erase(first);
+  warnings.push_back(core::to_text({.where = {file, 0}}) +
+                     "NUL characters behind its end are ignored");
 }
 
 core::Context place_of(std::size_t position, const std::string& text, const std::string& file) {
@@ -161,6 +173,7 @@ Document Document::parse(std::string bytes, const std::string& shown_as,
   DecodedText decoded = decode_text(std::move(bytes), shown_as);
   if (!decoded.warning.empty()) content->warnings.push_back(std::move(decoded.warning));
   content->text = std::move(decoded.text);
+  strip_nuls(content->text, shown_as, content->warnings);
   const std::string& text = content->text;
   check_attributes(text, shown_as);
   check_characters(text, shown_as);

@@ -8,6 +8,8 @@
 
 #include <catch2/catch.hpp>
 
+#include <stride/time.h>
+
 #include "tests/build.h"
 #include "tests/interfaces/unit/importer.h"
 
@@ -455,6 +457,22 @@ TEST_CASE("late in a long simulation doubles are coarser than picoseconds, and s
     }
   }
   CHECK(unit.integer("steps") == 1001);
+}
+
+TEST_CASE("a step ends at its exact instant, by its duration or by the difference of its ends") {
+  const UnitLibrary library(unit_library("stepper"));
+  const bool by_difference = GENERATE(false, true);
+  const stride::Time start(
+      std::chrono::seconds(5000));  // the rounded sum would be another picosecond
+  const stride::Duration size(1'100'000'000'001);
+  UnitInstance unit(library);
+  REQUIRE(unit.start_steps(stride::to_seconds(start)) == fmi3OK);
+  for (stride::Time from = start; from < stride::Time(std::chrono::seconds(5100)); from += size) {
+    const double begin = stride::to_seconds(from);
+    const double end = stride::to_seconds(from + size);
+    REQUIRE(unit.step(begin, by_difference ? end - begin : stride::to_seconds(size)) == fmi3OK);
+    REQUIRE(unit.real("time") == end);
+  }
 }
 
 TEST_CASE("a unit can end the simulation") {

@@ -1,5 +1,7 @@
 #include "master/importer/binaries.h"
 
+#include <cctype>
+
 #include "tests/master/importer/support.h"
 
 using namespace stride;
@@ -88,4 +90,15 @@ TEST_CASE("the error of a source-code FMU has the way to compile it") {
              Contains("it has its source code only") &&
                  Contains("/tank.so' (cc -shared -fPIC -DFMI2_OVERRIDE_FUNCTION_PREFIX)"));
   CHECK_THAT(find_error(scratch, "3.0"), Contains("/tank.so' (cc -shared -fPIC)"));
+}
+
+TEST_CASE("the folder of this platform may be written in another case") {
+  const Scratch scratch;
+  std::string folder = importer::fmi2_platform();
+  folder[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(folder[0])));
+  const std::string path = "binaries/" + folder + "/tank.so";
+  scratch.write(path, "");
+  const importer::FoundLibrary found = importer::find_library(scratch.path(), "2.0", "tank");
+  CHECK(found.path == scratch / path);
+  CHECK_THAT(found.warning, Contains("its library is '" + path + "'"));
 }

@@ -243,24 +243,36 @@ TEST_CASE("a given `initial` must be allowed") {
              Contains("of the continuous independent 'time': expected none"));
 }
 
-TEST_CASE("the default experiment and the internal step are times that can be counted") {
+TEST_CASE("the internal step is a time that can be counted") {
   for (const std::string step : {"0", "-0.01", "1e-13", "inf", "nan", "1e7"}) {
-    CHECK_THAT(error_with("stepSize=\"0.01\"", "stepSize=\"" + step + "\""),
-               Contains("unit.xml:19: stepSize=\"" + step + "\" of <DefaultExperiment>: "));
     CHECK_THAT(
         error_with("fixedInternalStepSize=\"1e-3\"", "fixedInternalStepSize=\"" + step + "\""),
         Contains("unit.xml:5: fixedInternalStepSize=\"" + step + "\" of <CoSimulation>: "));
   }
-  for (const std::string stop : {"0", "-1", "1e-13", "inf", "nan"}) {
-    CHECK_THAT(error_with("stopTime=\"12.5\"", "stopTime=\"" + stop + "\""),
-               Contains("unit.xml:19: stopTime=\"" + stop + "\" of <DefaultExperiment>: "));
+}
+
+TEST_CASE("what cannot be used of the default experiment is ignored, with a warning") {
+  const auto check = [](const std::string& attribute, const std::string& from,
+                        const std::string& to) {
+    const auto unit = parse_with(attribute + "=\"" + from + "\"", attribute + "=\"" + to + "\"");
+    CAPTURE(attribute, to);
+    REQUIRE(unit.warnings.size() == 1);
+    CHECK_THAT(unit.warnings[0], Contains("unit.xml:19: " + attribute + "=\"" + to +
+                                          "\" of <DefaultExperiment> is ignored: expected"));
+    return unit;
+  };
+  for (const char* step : {"0", "-0.01", "1e-13", "inf", "nan", "1e7", "0,01", ""}) {
+    CHECK_FALSE(check("stepSize", "0.01", step).default_step);
   }
-  for (const std::string start : {"inf", "nan", "1e7"}) {
-    CHECK_THAT(error_with("startTime=\"0\"", "startTime=\"" + start + "\""),
-               Contains("unit.xml:19: startTime=\"" + start + "\" of <DefaultExperiment>: "));
+  for (const char* stop : {"0", "-1", "1e-13", "inf", "nan", "1,0", ""}) {
+    CHECK_FALSE(check("stopTime", "12.5", stop).default_stop);
   }
-  CHECK_THAT(error_with("startTime=\"0\"", "startTime=\"12.5\""),
-             Contains("stopTime=\"12.5\"") && Contains("after the start, 12.5 s"));
+  for (const char* start : {"inf", "nan", "1e7", ""}) {
+    CHECK(check("startTime", "0", start).default_stop);
+  }
+  const auto ended = parse_with("startTime=\"0\"", "startTime=\"12.5\"");
+  REQUIRE(ended.warnings.size() == 1);
+  CHECK_THAT(ended.warnings[0], Contains("stopTime=\"12.5\"") && Contains("the start, 12.5 s"));
   CHECK(parse_with("stepSize=\"0.01\"", "stepSize=\"1e-12\"").default_step == Duration(1));
 }
 
@@ -523,7 +535,7 @@ TEST_CASE("references lead somewhere") {
   CHECK_THAT(error_with("<Output valueReference=\"9\"/>", "<Output valueReference=\"99\"/>"),
              Contains("<Output> refers to the value reference 99"));
   CHECK_THAT(error_with("dependencies=\"3 4\"", "dependencies=\"3 44\""), Contains("44"));
-  CHECK_THAT(error_with("declaredType=\"Temperature\"", "declaredType=\"Heat\""),
+  CHECK_THAT(error_with("declaredType=\"Mode\"", "declaredType=\"Mood\""),
              Contains("no such type"));
   CHECK_THAT(error_with("declaredType=\"Temperature\"", "declaredType=\"Mode\""),
              Contains("is a <EnumerationType>; expected a <Float64Type>"));
@@ -573,4 +585,16 @@ TEST_CASE("a least or greatest value is a number") {
              Contains("unit.xml:25: max=\"much\" of 'temperature': expected a number"));
   CHECK_THAT(error_with("min=\"-273.15\"", "min=\"1 2\""),
              Contains("min=\"1 2\" of 'temperature'"));
+}
+
+TEST_CASE("a declared type that is not there is ignored, with a warning") {
+  const auto unit = parse_with("declaredType=\"Temperature\"", "declaredType=\"Heat\"");
+  REQUIRE(unit.warnings.size() == 1);
+  CHECK_THAT(unit.warnings[0], Contains("unit.xml:") && Contains("declaredType=\"Heat\"") &&
+                                   Contains("no such type"));
+}
+
+TEST_CASE("a namespace that FMI does not have is an error that names it") {
+  CHECK_THAT(error_with("<fmiModelDescription ", "<fmiModelDescription xmlns=\"urn:other\" "),
+             Contains("is in the namespace 'urn:other'") && Contains("leave out the xmlns"));
 }

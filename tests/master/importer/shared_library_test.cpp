@@ -95,3 +95,39 @@ TEST_CASE("a unit that embeds Python without its library gets it, or the error a
                                  Contains("the unit embeds Python"));
   }
 }
+
+TEST_CASE("a library that is needed and in the FMU, by another name of its own, is an error") {
+  const Scratch scratch;
+  fs::copy_file(raw_library("raw_with_missing_library"), scratch / "unit.so");
+  std::string bytes = read(raw_library("absent/libstride_test_absent"));
+  const std::string name = "libstride_test_absent.so";
+  for (std::size_t at = 0; (at = bytes.find(name, at)) != bytes.npos;) {
+    bytes.replace(at, name.size(), "libstride_test_others.so");
+  }
+  scratch.write(name, bytes);
+  CHECK_THAT(error_of_loading(scratch / "unit.so"),
+             Contains("needs the shared library 'libstride_test_absent.so', which is there") &&
+                 Contains("--set-soname libstride_test_absent.so") && Contains("'$ORIGIN'"));
+}
+
+TEST_CASE("a library that is needed and in the FMU is loaded from there") {
+  const Scratch scratch;
+  const std::string folder = std::string("unit/binaries/") + importer::platform();
+  const std::string place = GENERATE(true, false) ? folder : "unit/resources";
+  fs::create_directories(scratch / folder);
+  fs::create_directories(scratch / place);
+  fs::copy_file(raw_library("raw_with_missing_library"), scratch / (folder + "/unit.so"));
+  const fs::path needed = scratch / (place + "/libstride_test_absent.so");
+  fs::copy_file(raw_library("absent/libstride_test_absent"), needed);
+  const importer::Fmi3Library library(scratch / (folder + "/unit.so"));
+  REQUIRE(library.companions().size() == 1);
+  CHECK(fs::equivalent(library.companions()[0], needed));
+}
+
+TEST_CASE("a pointer of Git LFS in place of a library is named") {
+  const Scratch scratch;
+  CHECK_THAT(error_of_loading(scratch.write("unit.so",
+                                            "version https://git-lfs.github.com/spec/v1\n"
+                                            "oid sha256:0\nsize 12345\n")),
+             Contains("a pointer of Git LFS, not the library") && Contains("git lfs pull"));
+}

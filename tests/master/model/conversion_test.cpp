@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "master/model/values.h"
 #include "tests/master/algorithm/scripted_system.h"
 
 using namespace stride;
@@ -108,8 +109,8 @@ TEST_CASE("types that hold all values of another may take them") {
       {ValueType::Int32, ValueType::Int16, false},
       {ValueType::UInt64, ValueType::Int64, false},
       {ValueType::Float64, ValueType::Int32, false},
-      {ValueType::Boolean, ValueType::Int32, false},
-      {ValueType::Int32, ValueType::Boolean, false},
+      {ValueType::Float64, ValueType::Boolean, false},
+      {ValueType::Boolean, ValueType::String, false},
       {ValueType::Binary, ValueType::String, false},
       {ValueType::Clock, ValueType::Boolean, false},
   }));
@@ -326,4 +327,29 @@ TEST_CASE("messages are converted, too") {
   system.declaration.connections[1].transformation = {Kind::Linear, {10, 1}, {}, {}, {}};
   system.build(1, std::chrono::seconds(1)).run();
   CHECK(levels == std::vector<double>{16});
+}
+
+TEST_CASE("a Boolean becomes a number, and a whole number at the end a Boolean") {
+  const auto path = [](ValueType from, ValueType to) {
+    return std::vector{point("a.y", from), point("b.u", to)};
+  };
+  for (const ValueType number : {ValueType::Float64, ValueType::Float32, ValueType::Int32}) {
+    CHECK(of(path(ValueType::Boolean, number), {{}}).is_identity());
+  }
+  CHECK(of(path(ValueType::Int32, ValueType::Boolean), {{}}).is_identity());
+  CHECK_THAT(reason(path(ValueType::Float64, ValueType::Boolean), {{}}),
+             Contains("Float64 and Boolean are different types"));
+  CHECK_THAT(reason(path(ValueType::Boolean, ValueType::String), {{}}),
+             Contains("one is not converted into the other"));
+  CHECK_THAT(reason({point("a.y", ValueType::Int32), point("s.c", ValueType::Boolean),
+                     point("b.u", ValueType::Int32)},
+                    {{}, {}}),
+             Contains("cannot connect 'a.y' to 's.c'"));
+  const Conversion scaled = of({point("a.y", ValueType::Boolean), point("s.c", ValueType::Float64),
+                                point("b.u", ValueType::Float64)},
+                               {{}, linear(3, 0.5)});
+  CHECK(converted<double>(true, scaled) == 3.5);
+  CHECK(converted<double>(false, scaled) == 0.5);
+  CHECK(boolean_conversion(ValueType::Boolean, ValueType::Int8) == "true becomes 1, false 0");
+  CHECK(boolean_conversion(ValueType::Boolean, ValueType::Boolean).empty());
 }

@@ -113,8 +113,28 @@ TEST_CASE("units that do not fit are an error that can be overruled") {
 }
 
 TEST_CASE("an input has one source") {
-  CHECK_THAT(reason({wire("y", "u", 9), wire("y", "u", 10)}),
+  CHECK_THAT(reason({wire("y", "u", 9), wire("t", "u", 10)}), Contains("'alpha.t' is in 's'"));
+  ConnectionDeclaration other = wire("y", "u", 10);
+  other.from_component = "beta";
+  CHECK_THAT(reason({wire("y", "u", 9), other}),
              Contains("s.ssd:10") && Contains("two sources") && Contains("line 9"));
+  ConnectionDeclaration unconverted = wire("y", "u", 10);
+  unconverted.suppress_unit_conversion = true;
+  CHECK_THAT(reason({wire("y", "u", 9), unconverted}), Contains("two sources"));
+}
+
+TEST_CASE("a connection that is there twice is one, with a warning") {
+  SystemDeclaration declared = declaration();
+  declared.connections = {wire("y", "u", 9), wire("y", "u", 10)};
+  const System system(declared);
+  CHECK(system.connections().size() == 1);
+  REQUIRE(system.warnings().size() == 1);
+  CHECK_THAT(system.warnings()[0], Contains("s.ssd:10: ") && Contains("'alpha.y' to 'beta.u'") &&
+                                       Contains("in line 9") && Contains("ignored"));
+}
+
+TEST_CASE("a near name that differs by case only is suggested first") {
+  CHECK_THAT(reason({wire("Y", "u")}), Contains("did you mean 'y'?"));
 }
 
 TEST_CASE("a message needs its clock wired too") {
@@ -355,4 +375,14 @@ TEST_CASE("start values are converted, parsed and refused where they cannot be s
   declared.start_values = {{"beta", "short", "1500", "mm", {}}};
   const System with_float(declared);
   CHECK(with_float.start_values()[0].value.numbers<float>()[0] == Approx(1.5F));
+}
+
+TEST_CASE("a start value as other tools write it is taken, with a warning") {
+  SystemDeclaration declared = declaration();
+  declared.start_values = {{"beta", "n", "2.0", {}, {"s.ssd", 12}}};
+  const System system(declared);
+  CHECK(system.start_values()[0].value.numbers<std::int32_t>()[0] == 2);
+  REQUIRE(system.warnings().size() == 1);
+  CHECK_THAT(system.warnings()[0],
+             Contains("s.ssd:12: unit 'beta', variable 'n': '2.0' is taken for 2"));
 }

@@ -251,8 +251,8 @@ TEST_CASE("Start and stop time are exact and make sense") {
   CHECK_THROWS_WITH(read(ssd(experiment("startTime='-1'"))),
                     Contains("startTime='-1' is negative"));
   CHECK_THROWS_WITH(read(ssd(experiment("startTime='2' stopTime='1.5'"))),
-                    Contains("the run would end at 1.5 s, before or where it starts (2 s)"));
-  CHECK_THROWS_WITH(read(ssd(experiment("stopTime='0'"))), Contains("the run would end at 0 s"));
+                    Contains("the run would end at 1.5 s, before it starts (2 s)"));
+  CHECK(read(ssd(experiment("startTime='2' stopTime='2'"))).stop == Time(std::chrono::seconds(2)));
 }
 
 TEST_CASE("a component for Model Exchange is read with a warning, since its FMU may have both") {
@@ -260,6 +260,23 @@ TEST_CASE("a component for Model Exchange is read with a warning, since its FMU 
       read(ssd_with("<ssd:Component name='a' source='a.fmu' implementation='ModelExchange'/>"));
   REQUIRE(scenario.warnings.size() == 1);
   CHECK_THAT(scenario.warnings[0], Contains("x.ssd:5: ") && Contains("for 'ModelExchange'"));
+}
+
+TEST_CASE("a component of another type is an FMU if its source is one, with a warning") {
+  const auto of_type = [](const std::string& attributes) {
+    return read(ssd_with("<ssd:Component name='a' source='a.fmu' " + attributes + "/>")).warnings;
+  };
+  CHECK(of_type("type=''").empty());
+  CHECK(of_type("type='Application/X-FMU-SharedLibrary'").empty());
+  CHECK(of_type("implementation=''").empty());
+  CHECK(of_type("implementation='cosimulation'").empty());
+  const auto warnings = of_type("type='application/x-fmu'");
+  REQUIRE(warnings.size() == 1);
+  CHECK_THAT(warnings[0], Contains("x.ssd:5: type=\"application/x-fmu\"") &&
+                              Contains("'application/x-fmu-sharedlibrary'"));
+  CHECK_THROWS_WITH(
+      read(ssd_with("<ssd:Component name='a' source='a.dll' type='application/x-dll'/>")),
+      Contains("components of the type 'application/x-dll'"));
 }
 
 TEST_CASE("the fixed step of another tool is found in any of its annotations") {

@@ -69,6 +69,10 @@ TEST_CASE("a source that is no proper URI names the file that it can only mean")
 
 TEST_CASE("a path of Windows and a server for FMUs are refused by name") {
   CHECK_THROWS_WITH(resolve("C:/units/unit.fmu"), Contains("is a path of Windows"));
-  CHECK_THROWS_WITH(resolve("proxyfmu://localhost?file=unit.fmu"),
-                    Contains("proxy-fmu") && Contains("<stride:Host"));
+  CHECK_THROWS_WITH(resolve("file:///C:/units/unit.fmu"), Contains("is a path of Windows"));
+  CHECK_THROWS_WITH(resolve("file:///c%3A/units/unit.fmu"), Contains("is a path of Windows"));
+  for (const std::string scheme : {"proxyfmu", "proxy-fmu"}) {
+    CHECK_THROWS_WITH(resolve(scheme + "://localhost?file=unit.fmu"),
+                      Contains("proxy-fmu") && Contains("<stride:Host"));
+  }
 }

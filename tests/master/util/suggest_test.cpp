@@ -28,3 +28,9 @@ TEST_CASE("a long list is shortened") {
   const std::vector<std::string> names(20, "abcdefgh");
   CHECK(suggestion("zzzzzzzzzzzzzzzzzzz", names).find("…") != std::string::npos);
 }
+
+TEST_CASE("a name that differs by case only comes before all others") {
+  const std::vector<std::string> names{"u", "y", "OUTPUT"};
+  CHECK(nearest("Y", names) == "y");
+  CHECK(nearest("output", names) == "OUTPUT");
+}

@@ -255,3 +255,16 @@ TEST_CASE("a start value of FMI 2.0 is of the variable's type") {
   CHECK_THAT(input_error([&] { importer::parse_model_description(text, "unit.xml"); }),
              Contains("unit.xml:") && Contains("the start value of " + message));
 }
+
+TEST_CASE("start values as other tools write them are taken, with a warning") {
+  std::string text = kTank;
+  const std::string switched = "<Boolean declaredType=\"Switch\" start=\"true\"/>";
+  REQUIRE(text.find(switched) != std::string::npos);
+  text.replace(text.find(switched), switched.size(),
+               "<Boolean declaredType=\"Switches\" start=\"True\"/>");
+  const auto unit = importer::parse_model_description(text, "unit.xml");
+  REQUIRE(unit.warnings.size() == 2);
+  CHECK_THAT(unit.warnings[0],
+             Contains("unit.xml:") && Contains("start=\"True\"") && Contains("is taken for true"));
+  CHECK_THAT(unit.warnings[1], Contains("declaredType=\"Switches\" is ignored"));
+}

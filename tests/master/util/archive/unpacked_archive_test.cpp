@@ -149,6 +149,8 @@ TEST_CASE("a file that is not an archive is an error") {
       unpack_error(scratch.write("text.fmu", "This is not an archive at all."));
   CHECK_THAT(text, Contains("text.fmu' is not a zip archive") && Contains("hint: expected a unit"));
   CHECK_THAT(unpack_error(scratch.write("empty.fmu", "")), Contains("is not a zip archive"));
+  CHECK_THAT(unpack_error(scratch.write("lfs.fmu", "version https://git-lfs.github.com/spec/v1\n")),
+             Contains("is a pointer of Git LFS") && Contains("hint: ") && Contains("git lfs pull"));
 }
 
 TEST_CASE("a damaged archive is an error") {

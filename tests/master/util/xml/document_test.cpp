@@ -48,6 +48,13 @@ TEST_CASE("What is not well-formed is refused with its line") {
   CHECK_THAT(error_in("PK\x03\x04..."), Contains("this is a packed archive") && Contains("unpack"));
 }
 
+TEST_CASE("NUL characters behind the end of a document are ignored, with a warning") {
+  const auto document = xml::Document::parse(std::string("<a/>\n\0\0\n", 8), "x.ssd");
+  CHECK(document.text() == "<a/>\n");
+  REQUIRE(document.warnings().size() == 1);
+  CHECK_THAT(document.warnings()[0], Contains("x.ssd: ") && Contains("NUL"));
+}
+
 TEST_CASE("A document's elements stay valid when it is moved") {
   xml::Document first = xml::Document::parse("<a>\n<b/></a>", "x.xml");
   const xml::Element b = *first.root().child("b");
