@@ -201,9 +201,10 @@ void CapturedUnit::set_idle_tolerances(std::span<const core::ValueReference> out
   }
 }
 
+/// After another unit's failure its last step may be one that the others have not made.
 void CapturedUnit::terminate() {
   ForwardingUnit::terminate();
-  commit();
+  if (index_.has_reached(time_)) commit();
 }
 
 }  // namespace stride::capture

@@ -25,6 +25,8 @@ class SuperDenseIndex {
     point_ = time;
     next_first_ = count();
   }
+  /// Whether all units have reached this time.
+  bool has_reached(Time time) const { return time <= point_; }
   /// Of the iteration at `time` that goes on now.
   std::uint64_t at(Time time) const {
     return count() - 1 - (time == point_ ? first_ : next_first_);

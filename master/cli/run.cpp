@@ -186,9 +186,6 @@ void run(const RunArguments& arguments, Records& records, CrashGuard& guard) {
 
 /// Whatever ends the command, the test report contains it.
 void run_and_report(RunArguments arguments) {
-  if (arguments.quiet && !spdlog::should_log(spdlog::level::info)) {
-    spdlog::set_level(spdlog::level::err);
-  }
   arguments.scenario.files = check_output_paths(arguments);
   const core::ProcessState process;
   Records records{{arguments.junit, arguments.scenario.scenario}};
@@ -251,7 +248,7 @@ void add_display_options(CLI::App& command, RunArguments& arguments) {
       ->type_name("auto|plain|json|none");
   command.add_flag("--no-report", arguments.no_report, "Write no report.html");
   command.add_flag("--open", arguments.open, "Open the report in a browser when the run is over");
-  command.add_flag("--quiet,-q", arguments.quiet, "Print nothing but errors");
+  command.add_flag("--quiet,-q", arguments.quiet, "Print nothing but warnings and errors");
 }
 
 }  // namespace

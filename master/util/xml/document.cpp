@@ -55,7 +55,7 @@ void strip_nuls(std::string& text, const std::string& file, std::vector<std::str
   constexpr std::string_view kFill("\0 \t\r\n", 5);
   const std::size_t first = text.find('\0');
   if (first == std::string::npos) return;
-  if (text.find_first_not_of(kFill, first) != std::string::npos) {
+  if (first == 0 || text.find_first_not_of(kFill, first) != std::string::npos) {
     fail(file, "there is a NUL character in it, which no XML file has",
          "save it as XML with the encoding UTF-8");
   }
