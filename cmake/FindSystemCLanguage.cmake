@@ -1,6 +1,11 @@
 # Finds SystemC and defines SystemC::systemc, as SystemC's own CMake package does. That package is used where it is
 # installed; distributions that build SystemC with autotools (Debian's libsystemc-dev) ship a pkg-config file only.
+# What includes SystemC has to have its standard of C++ (SystemC_CXX_STANDARD of its package, else 17), which is part of
+# the names that it links with.
 find_package(SystemCLanguage CONFIG QUIET)
+if(NOT SystemC_CXX_STANDARD)
+  set(SystemC_CXX_STANDARD 17)
+endif()
 if(TARGET SystemC::systemc)
   return()
 endif()

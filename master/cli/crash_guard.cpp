@@ -248,6 +248,9 @@ void on_time_limit() {
   begin_time_limit();
 }
 
+/// Not SIGALRM, which units use for timers of their own.
+int limit_signal() { return SIGRTMAX - 1; }
+
 void on_signal(int signal, siginfo_t* info, void*) {
   if (is_guarded() && is_time_limit(*info)) return on_time_limit();
   if (is_guarded()) end_process({.signal = signal, .origin = origin_of(signal, *info)});
@@ -316,7 +319,7 @@ void register_exit_functions() {
 void make_time_limit() {
   sigevent notice{};
   notice.sigev_notify = SIGEV_SIGNAL;
-  notice.sigev_signo = SIGALRM;
+  notice.sigev_signo = limit_signal();
   notice.sigev_value.sival_ptr = &guarded;
   guarded.has_time_limit = ::timer_create(CLOCK_MONOTONIC, &notice, &guarded.time_limit) == 0;
 }
@@ -379,10 +382,10 @@ int leave_with(int code) {
 void limit_end() {
   if (!is_guarded()) return;
   restore_streams();
-  handle(SIGALRM, SA_ONSTACK);
+  handle(limit_signal(), SA_ONSTACK);
   sigset_t awaited;
   ::sigemptyset(&awaited);
-  ::sigaddset(&awaited, SIGALRM);
+  ::sigaddset(&awaited, limit_signal());
   ::pthread_sigmask(SIG_UNBLOCK, &awaited, nullptr);
   begin_time_limit();
 }

@@ -40,8 +40,14 @@ Interruption::Interruption() {
   }
 }
 
+/// A unit's own handler stays: its timer may still run.
 Interruption::~Interruption() {
-  for (const Handled& handled : handled_) sigaction(handled.signal, &handled.before, nullptr);
+  for (const Handled& handled : handled_) {
+    struct sigaction now {};
+    sigaction(handled.signal, nullptr, &now);
+    const bool is_ours = now.sa_sigaction == note_interruption || now.sa_handler == do_nothing;
+    if (is_ours) sigaction(handled.signal, &handled.before, nullptr);
+  }
 }
 
 const volatile std::sig_atomic_t& Interruption::flag() { return interrupted; }

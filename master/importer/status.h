@@ -2,6 +2,7 @@
 #ifndef STRIDE_MASTER_IMPORTER_STATUS_H
 #define STRIDE_MASTER_IMPORTER_STATUS_H
 
+#include <cstring>
 #include <functional>
 #include <string>
 
@@ -24,6 +25,15 @@ static_assert(static_cast<int>(Status::Fatal) == fmi3Fatal && fmi3Fatal + 0 == f
 static_assert(static_cast<int>(Status::Pending) == fmi2Pending &&
               fmi2Pending + 0 == fmi1Pending + 0);
 static_assert(static_cast<int>(Status::Discard) == fmi1Discard);
+
+/// The status with the number that a unit has given, which may be none of its type.
+template <class UnitStatus>
+Status status_of(const UnitStatus& given) noexcept {
+  int number = 0;
+  static_assert(sizeof number == sizeof given);
+  std::memcpy(&number, &given, sizeof number);
+  return static_cast<Status>(number);
+}
 
 /// Receives what units log. It may be called from any thread that a unit has.
 using LogSink = std::function<void(const std::string& unit, Status status,

@@ -125,6 +125,7 @@ class System {
                                 const ConnectionDeclaration& wanted, Diagnostics& diagnostics);
   void add_second(const ConnectionDeclaration& declaration, const Connection& connection,
                   const ConnectionDeclaration& first);
+  bool is_backwards(VariableId from, VariableId to) const;
   Connection connect(const ConnectionDeclaration& declaration, const Ends& ends);
   Conversion converted_on(const std::vector<PathConnector>& path,
                           const std::vector<PathSegment>& segments, const Location& where);

@@ -101,7 +101,9 @@ void System::find_message_clocks(const SystemDeclaration& declaration) {
   for (const ConnectionDeclaration& wanted : declaration.connections) {
     const auto from = find_end(wanted.from_component, wanted.from_connector);
     const auto to = find_end(wanted.to_component, wanted.to_connector);
-    if (!from || !to || !variable(*from).is_time_based_clock()) continue;
+    if (!from || !to) continue;
+    if (is_backwards(*from, *to)) message_clocks_.insert(*to);
+    if (!variable(*from).is_time_based_clock()) continue;
     if (variable(*to).is_triggered_clock()) message_clocks_.insert(*from);
   }
 }
@@ -120,7 +122,14 @@ std::optional<System::Ends> System::find_ends(const SystemDeclaration& declarati
   const auto from = find(wanted.from_component, wanted.from_connector);
   const auto to = find(wanted.to_component, wanted.to_connector);
   if (!from || !to) return std::nullopt;
-  return Ends{*from, *to};
+  return is_backwards(*from, *to) ? Ends{*to, *from} : Ends{*from, *to};
+}
+
+/// A time-based and a triggered clock are inputs both, so connectors do not tell the direction.
+bool System::is_backwards(VariableId from, VariableId to) const {
+  const Variable& source = variable(from);
+  return source.is_triggered_clock() && source.causality == Causality::Input &&
+         variable(to).is_time_based_clock();
 }
 
 /// One that says the same once more is ignored.

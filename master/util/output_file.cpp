@@ -203,10 +203,23 @@ void OutputFile::check_size() {
       kTakenHint);
 }
 
+/// What was written is lost for whoever looks for it there.
+void OutputFile::check_path() {
+  if (absolute_path_.empty() || FileIdentity::of(absolute_path_.c_str()) == identity_) return;
+  has_failed_ = true;
+  fail_run(
+      {.where = {path_.string(), 0}, .time = time_},
+      "other code has moved or removed the file, or put another one in its place, while it was "
+      "written",
+      "leave the results where they are until the run has ended; a unit may change its own "
+      "files only");
+}
+
 void OutputFile::close() {
   if (descriptor_ < 0) return;
   flush();
   if (!has_failed_ && !is_own()) fail_taken(get_back());
+  if (!has_failed_) check_path();
   const int result = ::close(std::exchange(descriptor_, -1));
   if (result == 0 || has_failed_) return;
   if (errno == EBADF) fail_taken(true);

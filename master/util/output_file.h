@@ -100,6 +100,7 @@ class OutputFile {
   bool get_back() noexcept;
   long write_piece(const char* bytes, std::size_t size) const noexcept;
   void check_size();
+  void check_path();
   [[noreturn]] void fail(int error);
   [[noreturn]] void fail_taken(bool is_back);
 

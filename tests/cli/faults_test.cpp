@@ -288,6 +288,15 @@ TEST_CASE("a signal of a timer is no interruption by the user, and no unit's for
   check_results(workspace, outcome, kStep.last);
 }
 
+TEST_CASE("a unit's own timer may run on when the unit is gone") {
+  if (kSanitized) return;
+  const Setting setting{3, false};
+  const Workspace workspace = workspace_for(setting, kStep);
+  const Outcome outcome = run(workspace, setting, "own alarms", kStep);
+  CHECK(outcome.exit_code == 0);
+  CHECK_THAT(outcome.err, !Contains("error"));
+}
+
 TEST_CASE("a signal from outside that ends the run is reported, and ends the process") {
   if (kSanitized) return;
   const auto [signal, name] =

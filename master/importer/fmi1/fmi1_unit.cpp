@@ -68,7 +68,7 @@ void Fmi1Unit::on_log(fmi1Component component, fmi1String, fmi1Status status, fm
   try {
     const std::string text = message != nullptr ? printf_text(message, arguments) : "";
     with_receiver<Fmi1Unit>(component, [&](Fmi1Unit& unit) {
-      unit.receive(static_cast<Status>(status), category, text.c_str());
+      unit.receive(status_of(status), category, text.c_str());
     });
   } catch (...) {  // nothing may cross the unit's C code
   }

@@ -80,7 +80,7 @@ void Fmi2Unit::on_log(fmi2ComponentEnvironment environment, fmi2String, fmi2Stat
   try {
     const std::string text = message != nullptr ? printf_text(message, arguments) : "";
     with_receiver<Fmi2Unit>(environment, [&](Fmi2Unit& unit) {
-      unit.receive(static_cast<Status>(status), category, unit.with_names(text).c_str());
+      unit.receive(status_of(status), category, unit.with_names(text).c_str());
     });
   } catch (...) {  // nothing may cross the unit's C code
   }

@@ -20,8 +20,8 @@ Status Fmi2Unit::do_step(const core::StepInterval& interval, double size) {
 // ---- Asynchronous steps ----
 
 void Fmi2Unit::on_step_finished(fmi2ComponentEnvironment environment, fmi2Status status) {
-  with_receiver<Fmi2Unit>(
-      environment, [&](Fmi2Unit& unit) { unit.asynchronous_.finish(static_cast<Status>(status)); });
+  with_receiver<Fmi2Unit>(environment,
+                          [&](Fmi2Unit& unit) { unit.asynchronous_.finish(status_of(status)); });
 }
 
 /// Polls with growing pauses, since not every unit calls back.
@@ -56,9 +56,17 @@ Status Fmi2Unit::poll_step() {
   const bool is_known = answer == Status::Ok || answer == Status::Warning;
   const bool is_unknown = answer == Status::Discard || answer == Status::Pending;
   if (!is_known && !is_unknown) fail_call("fmi2GetStatus", answer);
-  if (is_unknown || of_step == fmi2Pending) return Status::Pending;
+  if (answer == Status::Discard && !attributes_->can_run_asynchronously) {
+    fail(
+        "fmi2DoStep returned fmi2Pending, which a unit without canRunAsynchronuously may not, and "
+        "fmi2GetStatus does not know how the step goes on",
+        "let the unit make its steps before fmi2DoStep returns, or declare "
+        "canRunAsynchronuously and answer fmi2GetStatus(fmi2DoStepStatus)");
+  }
+  const Status step = status_of(of_step);
+  if (is_unknown || step == Status::Pending) return Status::Pending;
   asynchronous_.note_polled();
-  return static_cast<Status>(of_step);
+  return step;
 }
 
 /// The unit's message about a step that is not finished.

@@ -128,9 +128,8 @@ std::string Fmi3Unit::describe_message(core::ValueReference variable, const core
 
 void Fmi3Unit::on_log(fmi3InstanceEnvironment environment, fmi3Status status, fmi3String category,
                       fmi3String message) {
-  with_receiver<Fmi3Unit>(environment, [&](Fmi3Unit& unit) {
-    unit.receive(static_cast<Status>(status), category, message);
-  });
+  with_receiver<Fmi3Unit>(
+      environment, [&](Fmi3Unit& unit) { unit.receive(status_of(status), category, message); });
 }
 
 // ---- Values ----

@@ -11,6 +11,7 @@
 #include <archive_entry.h>
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <locale.h>
 #include <unistd.h>
 
 #include "master/util/archive/zip_directory.h"
@@ -64,6 +65,26 @@ class UnpackedFile {
   int file_;
 };
 
+/// While it lives, this thread's characters are UTF-8, without which libarchive has no name for an
+/// entry whose name is marked as UTF-8 and goes beyond ASCII.
+class Utf8Names {
+ public:
+  Utf8Names() : own_(::newlocale(LC_CTYPE_MASK, "C.UTF-8", nullptr)) {
+    if (own_ != nullptr) before_ = ::uselocale(own_);
+  }
+  ~Utf8Names() {
+    if (own_ == nullptr) return;
+    ::uselocale(before_);
+    ::freelocale(own_);
+  }
+  Utf8Names(const Utf8Names&) = delete;
+  Utf8Names& operator=(const Utf8Names&) = delete;
+
+ private:
+  locale_t own_;
+  locale_t before_ = nullptr;
+};
+
 /// Unpacks one archive into one folder. Links are never made, and files never overwritten, so a
 /// path of checked names cannot leave the folder.
 class Extraction {
@@ -78,6 +99,7 @@ class Extraction {
         reader_(archive_read_new(), &archive_read_free) {}
 
   void run() {
+    const Utf8Names names;
     open();
     check_count(announced_entries(file_).value_or(0));  // before the work of unpacking them
     std::uint64_t entries = 0;

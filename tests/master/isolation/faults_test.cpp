@@ -89,7 +89,7 @@ TEST_CASE("without a limit a long call is logged") {
   unit.start({{"fault", GENERATE(as<std::string>(), "loop", "stop")}});
   const pid_t server = Fixture::server();
   std::thread user([&] {  // who ends the process
-    std::this_thread::sleep_for(500ms);
+    std::this_thread::sleep_for(2s);
     ::kill(server, SIGKILL);
   });
   CHECK_THROWS_AS(unit.step(0, 1), core::Error);

@@ -242,6 +242,9 @@ TEST_CASE("a time-based clock that is connected to a triggered one makes message
   CHECK(system.ticks_triggered({0, 0}));
   CHECK(system.is_message({0, 1}));
   CHECK_FALSE(system.is_sampled({0, 1}));
+  CHECK(System(with({{"beta", "rx", "alpha", "tx", false, {}}, wire("out", "in")}))
+            .connections()[0]
+            .from == VariableId{0, 0});  // either end may be the first
   CHECK_FALSE(system.ticks_triggered({1, 0}));
   CHECK(system.is_sampled({1, 1}));
   CHECK(system.is_signal({1, 1}));

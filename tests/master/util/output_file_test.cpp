@@ -220,6 +220,17 @@ TEST_CASE("A file that is rescued is opened again, too") {
   CHECK(content(folder / "x") == "a line\n");
 }
 
+TEST_CASE("A file that is no longer where it was made is an error at its end") {
+  const bool is_replaced = GENERATE(true, false);
+  const TemporaryFolder folder;
+  OutputFile file(folder / "x.csv");
+  file.write("one\n");
+  std::filesystem::rename(folder / "x.csv", folder / "y.csv");
+  if (is_replaced) folder.write("x.csv", "other\n");
+  CHECK_THROWS_WITH(file.close(), Contains("x.csv: ") && Contains("moved or removed the file"));
+  CHECK(content(folder / "y.csv") == "one\n");
+}
+
 TEST_CASE("Where the open file has been moved elsewhere, lines are behind each other") {
   const TemporaryFolder folder;
   const int number = next_descriptor();

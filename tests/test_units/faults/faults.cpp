@@ -324,6 +324,7 @@ constexpr Fault kFaults[] = {
     {"SIGRTMIN+3", [] { std::raise(SIGRTMIN + 3); }},
     {"hidden signal", raise_hidden_signal},
     {"alarm", await_alarm},
+    {"own alarms", leave_alarms},
     {"exec", become_program},
     {"exec of path", become_program_of_path},
     {"exec by system call", become_program_by_system_call},

@@ -88,6 +88,16 @@ void await_alarm() {
   sleep_for_ever();
 }
 
+/// A timer of the unit's own, which runs on when the unit is gone.
+void leave_alarms() {
+  struct sigaction action {};
+  action.sa_handler = [](int) {};
+  action.sa_flags = SA_RESTART;
+  ::sigaction(SIGALRM, &action, nullptr);
+  const itimerval each{{0, 1000}, {0, 1000}};
+  ::setitimer(ITIMER_REAL, &each, nullptr);
+}
+
 void raise_hidden_signal() { ::syscall(SYS_tgkill, ::getpid(), ::gettid(), SIGRTMIN - 1); }
 
 }  // namespace stride::tests

@@ -21,6 +21,7 @@ void fork_by_system_call();
 
 /// A signal that comes by itself, in the middle of something.
 void await_alarm();
+void leave_alarms();
 /// One that the C library keeps to itself.
 void raise_hidden_signal();
 

@@ -418,6 +418,14 @@ TEST_CASE("the status of a pending step is that of the step") {
              Contains("fmi2DoStep returned fmi2Error: the night was short"));
 }
 
+TEST_CASE("a pending step that nothing can end is an error") {
+  Fmi2Fixture unit("fmi2_sleeper_without_status");
+  unit.set_number("how", 2);
+  unit.start();
+  CHECK_THAT(run_error([&] { unit.step({}, Time(1s)); }),
+             Contains("returned fmi2Pending, which a unit without canRunAsynchronuously may not"));
+}
+
 TEST_CASE("a step that takes long is logged once, with the unit's own text", "[here]") {
   std::vector<std::string> told;
   std::function<void()> release;

@@ -53,6 +53,18 @@ TEST_CASE("an archive is unpacked into a folder that goes with the object") {
   CHECK_FALSE(fs::exists(folder));
 }
 
+TEST_CASE("names that are marked as UTF-8 are taken whatever the locale is") {
+  const Scratch scratch;
+  const auto path = make_zip(scratch / "unit.fmu", {{"grüße", "hallo"}});
+  std::string bytes = read(path);
+  // general purpose bit 11, in the local header and in the central directory
+  constexpr std::size_t kLocalFlags = 6, kCentralFlags = 8;
+  bytes[kLocalFlags + 1] |= 0x08;
+  bytes[bytes.rfind("PK\x01\x02") + kCentralFlags + 1] |= 0x08;
+  const UnpackedArchive fmu(scratch.write("marked.fmu", bytes), kExpected);
+  CHECK(files_in(fmu.folder()) == std::map<std::string, std::string>{{"grüße", "hallo"}});
+}
+
 TEST_CASE("two objects of the same archive have folders of their own") {
   const Scratch scratch;
   const auto path = make_zip(scratch / "unit.fmu", {kDescription});
