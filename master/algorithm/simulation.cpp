@@ -231,8 +231,9 @@ class Simulation::Run {
 
   void communication_step() {
     const Time reached = clock_.timed(statistics_.phases.steps, [&] { return advance(); });
+    if (stepper_.has_requests()) note_requested_end();
     if (reached == time_) {
-      if (stepper_.has_requests() && is_end_requested()) return;  // this point has been observed
+      if (statistics_.end == RunEnd::EndedByUnit) return;  // this point has been observed
       check_stall();
     } else {
       stalled_steps_ = 0;
@@ -247,17 +248,15 @@ class Simulation::Run {
   }
 
   void handle_requests() {
-    is_end_requested();
     for (std::size_t i = 0; i < count(); ++i) {
       if (stepper_.result(i).event_handling_needed) event_handler_.request_event(i);
     }
   }
 
-  bool is_end_requested() {
+  void note_requested_end() {
     for (std::size_t i = 0; i < count(); ++i) {
       if (stepper_.result(i).terminate_simulation) statistics_.end = RunEnd::EndedByUnit;
     }
-    return statistics_.end == RunEnd::EndedByUnit;
   }
 
   /// Steps all units to the next communication point; repeated while the policy does not accept the

@@ -233,6 +233,9 @@ Connection System::connect(const ConnectionDeclaration& wanted, const Ends& ends
 Conversion System::converted_on(const std::vector<PathConnector>& path,
                                 const std::vector<PathSegment>& segments, const Location& where) {
   Conversion conversion = compose(path, segments, {where, {}, {}, {}});
+  const bool has_boolean = std::ranges::any_of(
+      path, [](const PathConnector& connector) { return connector.type == ValueType::Boolean; });
+  if (!has_boolean) return conversion;
   const std::vector<PathConnector> whole = completed(path);
   for (std::size_t i = 0; i + 1 < whole.size(); ++i) {
     const std::string becomes = boolean_conversion(*whole[i].type, *whole[i + 1].type);
@@ -344,8 +347,8 @@ void System::add_structural_values(const std::vector<Target>& targets) {
 /// A value that was set by name, and is not the one that the unit gets.
 void System::note_replaced(const StartDeclaration& wanted, VariableId id) {
   if (wanted.is_optional) return;
-  const auto source = std::ranges::lower_bound(connections_, id, {}, &Connection::to);
-  if (source == connections_.end() || source->to != id) return;
+  const Connection* const source = connection_to(id);
+  if (source == nullptr) return;
   warnings_.push_back(fmt::format(
       "{}'{}' is connected to '{}', whose value replaces this one at the initialisation",
       core::to_text(Context{wanted.where}), full_name(id), full_name(source->from)));

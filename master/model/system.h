@@ -112,6 +112,8 @@ class System {
   void check_connector(const SystemDeclaration& declaration, const ComponentDeclaration& component,
                        const ConnectorDeclaration& connector);
   void check_clocks(const ComponentDeclaration& component) const;
+  /// Once they are sorted; null if there is none.
+  const Connection* connection_to(VariableId input) const;
   void find_message_clocks(const SystemDeclaration& declaration);
   std::optional<VariableId> find_end(const std::string& component,
                                      const std::string& connector) const;

@@ -61,6 +61,11 @@ void System::add_connections(const SystemDeclaration& declaration, Diagnostics& 
   }
 }
 
+const Connection* System::connection_to(VariableId input) const {
+  const auto found = std::ranges::lower_bound(connections_, input, {}, &Connection::to);
+  return found != connections_.end() && found->to == input ? &*found : nullptr;
+}
+
 /// A tick without the values that both sides have for it is possible, and seldom meant.
 void System::note_missing_data(const ConnectionDeclaration& wanted, const Connection& clocks) {
   const auto data_of = [&](VariableId clock, Causality causality) {
@@ -75,10 +80,8 @@ void System::note_missing_data(const ConnectionDeclaration& wanted, const Connec
   const std::vector<VariableId> sent = data_of(clocks.from, Causality::Output);
   const std::vector<VariableId> expected = data_of(clocks.to, Causality::Input);
   if (sent.empty() || expected.empty()) return;
-  const bool is_connected = std::ranges::any_of(connections_, [&](const Connection& connection) {
-    return std::ranges::count(expected, connection.to) > 0;
-  });
-  if (is_connected) return;
+  const auto is_connected = [&](VariableId input) { return connection_to(input) != nullptr; };
+  if (std::ranges::any_of(expected, is_connected)) return;
   warnings_.push_back(fmt::format(
       "{}the clock '{}' is connected to '{}', but none of the values that belong to it: it ticks, "
       "and brings no data\n  hint: connect '{}' to '{}', too",
@@ -158,9 +161,8 @@ void System::check_message(const ConnectionDeclaration& wanted,
   if (is_sampled(connection.to)) return;
   const auto from_clocks = clocks_of(*this, connection.from);
   for (const VariableId to_clock : clocks_of(*this, connection.to)) {
-    const auto clock = std::ranges::lower_bound(connections_, to_clock, {}, &Connection::to);
-    const bool is_connected = clock != connections_.end() && clock->to == to_clock;
-    if (is_connected && std::ranges::count(from_clocks, clock->from) > 0) continue;
+    const Connection* const clock = connection_to(to_clock);
+    if (clock != nullptr && std::ranges::count(from_clocks, clock->from) > 0) continue;
     fail_input({wanted.where, wanted.to_component, wanted.to_connector, {}},
                fmt::format("its clock '{}' is not connected to the clock of '{}'",
                            full_name(to_clock), full_name(connection.from)),

@@ -27,7 +27,7 @@ PLACEHOLDER = "Class::function"
 # The functions that the pseudocode leaves out: access to members, measurement of wall time, what an optimisation needs,
 # what only builds or reports an error.
 SHOWN = {
-    "Run": "abandon is_end_requested add_observer statistics suspended_time verdicts count sets_inputs_in_steps "
+    "Run": "abandon note_requested_end add_observer statistics suspended_time verdicts count sets_inputs_in_steps "
            "collect_unit_statistics finish_suspensions finish_observers "
            "notify_observers start_observers make_input_extrapolator make_idle_scheduler "
            "connect_input_updates set should_continue",

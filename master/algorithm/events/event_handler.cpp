@@ -1,6 +1,7 @@
 #include "master/algorithm/events/event_handler.h"
 
 #include <algorithm>
+#include <functional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -251,15 +252,14 @@ void EventHandler::transmit_triggered() {
 }
 
 void EventHandler::transmit(std::size_t sender) {
-  messages_.transmit(
-      sender, [&](std::size_t receiver) { receive(receiver); },
-      [&](VariableId id, bool received, const ValueBlock* block) { report(id, received, block); });
+  messages_.transmit(sender, std::bind_front(&EventHandler::receive, this),
+                     std::bind_front(&EventHandler::report, this));
 }
 
 void EventHandler::transmit_ticks(std::size_t sender) {
-  messages_.transmit_ticks(
-      sender, clocks_.ticking(sender), [&](std::size_t receiver) { receive(receiver); },
-      [&](VariableId id, bool received, const ValueBlock* block) { report(id, received, block); });
+  messages_.transmit_ticks(sender, clocks_.ticking(sender),
+                           std::bind_front(&EventHandler::receive, this),
+                           std::bind_front(&EventHandler::report, this));
 }
 
 void EventHandler::receive(std::size_t receiver) {

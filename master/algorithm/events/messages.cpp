@@ -30,9 +30,10 @@ MessageExchange::MessageExchange(const System& system, std::span<const std::uniq
 void MessageExchange::add_clock(VariableId id) {
   const UnitDescription& description = *system_.components()[id.component].description;
   const Variable& clock = description.variables[id.variable];
-  const bool is_output = clock.type == ValueType::Clock && clock.causality == Causality::Output;
+  if (clock.type != ValueType::Clock) return;
+  const bool is_output = clock.causality == Causality::Output;
+  if (!is_output && !system_.ticks_triggered(id)) return;
   SourceClock source{id, clock.reference, {}, targets_of(system_, id), false};
-  if (!is_output && !(clock.is_time_based_clock() && !source.targets.empty())) return;
   for (std::size_t i = 0; i < description.variables.size(); ++i) {
     const Variable& variable = description.variables[i];
     if (!variable.belongs_to(clock.reference) || variable.causality != Causality::Output) continue;
