@@ -109,9 +109,8 @@ std::string unrest_text(const IdleSkipper::Unrest& unrest) {
   std::ostringstream text;
   text << "the device declared itself idle, but each period of its clock changed it, at "
        << to_seconds(unrest.when) << " s in or behind " << unrest.place
-       << ": such time is not skipped; if it counts or divides its clock, say so in idle_when(), "
-          "with "
-          "repeats_every() or a function that counts what is skipped";
+       << "; such time is simulated, unless idle_when() says by repeats_every() or a function what "
+          "the module counts";
   return text.str();
 }
 

@@ -16,6 +16,8 @@ namespace {
 
 using sc_core::sc_process_handle;
 
+constexpr const char* kTimers = "stride_timers";
+
 /// Each before those that it has spawned.
 void collect_threads(const std::vector<sc_core::sc_object*>& objects,
                      std::vector<sc_process_handle>& threads) {
@@ -267,7 +269,7 @@ void Kernel::make_alarm() {
   options.spawn_method();
   options.dont_initialize();
   options.set_sensitivity(alarm_.get());
-  sc_core::sc_spawn([this] { ring(); }, "stride_timers", &options);
+  sc_core::sc_spawn([this] { ring(); }, kTimers, &options);
 }
 
 void Kernel::ring() {
@@ -303,19 +305,15 @@ void Kernel::write_traces() noexcept {
 }
 
 void Kernel::end_threads() noexcept {
-  if (!initialized_ || !failure_.empty()) return;
-  failure_ = "its threads have been ended";
+  const Entry entry(*this);
+  if (!sc_core::sc_is_running(context_.get())) return;
+  if (failure_.empty()) failure_ = "its threads have been ended";
   try {
-    const Entry entry(*this);
     std::vector<sc_process_handle> threads;
     collect_threads(sc_core::sc_get_top_level_objects(context_.get()), threads);
-    if (threads.empty()) return;
-    // only a process can end another one at once; a thread may use what is on the stack of the one
-    // that spawned it, as SC_JOIN does
-    sc_core::sc_spawn([&threads] {
-      std::for_each(threads.rbegin(), threads.rend(), [](auto& thread) { thread.kill(); });
-    });
-    sc_core::sc_start(sc_core::SC_ZERO_TIME);
+    // a thread may use what is on the stack of the one that spawned it, as SC_JOIN does
+    std::reverse(threads.begin(), threads.end());
+    systemc::end_threads(*context_, threads, sc_process_handle(sc_core::sc_find_object(kTimers)));
   } catch (...) {  // a destructor of the device threw; the error can no longer be reported
   }
 }

@@ -18,6 +18,15 @@ void forget_reset_finders(sc_core::sc_simcontext& context);
 /// ended and the last values be traced. To be called outside of all processes.
 void allow_start_after_stop(sc_core::sc_simcontext& context);
 
+/// Ends threads at once, in this order, so that what is on their stacks is destroyed; no other
+/// process runs any more, then or later. One that has not begun ends without having begun: a
+/// SystemC that is built with POSIX threads would wait for it in the destructor of the context.
+/// `method` is any process of this kind, in whose name it is done. To be called outside of all
+/// processes, after the simulation has begun.
+void end_threads(sc_core::sc_simcontext& context,
+                 const std::vector<sc_core::sc_process_handle>& threads,
+                 const sc_core::sc_process_handle& method);
+
 /// What will be notified at a later time.
 struct Notification {
   const sc_core::sc_event* event;

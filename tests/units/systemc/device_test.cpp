@@ -1,3 +1,4 @@
+#define SC_INCLUDE_DYNAMIC_PROCESSES
 #include <memory>
 #include <thread>
 #include <utility>
@@ -96,6 +97,70 @@ TEST_CASE("objects on a thread's stack are destroyed with the device") {
     CHECK_FALSE(watch.expired());
   }
   CHECK(watch.expired());
+}
+
+TEST_CASE("objects on a thread's stack are destroyed with a device that has failed") {
+  struct Failing : sc_core::sc_module {
+    Owner owner;
+    blinker::Actor actor{"actor", [] { SC_REPORT_ERROR("actor", "fails"); }, false};
+    Failing(sc_core::sc_module_name name, std::shared_ptr<int> object)
+        : sc_module(name), owner("owner", std::move(object)) {}
+  };
+  auto object = std::make_shared<int>(1);
+  const std::weak_ptr<int> watch = object;
+  {
+    Device<Failing> device({}, "failing", std::exchange(object, nullptr));
+    CHECK_THROWS(device.advance(at(kMicrosecond)));
+    CHECK_FALSE(watch.expired());
+  }
+  CHECK(watch.expired());
+}
+
+TEST_CASE("objects on a thread's stack are destroyed when a device fails at its beginning") {
+  struct Stillborn : sc_core::sc_module {
+    Owner owner;
+    Stillborn(sc_core::sc_module_name name, std::shared_ptr<int> object)
+        : sc_module(name), owner("owner", std::move(object)) {
+      SC_HAS_PROCESS(Stillborn);
+      SC_THREAD(fail);
+    }
+    void fail() {
+      wait(sc_core::SC_ZERO_TIME);
+      SC_REPORT_ERROR("stillborn", "fails");
+    }
+  };
+  auto object = std::make_shared<int>(1);
+  const std::weak_ptr<int> watch = object;
+  CHECK_THROWS(Device<Stillborn>({}, "stillborn", std::exchange(object, nullptr)));
+  CHECK(watch.expired());
+}
+
+TEST_CASE("threads that have not begun do not begin when their device is destroyed") {
+  struct Waiting : sc_core::sc_module {
+    sc_core::sc_event never{"never"};
+    int& begun;
+    Waiting(sc_core::sc_module_name name, int& begun_) : sc_module(name), begun(begun_) {
+      port(signal);
+      SC_HAS_PROCESS(Waiting);
+      SC_CTHREAD(run, port.pos());
+      SC_THREAD(run);
+      sensitive << never;
+      dont_initialize();
+      sc_core::sc_spawn_options options;
+      options.dont_initialize();
+      options.set_sensitivity(&never);
+      sc_core::sc_spawn([this] { run(); }, "spawned", &options);
+    }
+    void run() { ++begun; }
+    sc_core::sc_signal<bool> signal{"signal"};
+    sc_core::sc_in<bool> port{"port"};
+  };
+  int begun = 0;
+  for (const Time end : {at(0 * kMicrosecond), at(kMicrosecond)}) {
+    Device<Waiting> device({}, "waiting", begun);
+    device.advance(end);
+  }
+  CHECK(begun == 0);
 }
 
 TEST_CASE("devices may be advanced from several threads at once") {

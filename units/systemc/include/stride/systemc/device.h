@@ -30,6 +30,7 @@ class Device {
     try {
       kernel_.initialize();
     } catch (...) {
+      kernel_.end_threads();
       destroy_module();
       throw;
     }

@@ -124,8 +124,9 @@ class Kernel {
   /// resolution further then.
   void write_traces() noexcept;
 
-  /// Ends all threads of the device, so that what lives on their stacks is destroyed. To be called
-  /// before the modules are destroyed. The kernel cannot be advanced afterwards.
+  /// Ends all threads of the device, so that what lives on their stacks is destroyed; also after a
+  /// failure. To be called before the modules are destroyed. The kernel cannot be advanced
+  /// afterwards.
   void end_threads() noexcept;
 
  private:
