@@ -14,15 +14,22 @@ constexpr Duration kWorthwhile{1'000'000};
 
 Time IdleSkipper::advance(Time to, bool may_stop_early, Duration max_skip) {
   return kernel_.within([&] {
+    has_settled_ = false;
     note_state();
     Duration ahead = lead();
     while (kernel_.now() < to) {
       const Time next = kernel_.now() + std::min(ahead, to - kernel_.now());
-      if (kernel_.approach(next, may_stop_early) < next) return kernel_.now();
+      if (kernel_.approach(next, may_stop_early) < next) {
+        has_settled_ = false;
+        return kernel_.now();
+      }
+      if (next == to) break;
       ahead =
           kernel_.at_rest() ? look(to, max_skip) : kTick;  // what is due here has not happened yet
     }
-    return kernel_.advance(to);
+    kernel_.advance(to);
+    if (rules_.idle() && is_period_over()) compare_states();
+    return kernel_.now();
   });
 }
 
@@ -33,20 +40,19 @@ Duration IdleSkipper::until_next_check() {
   return next ? std::max(kCheckInterval, *next - kernel_.now()) : Duration::max();
 }
 
-// Skips if it can; returns how far ahead the next look is.
+// Skips if it can; returns how far ahead the next look is. The states are compared also where there
+// is nothing to skip: a promise needs it, too.
 Duration IdleSkipper::look(Time to, Duration max_skip) {
-  if (!rules_.idle()) return until_next_check();
+  if (!rules_.idle()) {
+    has_settled_ = false;
+    return until_next_check();
+  }
+  const Comparison comparison = compare_states();
+  if (comparison == Comparison::Changed && is_restless()) return until_next_check();
+  if (comparison != Comparison::Same) return lead();
   const Duration skipped = room(to, max_skip);
   if (skipped < kWorthwhile || is_obstructed()) return until_next_check();
-  switch (compare_states()) {
-    case Comparison::None:
-      return lead();
-    case Comparison::Changed:
-      return is_restless() ? until_next_check() : lead();
-    case Comparison::Same:
-      skip(skipped);
-      return lead();
-  }
+  skip(skipped);
   return lead();
 }
 
@@ -65,11 +71,17 @@ bool IdleSkipper::note_state() {
 
 // The phase of the clock must be the same, or a picosecond later: what is due at one look happens
 // before the next. Over several periods a counter may have come round.
+bool IdleSkipper::is_period_over() const {
+  const Duration elapsed = simulated() - watched_at_;
+  return elapsed >= lead() && elapsed <= lead() + kTick;
+}
+
 IdleSkipper::Comparison IdleSkipper::compare_states() {
   if (!watch_) return Comparison::Same;
-  const Duration elapsed = simulated() - watched_at_;
+  const bool is_comparable = is_period_over();
   const bool has_changed = note_state();
-  if (elapsed < lead() || elapsed > lead() + kTick) return Comparison::None;
+  has_settled_ = is_comparable && !has_changed;
+  if (!is_comparable) return Comparison::None;
   changes_ = has_changed ? std::min(changes_ + 1, kMostChanges) : 0;
   if (is_restless() && !unrest_) unrest_ = Unrest{kernel_.now(), watch_->place()};
   return has_changed ? Comparison::Changed : Comparison::Same;

@@ -42,7 +42,10 @@ void StateWatch::add(const sc_core::sc_object& object) {
   const std::size_t offset = offset_of(dynamic_cast<const void*>(&object));
   const bool is_inside = offset < before_.size();
   if (is_inside) landmarks_.push_back({offset, &object});
-  if (const auto* clock = dynamic_cast<const sc_core::sc_clock*>(&object)) {
+  if (const auto* port = dynamic_cast<const sc_core::sc_port_base*>(&object)) {
+    const auto* channel = dynamic_cast<const sc_core::sc_signal_channel*>(port->get_interface());
+    if (channel != nullptr) ports_.emplace(channel, port->name());
+  } else if (const auto* clock = dynamic_cast<const sc_core::sc_clock*>(&object)) {
     ignore(clock, sizeof *clock);
   } else if (const auto* channel = dynamic_cast<const sc_core::sc_signal_channel*>(&object)) {
     ignore(channel, sizeof *channel);
@@ -88,10 +91,16 @@ bool StateWatch::signals_have_changed() {
     const std::uint64_t present = signal.state();
     if (present == signal.before) continue;
     signal.before = present;
-    place_ = signal.channel->name();
+    place_ = name_of(*signal.channel);
     has_changed = true;
   }
   return has_changed;
+}
+
+std::string StateWatch::name_of(const sc_core::sc_signal_channel& channel) const {
+  const auto port = ports_.find(&channel);
+  const bool is_outside = channel.get_parent_object() == nullptr;
+  return is_outside && port != ports_.end() ? port->second : channel.name();
 }
 
 std::string StateWatch::place_at(std::size_t offset) const {

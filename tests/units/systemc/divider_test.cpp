@@ -1,4 +1,5 @@
 // Modules that count the edges of their clock, and so of those that are skipped.
+#include <algorithm>
 #include <memory>
 #include <string>
 #include <vector>
@@ -227,4 +228,141 @@ TEST_CASE("a module that is what it was after each period is skipped") {
   unit.unit().terminate();
   REQUIRE(unit.log.size() == 1);
   CHECK_THAT(unit.log[0].second, Contains("in 10 skips"));
+}
+
+TEST_CASE("a promise needs a period that has left the module as it was") {
+  const auto promise_after = [](auto edges, Duration length) {
+    UnitDriver unit = driver_of<Monitor>([&](Rows<Monitor>& rows) {
+      rows.clock(&Monitor::clk, kClock);
+      rows.input("level", &Monitor::level);
+      rows.output("alert", &Monitor::alert);
+      rows.idle_when(&Monitor::is_quiet, edges);
+    });
+    unit.enable_skipping();
+    unit.initialize();
+    unit.step(at(length));
+    return unit.idle_until();
+  };
+  for (const Duration length : {kClock, 3 * kClock / 2, 2 * kClock, 10 * kClock, 99 * kClock}) {
+    CAPTURE(length.count());
+    CHECK(promise_after(counts_nothing(), length) == at(length));
+    CHECK(promise_after(repeats_every(100 * kClock), length) == at(length));
+  }
+  for (const Duration length : {100 * kClock, 101 * kClock, 250 * kClock}) {
+    CAPTURE(length.count());
+    CHECK(promise_after(counts_nothing(), length) == at(length));
+    CHECK(promise_after(repeats_every(100 * kClock), length) == Time::max());
+  }
+}
+
+TEST_CASE("the place of a change in a signal of the unit is the port that is bound to it") {
+  struct Counter : sc_core::sc_module {
+    sc_core::sc_in<bool> clk{"clk"};
+    sc_core::sc_out<int> count{"count"};
+    explicit Counter(sc_core::sc_module_name name) : sc_module(name) {
+      SC_HAS_PROCESS(Counter);
+      SC_METHOD(run);
+      sensitive << clk.pos();
+      dont_initialize();
+    }
+    void run() { count.write(++*edges); }
+    std::unique_ptr<int> edges = std::make_unique<int>();
+  };
+  UnitDriver unit = driver_of<Counter>([](Rows<Counter>& rows) {
+    rows.clock(&Counter::clk, kClock);
+    rows.output("count", &Counter::count);
+    rows.idle_when([](const Counter&) { return true; }, counts_nothing());
+  });
+  unit.enable_skipping();
+  unit.initialize();
+  unit.step(at(kMillisecond));
+  unit.unit().terminate();
+  CHECK(unit.value<int>("count") == 1001);
+  REQUIRE(unit.log.size() == 2);
+  CHECK_THAT(unit.log[1].second, Contains("in or behind device.count;"));
+}
+
+namespace {
+
+/// Barks when it has not been kicked for 5000 edges of its clock.
+class Watchdog : public sc_core::sc_module {
+ public:
+  static constexpr int kLimit = 5000;
+  sc_core::sc_in<bool> clk{"clk"}, kick{"kick"};
+  sc_core::sc_out<bool> bark{"bark"};
+  std::vector<Time> barks;
+  int edges = 0;
+
+  explicit Watchdog(sc_core::sc_module_name name) : sc_module(name) {
+    SC_HAS_PROCESS(Watchdog);
+    SC_METHOD(count);
+    sensitive << clk.pos();
+    dont_initialize();
+  }
+  bool is_quiet() const { return kick.read() == kicked_; }
+
+ private:
+  void count() {
+    edges = kick.read() == kicked_ ? std::min(edges + 1, kLimit) : 0;
+    kicked_ = kick.read();
+    if (edges == kLimit && !bark.read()) barks.push_back(stride::systemc::current_time());
+    bark.write(edges == kLimit);
+  }
+  bool kicked_ = false;
+};
+
+class WatchdogUnit : public stride::systemc::ModuleUnit<Watchdog> {
+ public:
+  WatchdogUnit() : ModuleUnit("watchdog", "A counter with a limit") {
+    clock(&Watchdog::clk, kClock);
+    input("kick", &Watchdog::kick);
+    output("bark", &Watchdog::bark);
+    output("barks", [this](const Watchdog& dog) {
+      barks = dog.barks;
+      return static_cast<int>(dog.barks.size());
+    });
+    idle_when(&Watchdog::is_quiet, [](Watchdog& dog, const Skipped& skipped) {
+      if (dog.edges < Watchdog::kLimit) dog.edges += static_cast<int>(skipped.cycles);
+    });
+  }
+  std::vector<Time> barks;
+
+ protected:
+  Duration longest_skip(const Watchdog& dog) const override { return until_limit(dog); }
+  Duration tangents_hold_for(const Watchdog& dog) const override { return until_limit(dog); }
+
+ private:
+  static Duration until_limit(const Watchdog& dog) {
+    if (dog.edges == Watchdog::kLimit) return Duration::max();
+    return (Watchdog::kLimit - 1 - dog.edges) * kClock;
+  }
+};
+
+std::vector<std::int64_t> barks(bool skips, Duration length) {
+  auto unit = std::make_unique<WatchdogUnit>();
+  WatchdogUnit& watchdog = *unit;
+  UnitDriver driver(std::move(unit));
+  if (skips) driver.enable_skipping();
+  driver.initialize();
+  for (const Time end : {at(7 * kMillisecond + Duration(123)), at(30 * kMillisecond)}) {
+    while (driver.now() < end) {
+      const Time promised = skips ? driver.idle_until() : driver.now();
+      driver.step(std::min(end, std::max(driver.now() + length, promised)));
+    }
+    driver.value<bool>("kick") = true;
+  }
+  std::vector<std::int64_t> barks;
+  for (const Time bark : watchdog.barks) barks.push_back(bark.time_since_epoch() / kMicrosecond);
+  return barks;
+}
+
+}  // namespace
+
+TEST_CASE("a counter with a limit is skipped up to the limit") {
+  for (const Duration length : {100 * kMicrosecond, 900 * kMicrosecond, 7 * kMillisecond}) {
+    CAPTURE(length.count());
+    const std::vector<std::int64_t> expected = barks(false, length);
+    CHECK(expected.size() == 2);
+    CHECK(barks(true, length) == expected);
+  }
 }

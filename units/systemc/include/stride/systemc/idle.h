@@ -52,7 +52,8 @@ class IdleRules {
 /// is later. Less than 1 us is simulated, which costs less than a skip.
 ///
 /// With a StateWatch a skip needs more than the device's word: a clock period that has left it as
-/// it was. If 16 in a row do not, its idle time is simulated until one does.
+/// it was. If 16 in a row do not, its idle time is simulated until one does. has_settled() is the
+/// same for promises.
 class IdleSkipper {
  public:
   struct Statistics {
@@ -81,8 +82,9 @@ class IdleSkipper {
   std::optional<Time> obstacle() const { return obstacle_; }
   /// The first one.
   const std::optional<Unrest>& unrest() const { return unrest_; }
-  /// The last periods that it spent idle have changed it.
-  bool is_restless() const { return changes_ >= kMostChanges; }
+  /// The last period that the last advance() compared has left it as it was; without a StateWatch
+  /// its word is enough.
+  bool has_settled() const { return !watch_ || has_settled_; }
 
  private:
   static constexpr int kMostChanges = 16;  ///< what was begun before may end in some cycles
@@ -90,8 +92,12 @@ class IdleSkipper {
   enum class Comparison { None, Same, Changed };
 
   Duration look(Time to, Duration max_skip);
+  /// Since the state was noted.
+  bool is_period_over() const;
   /// Of the state a period ago, if it was noted, with the present one.
   Comparison compare_states();
+  /// The last periods that it spent idle have changed it.
+  bool is_restless() const { return changes_ >= kMostChanges; }
   bool note_state();
   void skip(Duration skipped);
   Duration simulated() const { return kernel_.now().time_since_epoch() - kernel_.skipped(); }
@@ -105,6 +111,7 @@ class IdleSkipper {
   std::optional<StateWatch> watch_;
   Duration watched_at_{};  ///< simulated() when the watch noted the state
   int changes_ = 0;        ///< in so many periods in a row
+  bool has_settled_ = false;
   std::optional<Unrest> unrest_;
   Statistics statistics_;
   std::optional<Time> obstacle_;

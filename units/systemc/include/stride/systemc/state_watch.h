@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <string>
 #include <systemc>
 #include <vector>
@@ -51,6 +52,8 @@ class StateWatch {
   void ignore(const void* begin, std::size_t size);
   /// size() for what is elsewhere.
   std::size_t offset_of(const void* address) const;
+  /// A signal outside of the module has the name of a port that is bound to it.
+  std::string name_of(const sc_core::sc_signal_channel& channel) const;
   bool bytes_have_changed();
   bool signals_have_changed();
   std::string place_at(std::size_t offset) const;
@@ -61,6 +64,7 @@ class StateWatch {
   std::vector<Range> ignored_;
   std::vector<Signal> signals_;
   std::vector<Landmark> landmarks_;
+  std::map<const sc_core::sc_signal_channel*, std::string> ports_;
   std::string place_;
 };
 

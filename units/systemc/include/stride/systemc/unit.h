@@ -93,7 +93,7 @@ class DeviceUnit : public Unit {
   }
 
   Time idle_until(Time now) const final {
-    if (has_message() || device_->kernel().stopped() || skipper_->is_restless()) return now;
+    if (has_message() || device_->kernel().stopped() || !skipper_->has_settled()) return now;
     return device_->within([&](const Module& module) {
       if (!inputs_are_taken_up() || !idle(module)) return now;
       return std::min(later(now, tangents_hold_for(module)), next_happening(module));
