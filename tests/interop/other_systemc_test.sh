@@ -8,7 +8,7 @@ folder=$3
 
 prefix=${STRIDE_OTHER_SYSTEMC:-}
 if [ -z "$prefix" ]; then
-  echo "skipped: STRIDE_OTHER_SYSTEMC names no prefix of another SystemC, such as 3.0"
+  echo "SKIPPED: STRIDE_OTHER_SYSTEMC names no prefix of another SystemC, such as 3.0"
   exit 77
 fi
 [ -e "$prefix/include/systemc" ] || { echo "FAILED: there is no include/systemc in $prefix"; exit 1; }
