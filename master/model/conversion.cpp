@@ -2,51 +2,18 @@
 
 #include <algorithm>
 #include <charconv>
-#include <limits>
 #include <map>
-#include <type_traits>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "master/model/visit_type.h"
+#include "master/model/number_range.h"
+#include "master/model/transformation_types.h"
+#include "master/model/values.h"
 #include "master/util/suggest.h"
 
 namespace stride::core {
 namespace {
-
-/// The whole numbers of a type; Boolean and Enumeration as integers.
-struct Range {
-  std::int64_t least;
-  std::uint64_t most;
-
-  bool holds(const Range& other) const { return least <= other.least && most >= other.most; }
-  bool holds(std::int64_t number) const {
-    return number >= least && (number < 0 || static_cast<std::uint64_t>(number) <= most);
-  }
-};
-
-template <class T>
-constexpr Range range_of() {
-  using Limits = std::numeric_limits<T>;
-  return {static_cast<std::int64_t>(Limits::min()), static_cast<std::uint64_t>(Limits::max())};
-}
-
-/// Of Float32 and Float64: the numbers up to which all whole numbers are exact.
-std::optional<Range> range_of(ValueType type) {
-  return visit_type(type, []<class T>(std::type_identity<T>) -> std::optional<Range> {
-    if constexpr (std::is_floating_point_v<T>) {
-      constexpr auto kMost = std::int64_t{1} << std::numeric_limits<T>::digits;
-      return Range{-kMost, kMost};
-    } else if constexpr (std::is_integral_v<T> && !std::is_same_v<T, bool>) {
-      return range_of<T>();
-    } else {
-      return std::nullopt;
-    }
-  });
-}
-
-bool is_integer(ValueType type) { return range_of(type) && !is_real(type); }
 
 /// b after a
 LinearConversion then(const LinearConversion& a, const LinearConversion& b) {
@@ -58,6 +25,11 @@ NumberMap then(const NumberMap& a, const NumberMap& b) {
   std::map<std::int64_t, std::int64_t> all(b.begin(), b.end());
   for (const auto& [source, target] : a) all[source] = mapped(b, target);
   return {all.begin(), all.end()};
+}
+
+/// What false and true become, by way of numbers, as false or true.
+NumberMap truth_of(const NumberMap& map) {
+  return {{0, mapped(map, 0) != 0}, {1, mapped(map, 1) != 0}};
 }
 
 std::optional<std::int64_t> number_of(const EnumerationItems& items, const std::string& name) {
@@ -72,7 +44,10 @@ class Composer {
  public:
   Composer(const std::vector<PathConnector>& path, std::span<const PathSegment> segments,
            const Context& context)
-      : path_(completed(path)), segments_(segments), context_(context) {}
+      : path_(completed(path)),
+        segments_(segments),
+        context_(context),
+        is_text_(!path.front().type) {}
 
   LinearConversion linear() const {
     LinearConversion linear;
@@ -95,9 +70,15 @@ class Composer {
   }
 
   Conversion conversion() const {
-    Conversion conversion{linear(), {}, {}};
+    Conversion conversion{linear(), {}, {}, {}};
+    NumberMap* map = &conversion.map;
     for (std::size_t i = 0; i < segments_.size(); ++i) {
-      conversion.map = then(conversion.map, numbers(i));
+      const bool becomes_boolean = is_integer(type(i)) && type(i + 1) == ValueType::Boolean;
+      const bool is_mapped_behind = becomes_boolean && is_boolean(i);
+      if (!is_mapped_behind) *map = then(*map, numbers(i));
+      if (becomes_boolean && type(0) == ValueType::Boolean) *map = truth_of(*map);
+      if (becomes_boolean && type(0) != ValueType::Boolean) map = &conversion.truth;
+      if (is_mapped_behind) *map = then(*map, numbers(i));
     }
     check_results(conversion);
     std::erase_if(conversion.map, [&](const auto& entry) {
@@ -125,6 +106,11 @@ class Composer {
  private:
   ValueType type(std::size_t place) const { return *path_[place].type; }
 
+  /// Whether the segment's mapping is one of Boolean.
+  bool is_boolean(std::size_t segment) const {
+    return segments_[segment].transformation.kind == Transformation::Kind::BooleanMapping;
+  }
+
   std::string wire(std::size_t segment) const {
     return fmt::format("'{}' to '{}'", path_[segment].name, path_[segment + 1].name);
   }
@@ -147,12 +133,12 @@ class Composer {
     if (is_checked_later || converts_without_loss(*from.type, *to.type, from.items)) return;
     if (is_real(*from.type) && is_real(*to.type)) return;
     if (is_boolean_conversion(segment)) return;
-    fail(fmt::format(
-             "cannot connect {}: {} and {} are different types, and {}", wire(segment),
-             core::name(*from.type), core::name(*to.type),
-             range_of(*from.type) && range_of(*to.type)
-                 ? fmt::format("not every {} is a {}", core::name(*from.type), core::name(*to.type))
-                 : "one is not converted into the other"),
+    fail(fmt::format("cannot connect {}: {} and {} are different types, and {}", wire(segment),
+                     core::name(*from.type), core::name(*to.type),
+                     range_of(*from.type) && range_of(*to.type)
+                         ? fmt::format("not every {} is {}", core::name(*from.type),
+                                       name_with_article(*to.type))
+                         : "one is not converted into the other"),
          is_integer(*from.type) && is_integer(*to.type)
              ? "an <ssc:IntegerMappingTransformation> whose targets all fit defines which become "
                "which; otherwise put a unit between them that converts the value"
@@ -171,41 +157,16 @@ class Composer {
   /// Which types a transformation is for: SSP 2.0, "Transformation Choice".
   void check_transformation(std::size_t segment) const {
     const Transformation& transformation = segments_[segment].transformation;
-    const auto both = [&](auto&& is_right) {
-      return is_right(type(segment)) && is_right(type(segment + 1));
-    };
-    const auto complain = [&](const char* meant_for) {
-      fail(transformation,
-           fmt::format("a {} is for {}, and {} is a connection from {} to {}",
-                       core::name(transformation.kind), meant_for, wire(segment),
-                       core::name(type(segment)), core::name(type(segment + 1))),
-           fmt::format("transform such values by {}", transformation_for(type(segment))));
-    };
-    switch (transformation.kind) {
-      case Transformation::Kind::None:
-        return;
-      case Transformation::Kind::Linear:
-        if (!both(is_real)) complain("Float64 and Float32");
-        return;
-      case Transformation::Kind::BooleanMapping:
-        if (!both([](ValueType t) { return t == ValueType::Boolean; })) complain("Boolean");
-        return;
-      case Transformation::Kind::IntegerMapping:
-        if (!both(is_integer)) complain("integers and Enumerations");
-        return;
-      case Transformation::Kind::EnumerationMapping:
-        if (!both([](ValueType t) { return t == ValueType::Enumeration; })) {
-          complain("Enumerations");
-        }
+    const ValueType from = type(segment), to = type(segment + 1);
+    const bool is_of_text = segment == 0 && is_text_;
+    if (is_of_text ? is_for_text(transformation.kind, to) : is_for(transformation.kind, from, to)) {
+      return;
     }
-  }
-
-  static const char* transformation_for(ValueType type) {
-    if (is_real(type)) return "a <ssc:LinearTransformation factor=\"…\" offset=\"…\"/>";
-    if (type == ValueType::Boolean) return "a <ssc:BooleanMappingTransformation>";
-    if (type == ValueType::Enumeration) return "an <ssc:EnumerationMappingTransformation>";
-    if (is_integer(type)) return "an <ssc:IntegerMappingTransformation>";
-    return "a unit between the two; SSP has no transformation for them";
+    fail(transformation,
+         fmt::format("{} is for {}, and {} is a connection from {} to {}",
+                     name_with_article(transformation.kind), types_of(transformation.kind),
+                     wire(segment), core::name(from), core::name(to)),
+         fmt::format("transform such values by {}", transformation_for(from, to)));
   }
 
   LinearConversion unit_conversion(std::size_t segment) const {
@@ -275,11 +236,15 @@ class Composer {
   void check_results(Conversion& conversion) const {
     const PathConnector& first = path_.front();
     const PathConnector& last = path_.back();
+    if (*first.type == ValueType::Boolean && is_integer(*last.type)) {
+      check_result("value 'false'", mapped(conversion.map, 0));
+      check_result("value 'true'", mapped(conversion.map, 1));
+    }
     if (!is_integer(*first.type) || !is_integer(*last.type)) return;
     const bool to_items = *last.type == ValueType::Enumeration && !last.items.empty();
     if (*first.type == ValueType::Enumeration && !first.items.empty()) {
       for (const auto& [item, number] : first.items) {
-        check_result(item, mapped(conversion.map, number));
+        check_result(fmt::format("item '{}'", item), mapped(conversion.map, number));
       }
       return;
     }
@@ -289,13 +254,13 @@ class Composer {
       return;
     }
     if (converts_without_loss(*first.type, *last.type, first.items)) return;
-    fail(fmt::format("cannot connect '{}' to '{}': not every {} is a {}, and what the mapping does "
+    fail(fmt::format("cannot connect '{}' to '{}': not every {} is {}, and what the mapping does "
                      "not name stays what it is",
-                     first.name, last.name, core::name(*first.type), core::name(*last.type)),
+                     first.name, last.name, core::name(*first.type), name_with_article(*last.type)),
          "put a unit between them that converts the value, or use one with another type");
   }
 
-  void check_result(const std::string& item, std::int64_t becomes) const {
+  void check_result(const std::string& value, std::int64_t becomes) const {
     const PathConnector& first = path_.front();
     const PathConnector& last = path_.back();
     const bool to_items = *last.type == ValueType::Enumeration && !last.items.empty();
@@ -303,9 +268,9 @@ class Composer {
                                                  [&](const auto& i) { return i.second == becomes; })
                                    : range_of(*last.type)->holds(becomes);
     if (is_known) return;
-    fail(fmt::format("cannot connect '{}' to '{}': the item '{}' of the one becomes {}, which is "
+    fail(fmt::format("cannot connect '{}' to '{}': the {} of the one becomes {}, which is "
                      "not {}",
-                     first.name, last.name, item, becomes,
+                     first.name, last.name, value, becomes,
                      to_items ? fmt::format("an item of the other: {}", item_text(last.items))
                               : fmt::format("a valid {}", core::name(*last.type))),
          to_items ? "define what it becomes, in an <ssc:EnumerationMappingTransformation>"
@@ -320,14 +285,17 @@ class Composer {
       }
       return word;
     }
-    std::int64_t number = 0;
-    const auto end = std::from_chars(word.data(), word.data() + word.size(), number);
-    if (transformation.kind == Transformation::Kind::BooleanMapping) {
-      if (word != "true" && word != "1" && word != "false" && word != "0") return word;
-      return mapped(transformation.numbers, word == "true" || word == "1" ? 1 : 0) != 0 ? "true"
-                                                                                        : "false";
+    const bool is_of_boolean = is_boolean(segment);
+    const auto meant = meant_value(is_of_boolean ? ValueType::Boolean : ValueType::Int64, word);
+    const std::string& plain = meant ? *meant : word;
+    if (is_of_boolean) {
+      if (plain != "true" && plain != "1" && plain != "false" && plain != "0") return word;
+      const std::int64_t source = plain == "true" || plain == "1" ? 1 : 0;
+      return mapped(transformation.numbers, source) != 0 ? "true" : "false";
     }
-    if (end.ptr != word.data() + word.size() || end.ec != std::errc{}) {
+    std::int64_t number = 0;
+    const auto end = std::from_chars(plain.data(), plain.data() + plain.size(), number);
+    if (end.ptr != plain.data() + plain.size() || end.ec != std::errc{}) {
       const auto named = number_of(path_[segment].items, word);
       if (!named) return word;
       number = *named;
@@ -338,6 +306,7 @@ class Composer {
   std::vector<PathConnector> path_;
   std::span<const PathSegment> segments_;
   const Context& context_;
+  bool is_text_;  ///< which becomes a value of the type of the second connector
 };
 
 }  // namespace
@@ -353,13 +322,6 @@ UnitOfMeasure known_unit(UnitOfMeasure unit, const UnitDescription& description)
   const auto found = description.units_of_measure.find(unit.name);
   if (found != description.units_of_measure.end()) unit.meaning = found->second;
   return unit;
-}
-
-const char* name(Transformation::Kind kind) {
-  constexpr const char* kNames[] = {"", "LinearTransformation", "BooleanMappingTransformation",
-                                    "IntegerMappingTransformation",
-                                    "EnumerationMappingTransformation"};
-  return kNames[static_cast<std::size_t>(kind)];
 }
 
 bool converts_without_loss(ValueType from, ValueType to, const EnumerationItems& items) {

@@ -21,11 +21,12 @@ using NumberMap = std::vector<std::pair<std::int64_t, std::int64_t>>;
 /// The conversion of each element.
 struct Conversion {
   LinearConversion linear;  ///< of Float32 and Float64 only
-  NumberMap map;            ///< of integers, Enumeration and Boolean (0 and 1) only
+  NumberMap map;    ///< of integers, Enumeration and Boolean (0 and 1) only, before `linear`
+  NumberMap truth;  ///< of what an integer, mapped, is as a Boolean: 0 or 1
   /// The values that the target, an Enumeration, may have; empty: nothing is to be checked.
   std::vector<std::int64_t> valid;
 
-  bool is_identity() const { return linear.is_identity() && map.empty(); }
+  bool is_identity() const { return linear.is_identity() && map.empty() && truth.empty(); }
   bool operator==(const Conversion&) const = default;
 };
 
@@ -38,7 +39,8 @@ UnitOfMeasure known_unit(UnitOfMeasure unit, const UnitDescription& description)
 using EnumerationItems = std::vector<std::pair<std::string, std::int64_t>>;
 
 /// A transformation of SSP (2.0, section "Transformation Choice"), applied after the conversion of
-/// units of measure.
+/// units of measure. Where a connection changes the type, too, it is applied to the end that has
+/// the type which it is for: before the change, or after it.
 struct Transformation {
   enum class Kind { None, Linear, BooleanMapping, IntegerMapping, EnumerationMapping };
   Kind kind = Kind::None;
@@ -47,9 +49,6 @@ struct Transformation {
   std::vector<std::pair<std::string, std::string>> names{};  ///< of Enumerations, by their items
   Location where{};
 };
-
-/// "LinearTransformation", the name of its element.
-const char* name(Transformation::Kind kind);
 
 /// Between two connectors of a path: an ssd:Connection or an ssm:MappingEntry.
 struct PathSegment {
@@ -79,8 +78,9 @@ std::vector<PathConnector> completed(std::vector<PathConnector> path);
 Conversion compose(const std::vector<PathConnector>& path, std::span<const PathSegment> segments,
                    const Context& context);
 
-/// Likewise for a value that is given as text, whose type and enumeration need not be known: the
-/// text behind all mappings, and what to do with its numbers.
+/// Likewise for a value that is given as text, whose type and enumeration need not be known, and is
+/// taken for one that the first transformation is for: the text behind all mappings, and what to do
+/// with its numbers.
 struct TextConversion {
   std::string text;
   LinearConversion linear;

@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include "master/model/number_range.h"
 #include "master/model/unknown_variable.h"
 #include "master/util/limited_warnings.h"
 #include "master/util/message_text.h"
@@ -166,6 +167,7 @@ void System::check_connector(const SystemDeclaration& declaration,
     fail_input(context, fmt::format("the connector has {}, the unit has {}",
                                     core::name(*connector.type), core::name(variable.type)));
   }
+  note_other_kin(context, connector, variable);
   if (connector.unit.name.empty()) return;
   const UnitOfMeasure unit = known_unit(connector.unit, *component.description);
   if (!convert(unit, known_unit({variable.unit}, *component.description))) {
@@ -173,6 +175,18 @@ void System::check_connector(const SystemDeclaration& declaration,
                                     unit.name, variable.unit));
   }
   connector_units_[{components_.size(), *found}] = unit;
+}
+
+/// A warning only: the type of a connector of SSP 1.0 does not change what is exchanged.
+void System::note_other_kin(const Context& context, const ConnectorDeclaration& connector,
+                            const Variable& variable) {
+  if (!connector.kin) return;
+  const bool is_kin = is_real(*connector.kin) ? is_real(variable.type) : is_integer(variable.type);
+  if (is_kin) return;
+  warnings_.push_back(to_text(context) +
+                      fmt::format("the connector has {}, the unit has {}, which is used",
+                                  is_real(*connector.kin) ? "Real" : "Integer",
+                                  core::name(variable.type)));
 }
 
 void System::check_clocks(const ComponentDeclaration& component) const {

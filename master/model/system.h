@@ -111,6 +111,8 @@ class System {
                                  const SystemDeclaration* expecting);
   void check_connector(const SystemDeclaration& declaration, const ComponentDeclaration& component,
                        const ConnectorDeclaration& connector);
+  void note_other_kin(const Context& context, const ConnectorDeclaration& connector,
+                      const Variable& variable);
   void check_clocks(const ComponentDeclaration& component) const;
   /// Once they are sorted; null if there is none.
   const Connection* connection_to(VariableId input) const;
@@ -126,7 +128,7 @@ class System {
   std::optional<Ends> find_ends(const SystemDeclaration& declaration,
                                 const ConnectionDeclaration& wanted, Diagnostics& diagnostics);
   void add_second(const ConnectionDeclaration& declaration, const Connection& connection,
-                  const ConnectionDeclaration& first);
+                  const ConnectionDeclaration& first, const Connection& same);
   bool is_backwards(VariableId from, VariableId to) const;
   Connection connect(const ConnectionDeclaration& declaration, const Ends& ends);
   Conversion converted_on(const std::vector<PathConnector>& path,

@@ -39,14 +39,20 @@ std::vector<VariableId> clocks_of(const System& system, VariableId id) {
 
 void System::add_connections(const SystemDeclaration& declaration, Diagnostics& diagnostics) {
   find_message_clocks(declaration);
-  std::map<VariableId, const ConnectionDeclaration*> sources;
+  struct Source {
+    const ConnectionDeclaration* wanted;
+    std::size_t place;  ///< until they are sorted
+  };
+  std::map<VariableId, Source> sources;
   for (const ConnectionDeclaration& wanted : declaration.connections) {
     const std::optional<Ends> ends = find_ends(declaration, wanted, diagnostics);
     if (!ends) continue;
     diagnostics.attempt([&] {
       const Connection connection = connect(wanted, *ends);
-      const auto [source, is_first] = sources.emplace(connection.to, &wanted);
-      if (!is_first) return add_second(wanted, connection, *source->second);
+      const auto [source, is_first] =
+          sources.try_emplace(connection.to, &wanted, connections_.size());
+      const auto& [first, place] = source->second;
+      if (!is_first) return add_second(wanted, connection, *first, connections_[place]);
       connections_.push_back(connection);
     });
   }
@@ -54,9 +60,9 @@ void System::add_connections(const SystemDeclaration& declaration, Diagnostics& 
             [](const Connection& a, const Connection& b) { return a.to < b.to; });
   if (diagnostics.any()) return;  // a clock's connection may be among them
   for (const Connection& connection : connections_) {
-    diagnostics.attempt([&] { check_message(*sources.at(connection.to), connection); });
+    diagnostics.attempt([&] { check_message(*sources.at(connection.to).wanted, connection); });
     if (variable(connection.to).is_triggered_clock()) {
-      note_missing_data(*sources.at(connection.to), connection);
+      note_missing_data(*sources.at(connection.to).wanted, connection);
     }
   }
 }
@@ -137,10 +143,8 @@ bool System::is_backwards(VariableId from, VariableId to) const {
 
 /// One that says the same once more is ignored.
 void System::add_second(const ConnectionDeclaration& wanted, const Connection& connection,
-                        const ConnectionDeclaration& first) {
-  const auto same = std::ranges::find(connections_, connection.to, &Connection::to);
-  if (same != connections_.end() && same->from == connection.from &&
-      same->conversion == connection.conversion) {
+                        const ConnectionDeclaration& first, const Connection& same) {
+  if (same.from == connection.from && same.conversion == connection.conversion) {
     warnings_.push_back(to_text({.where = wanted.where}) +
                         fmt::format("the connection of '{}' to '{}' is there already, in line {}; "
                                     "this one is ignored",

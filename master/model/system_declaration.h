@@ -22,6 +22,9 @@ struct ConnectorDeclaration {
   UnitOfMeasure unit;
   Location where{};
   EnumerationItems items{};  ///< of its Enumeration, if that is declared
+  /// Where `type` leaves the width open, as SSP 1.0 does: Float64 for any floating-point number,
+  /// Int32 for any integer.
+  std::optional<ValueType> kin{};
 };
 struct ComponentDeclaration {
   std::string name;

@@ -12,6 +12,7 @@
 #include "master/util/hex.h"
 #include "master/util/lower_case.h"
 #include "master/util/message_text.h"
+#include "master/util/number_text.h"
 
 namespace stride::core {
 namespace {
@@ -39,6 +40,12 @@ void parse_element(const Variable& variable, const std::string& text, Number& va
   const char* const begin = text.data() + (text.size() > 1 && text[0] == '+' ? 1 : 0);
   const auto result = std::from_chars(begin, end, value);
   if (result.ec == std::errc{} && result.ptr == end) return;
+  if constexpr (std::is_floating_point_v<Number>) {
+    if (result.ec == std::errc::result_out_of_range && result.ptr == end && is_tiny_number(text)) {
+      value = text.starts_with('-') ? Number{-0.0} : Number{0};
+      return;
+    }
+  }
   reject(text, result.ec == std::errc::result_out_of_range
                    ? fmt::format("a number within the range of {}", name(variable.type))
                    : fmt::format("{} number", name_with_article(variable.type)));
@@ -72,17 +79,32 @@ void parse_enumeration(const Variable& variable, const std::string& text, std::i
   reject(text, "one of " + names);
 }
 
+/// The "2" of "2" and "2.0"; empty for what is no whole number.
+std::string whole_number(const std::string& word) {
+  const std::size_t digits = word.starts_with('-') ? 1 : 0;
+  const std::size_t end = std::min(word.find_first_not_of("0123456789", digits), word.size());
+  if (end == digits) return "";
+  const bool is_whole =
+      end == word.size() || (word[end] == '.' && word.find_first_not_of('0', end + 1) == word.npos);
+  return is_whole ? word.substr(0, end) : "";
+}
+
+std::string meant_boolean(const std::string& word) {
+  const std::string lower = lower_case(word);
+  if (lower == "true" || lower == "false") return lower;
+  const std::string number = whole_number(word);
+  if (number.empty() || word == "0" || word == "1") return word;
+  return number.find_first_not_of("-0") == number.npos ? "false" : "true";
+}
+
 /// A word of such a text, or the word itself.
 std::string meant_word(ValueType type, const std::string& word) {
-  if (type == ValueType::Boolean) {
-    const std::string lower = lower_case(word);
-    return lower == "true" || lower == "false" ? lower : word;
-  }
-  const std::size_t digits = word.starts_with('-') ? 1 : 0;
-  const std::size_t point = word.find_first_not_of("0123456789", digits);
-  const bool is_whole = point != word.npos && point > digits && word[point] == '.' &&
-                        word.find_first_not_of('0', point + 1) == word.npos;
-  return is_whole ? word.substr(0, point) : word;
+  if (type == ValueType::Boolean) return meant_boolean(word);
+  const std::string lower = lower_case(word);
+  if (lower == "true" || lower == "false") return lower == "true" ? "1" : "0";
+  if (is_real(type)) return word;
+  const std::string number = whole_number(word);
+  return number.empty() ? word : number;
 }
 
 template <class T>
@@ -196,8 +218,8 @@ ValueBlock parse(const Variable& variable, const std::string& text) {
 }
 
 std::optional<std::string> meant_value(ValueType type, const std::string& text) {
-  const bool may_differ = !is_real(type) && element_size(type) > 0 && type != ValueType::Clock &&
-                          type != ValueType::Enumeration;
+  const bool may_differ =
+      element_size(type) > 0 && type != ValueType::Clock && type != ValueType::Enumeration;
   if (!may_differ) return std::nullopt;
   std::string meant;
   bool differs = false;

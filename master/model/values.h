@@ -118,16 +118,18 @@ To converted(const From& value, const Conversion& conversion) {
   if constexpr (std::is_floating_point_v<From>) {
     if (conversion.linear.is_identity()) return static_cast<To>(value);
     return static_cast<To>(conversion.linear.factor * value + conversion.linear.offset);
+  } else if constexpr (std::is_floating_point_v<To>) {
+    const auto number =
+        conversion.map.empty()
+            ? static_cast<double>(value)
+            : static_cast<double>(mapped(conversion.map, static_cast<std::int64_t>(value)));
+    if (conversion.linear.is_identity()) return static_cast<To>(number);
+    return static_cast<To>(conversion.linear.factor * number + conversion.linear.offset);
   } else {
-    if constexpr (std::is_floating_point_v<To>) {
-      // a path may change the type first, and transform the number then
-      if (!conversion.linear.is_identity()) {
-        return static_cast<To>(conversion.linear.factor * static_cast<double>(value) +
-                               conversion.linear.offset);
-      }
-    }
-    if (conversion.map.empty()) return static_cast<To>(value);
-    return static_cast<To>(mapped(conversion.map, static_cast<std::int64_t>(value)));
+    if (conversion.map.empty() && conversion.truth.empty()) return static_cast<To>(value);
+    const std::int64_t number = mapped(conversion.map, static_cast<std::int64_t>(value));
+    if constexpr (std::is_same_v<To, bool>) return mapped(conversion.truth, number != 0) != 0;
+    return static_cast<To>(number);
   }
 }
 
@@ -144,7 +146,9 @@ bool is_same(const ValueBlock& a, std::size_t a_element, const ValueBlock& b,
 ValueBlock parse(const Variable& variable, const std::string& text);
 
 /// The value that a text of another form is meant to be, which some tools write: "true" for "True"
-/// or "TRUE", "2" for the "2.0" of an integer. Nothing for any other text, and for other types.
+/// or "TRUE", "2" for the "2.0" of an integer; between Booleans and numbers what a connection makes
+/// of it, "1" for the "true" of a number, "true" for the "2" of a Boolean. Nothing for any other
+/// text, and for other types.
 std::optional<std::string> meant_value(ValueType type, const std::string& text);
 
 /// The text of one element: shortest decimal form that reads back the same, "true"/"false",

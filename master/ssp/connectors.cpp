@@ -39,11 +39,15 @@ void read_kind(const xml::Element& element, Connector& connector) {
   element.fail(fmt::format("the kind '{}' is not known", kind), core::suggestion(kind, known));
 }
 
+/// Of the types of SSP 1.0 that may be of any width.
+std::optional<ValueType> kin_of(std::string_view name) {
+  if (name == "Real") return ValueType::Float64;
+  return name == "Integer" ? std::optional(ValueType::Int32) : std::nullopt;
+}
+
 std::optional<ValueType> type_of(const xml::Element& type, const std::string& ssp_version) {
   const std::string_view name = type.name().local;
-  const bool has_width = ssp_version != "1.0";
-  if (name == "Real") return has_width ? std::optional(ValueType::Float64) : std::nullopt;
-  if (name == "Integer") return has_width ? std::optional(ValueType::Int32) : std::nullopt;
+  if (const auto kin = kin_of(name)) return ssp_version != "1.0" ? kin : std::nullopt;
   std::vector<std::string> known{"Real", "Integer"};
   for (std::size_t i = 0; i < core::kValueTypeCount; ++i) {
     const auto candidate = static_cast<ValueType>(i);
@@ -91,6 +95,7 @@ bool read_type(const xml::Element& child, const SspFile& file,
                core::ConnectorDeclaration& connector) {
   if (child.name().name_space != kSsc) return false;
   connector.type = type_of(child, file.version);
+  if (!connector.type) connector.kin = kin_of(child.name().local);
   connector.unit = file.definitions.unit(child.attribute_or("unit"));
   if (connector.type == ValueType::Enumeration) {
     const auto& enumerations = file.definitions.enumerations;

@@ -9,6 +9,7 @@
 
 #include "master/ssp/ssp.h"
 #include "master/util/input_file.h"
+#include "master/util/loose_path.h"
 #include "master/util/suggest.h"
 
 namespace stride::ssp {
@@ -40,6 +41,16 @@ std::vector<std::string> files_in(const fs::path& folder) {
   }
   std::sort(names.begin(), names.end());
   return names;
+}
+
+/// The .ssd of a package in which it is not at its top by this name: in another case, or in the
+/// folder that all is packed in.
+std::optional<fs::path> find_displaced(const fs::path& folder, const std::string& name) {
+  if (auto found = core::find_loosely(folder, name)) return found;
+  std::vector<fs::path> entries = core::folder_entries(folder);
+  std::erase_if(entries, [](const fs::path& path) { return path.filename() == "__MACOSX"; });
+  if (entries.size() != 1 || !core::is_folder(entries.front())) return std::nullopt;
+  return core::find_loosely(entries.front(), name);
 }
 
 [[noreturn]] void fail_without_file(const fs::path& folder, const std::string& shown,
@@ -81,8 +92,13 @@ fs::path Files::system_file(const fs::path& package, const std::string& name,
   }
   const fs::path folder = core::is_folder(package) ? package : unpack(package, kPackage, where);
   const fs::path file = folder / name;
-  if (!core::is_file(file)) fail_without_file(folder, shown(package), name, where);
-  return file;
+  if (core::is_file(file)) return file;
+  const auto displaced = find_displaced(folder, name);
+  if (!displaced) fail_without_file(folder, shown(package), name, where);
+  warn_once(core::to_text({.where = where}) +
+            fmt::format("'{}' has its {} as '{}'; expected at its top, by this name",
+                        shown(package), name, displaced->lexically_relative(folder).string()));
+  return *displaced;
 }
 
 fs::path Files::unit_folder(const fs::path& source, const core::Location& where) {
@@ -93,8 +109,12 @@ fs::path Files::unit_folder(const fs::path& source, const core::Location& where)
 
 const fs::path& Files::unpack(const fs::path& archive, const std::string& expected,
                               const core::Location& where) {
+  const std::string shown_as = shown(archive);  // before it is in the list
   auto& unpacked = archives_[archive];
-  if (!unpacked) unpacked = std::make_unique<archive::UnpackedArchive>(archive, expected, where);
+  if (!unpacked) {
+    unpacked = std::make_unique<archive::UnpackedArchive>(archive, expected, where,
+                                                          archive::UnpackLimits{}, shown_as);
+  }
   return unpacked->folder();
 }
 
@@ -116,6 +136,10 @@ xml::Document Files::document(const fs::path& file) {
 const xml::Document& Files::read_ahead(const fs::path& file) {
   const auto found = ahead_.find(file);
   return found != ahead_.end() ? found->second : ahead_.emplace(file, read(file)).first->second;
+}
+
+void Files::warn_once(const std::string& warning) {
+  if (std::ranges::count(warnings_, warning) == 0) warnings_.push_back(warning);
 }
 
 xml::Document Files::read(const fs::path& file) {

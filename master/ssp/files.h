@@ -29,7 +29,8 @@ class Files {
 
   /// The .ssd that a path of the command line or a source names: itself, the SystemStructure.ssd of
   /// a package (.ssp) or of the folder that one unpacks to, or what is named in one,
-  /// "FILE.ssp/Variant.ssd". Throws core::Error (Input).
+  /// "FILE.ssp/Variant.ssd". One in another case, or in a folder that is all that the package has,
+  /// is taken with a warning. Throws core::Error (Input).
   std::filesystem::path system_file(const std::filesystem::path& path,
                                     const core::Location& where = {});
   /// Likewise, this .ssd in a package.
@@ -53,13 +54,14 @@ class Files {
   /// A path as its reader knows it: within an archive, "FILE.ssp/resources/a.ssv".
   std::string shown(const std::filesystem::path& path) const;
 
-  /// Of what is odd in the files that document() has read, but no mistake.
+  /// Of what is odd in the files that document() has read and in packages, but no mistake.
   const std::vector<std::string>& warnings() const { return warnings_; }
 
  private:
   const std::filesystem::path& unpack(const std::filesystem::path& archive,
                                       const std::string& expected, const core::Location& where);
   xml::Document read(const std::filesystem::path& file);
+  void warn_once(const std::string& warning);
 
   UnitFinder find_unit_;
   std::map<std::filesystem::path, std::unique_ptr<archive::UnpackedArchive>> archives_;

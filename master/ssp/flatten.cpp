@@ -22,7 +22,9 @@ class Flattener {
         ports_(graph_.ports()),
         connections_(graph_.connections()),
         unmatched_(warnings, "parameters that belong to no component, and are ignored, too"),
-        open_(warnings, "parameters for connectors that lead to no component") {}
+        open_(warnings, "parameters for connectors that lead to no component") {
+    warnings.insert(warnings.end(), graph_.warnings().begin(), graph_.warnings().end());
+  }
 
   FlatSystem run() {
     flat_.declaration.name = root_.name;

@@ -68,7 +68,7 @@ class Packer {
   void replace_sources(const xml::Element& element, const fs::path& folder,
                        const std::string& resources, xml::Editor& editor) {
     if (names_a_file(element)) {
-      const auto [source, fragment] = source_of(element, folder);
+      const auto [source, fragment, warning] = source_of(element, folder);
       const std::string name = add(element, source);
       const std::string uri = name == "SystemStructure.ssd" ? "../" + name : resources + name;
       editor.set_attribute(

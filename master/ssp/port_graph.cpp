@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <set>
+#include <tuple>
 
 #include <fmt/format.h>
 
@@ -20,6 +21,14 @@ std::string joined(const std::string& prefix, const std::string& name) {
   for (const ElementNode& element : node.elements) names.push_back(element.name);
   core::fail_input({where, {}, {}, {}}, fmt::format("there is no component '{}'", name),
                    core::suggestion(name, names));
+}
+
+bool does_the_same(const core::PathSegment& a, const core::PathSegment& b) {
+  const auto parts = [](const core::PathSegment& segment) {
+    const core::Transformation& t = segment.transformation;
+    return std::tie(segment.suppress_unit_conversion, t.kind, t.linear, t.numbers, t.names);
+  };
+  return parts(a) == parts(b);
 }
 
 }  // namespace
@@ -175,25 +184,62 @@ std::size_t PortGraph::find_signal(const ElementNode& reference, const std::stri
 // ---- Connections ----
 
 /// In SSP, start and end do not define which way a value goes: the kinds of the connectors do.
-/// Where they are left out, the start is the source.
+/// Where they are left out, the start is the source. A clock that is an input of a unit may be the
+/// source of ticks: that of a time-based one.
 void PortGraph::add_connection(const SystemNode& node, const SystemConnection& connection) {
   auto [start, start_role] = find_end(node, connection.start, connection.where);
   auto [end, end_role] = find_end(node, connection.end, connection.where);
+  const bool is_one_component = ports_[start].is_component() != ports_[end].is_component();
+  if (start_role == Role::Sink && end_role == Role::Sink && is_one_component &&
+      (is_clock(start) || is_clock(end))) {
+    (ports_[start].is_component() ? start_role : end_role) = Role::Source;
+  }
   const bool is_reversed = (start_role == Role::Sink && end_role != Role::Sink) ||
                            (start_role == Role::Either && end_role == Role::Source);
   if (start_role == end_role && start_role != Role::Either &&
       !(ports_[start].is_component() && ports_[end].is_component())) {
-    core::fail_input(
-        {connection.where, {}, {}, {}},
-        fmt::format("cannot connect '{}' to '{}': a value {} both", ports_[start].path,
-                    ports_[end].path, start_role == Role::Source ? "comes from" : "goes to"),
-        "an input of a system leads to the inputs of its components, and their "
-        "outputs to its outputs");
+    fail_direction(start, end, start_role, connection.where);
   }
   if (is_reversed) std::swap(start, end);
+  PortConnection added{start, end, connection.segment, connection.where};
+  if (is_there(added)) return;
   ports_[start].outgoing.push_back(connections_.size());
   ports_[end].incoming.push_back(connections_.size());
-  connections_.push_back({start, end, connection.segment, connection.where});
+  connections_.push_back(std::move(added));
+}
+
+/// Whether a connector of a system is declared as one.
+bool PortGraph::is_clock(std::size_t port) const {
+  return ports_[port].path_connector.type == core::ValueType::Clock;
+}
+
+/// Whether the same is done to the same value on the way to a system's connector; with a warning.
+/// What leads to a component is compared as a whole.
+bool PortGraph::is_there(const PortConnection& connection) {
+  const Port& to = ports_[connection.to];
+  if (to.is_component() || to.incoming.empty()) return false;
+  const PortConnection& first = connections_[to.incoming.front()];
+  if (first.from != connection.from || !does_the_same(first.segment, connection.segment)) {
+    return false;
+  }
+  warnings_.push_back(core::to_text({.where = connection.where}) +
+                      fmt::format("the connection of '{}' to '{}' is there already, in line {}; "
+                                  "this one is ignored",
+                                  ports_[connection.from].path, to.path, first.where.line));
+  return true;
+}
+
+void PortGraph::fail_direction(std::size_t start, std::size_t end, Role role,
+                               const core::Location& where) const {
+  const bool are_clocks = is_clock(start) || is_clock(end);
+  core::fail_input(
+      {where, {}, {}, {}},
+      fmt::format("cannot connect '{}' to '{}': a value {} both", ports_[start].path,
+                  ports_[end].path, role == Role::Source ? "comes from" : "goes to"),
+      are_clocks ? "the connector of a system that a time-based clock's ticks come from is of the "
+                   "kind output, and that of a triggered clock that they go to of the kind input"
+                 : "an input of a system leads to the inputs of its components, and their outputs "
+                   "to its outputs");
 }
 
 void PortGraph::check_connection(std::size_t connection) const {

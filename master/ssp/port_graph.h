@@ -53,6 +53,8 @@ class PortGraph {
   const std::vector<Component>& components() const { return components_; }
   const std::vector<Port>& ports() const { return ports_; }
   const std::vector<PortConnection>& connections() const { return connections_; }
+  /// Of what is there twice, as text.
+  const std::vector<std::string>& warnings() const { return warnings_; }
   /// The index of an FMU of the tree.
   std::size_t component(const ElementNode& node) const { return places_.at(&node); }
   /// The ports of a system's own connectors, by name.
@@ -91,6 +93,10 @@ class PortGraph {
   std::size_t find_signal(const ElementNode& reference, const std::string& path,
                           const std::string& name, const core::Location& where);
   void add_connection(const SystemNode& node, const SystemConnection& connection);
+  bool is_clock(std::size_t port) const;
+  bool is_there(const PortConnection& connection);
+  [[noreturn]] void fail_direction(std::size_t start, std::size_t end, Role role,
+                                   const core::Location& where) const;
   void check_connection(std::size_t connection) const;
   void follow(std::size_t port, Way& way, const std::function<void(const Way&)>& found) const;
   [[noreturn]] static void fail_unknown(const System& system, const std::string& path,
@@ -100,6 +106,7 @@ class PortGraph {
   std::vector<Component> components_;
   std::vector<Port> ports_;
   std::vector<PortConnection> connections_;
+  std::vector<std::string> warnings_;
   std::map<std::string, core::Location> names_;  ///< of the components
   std::map<const ElementNode*, std::size_t> places_;
   /// Of the connectors that components declare.

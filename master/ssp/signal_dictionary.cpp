@@ -44,7 +44,7 @@ SignalDictionary read_entries(const xml::Element& root) {
 }
 
 SignalDictionary read_dictionary(const xml::Element& element, const std::filesystem::path& folder,
-                                 Files& files) {
+                                 Files& files, std::vector<std::string>& warnings) {
   element.allow_attributes({"name", "type", "source"});
   const std::string type = element.attribute_or("type", kDictionaryType);
   if (type != kDictionaryType) {
@@ -52,7 +52,7 @@ SignalDictionary read_dictionary(const xml::Element& element, const std::filesys
                              fmt::format("the type '{}' is read", kDictionaryType));
   }
   if (element.attribute("source")) {
-    const std::filesystem::path path = source_path(element, folder);
+    const std::filesystem::path path = source_path(element, folder, warnings);
     return read_entries(files.document(path).root());
   }
   const auto inside = element.child({kSsb, "SignalDictionary"});
@@ -65,12 +65,13 @@ SignalDictionary read_dictionary(const xml::Element& element, const std::filesys
 }  // namespace
 
 std::map<std::string, SignalDictionary> read_signal_dictionaries(
-    const xml::Element& dictionaries, const std::filesystem::path& folder, Files& files) {
+    const xml::Element& dictionaries, const std::filesystem::path& folder, Files& files,
+    std::vector<std::string>& warnings) {
   std::map<std::string, SignalDictionary> all;
   dictionaries.allow_children({{kSsd, "SignalDictionary"}});
   for (const xml::Element& element : dictionaries.children()) {
     const std::string name = element.required("name");
-    if (all.emplace(name, read_dictionary(element, folder, files)).second) continue;
+    if (all.emplace(name, read_dictionary(element, folder, files, warnings)).second) continue;
     element.fail(fmt::format("two signal dictionaries are named '{}'", name));
   }
   return all;

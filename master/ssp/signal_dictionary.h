@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "master/ssp/connectors.h"
 #include "master/ssp/files.h"
@@ -16,7 +17,8 @@ namespace stride::ssp {
 /// Reads <ssd:SignalDictionaries>, inline or from files relative to `folder`. Throws core::Error
 /// (Input).
 std::map<std::string, SignalDictionary> read_signal_dictionaries(
-    const xml::Element& dictionaries, const std::filesystem::path& folder, Files& files);
+    const xml::Element& dictionaries, const std::filesystem::path& folder, Files& files,
+    std::vector<std::string>& warnings);
 
 }  // namespace stride::ssp
 

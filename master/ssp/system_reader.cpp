@@ -90,7 +90,8 @@ class SystemReader {
     system.where = element.where();
     system.connectors = read_connectors(element, file_);
     if (const auto dictionaries = element.child({kSsd, "SignalDictionaries"})) {
-      system.dictionaries = read_signal_dictionaries(*dictionaries, folder_, reading_.files);
+      system.dictionaries =
+          read_signal_dictionaries(*dictionaries, folder_, reading_.files, reading_.warnings);
     }
     if (const auto elements = element.child({kSsd, "Elements"})) read_elements(*elements, system);
     if (const auto connections = element.child({kSsd, "Connections"})) {
@@ -175,7 +176,7 @@ class SystemReader {
     }
     check_implementation(element);
     check_kinds(element, node);
-    node.source = source_path(element, folder_);
+    node.source = source_path(element, folder_, reading_.warnings);
     node.parameters = read_bindings(element, node.source);
     return node;
   }
@@ -265,7 +266,8 @@ class SystemReader {
   }
 
   SystemNode read_other_file(const xml::Element& component) {
-    const auto [source, variant] = source_of(component, folder_);
+    const auto [source, variant, warning] = source_of(component, folder_);
+    if (!warning.empty()) reading_.warnings.push_back(warning);
     if (!core::path_exists(source)) {
       component.fail(fmt::format("the system '{}' does not exist", reading_.files.shown(source)),
                      "its path is relative to this file");

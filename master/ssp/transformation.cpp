@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "master/model/transformation_types.h"
 #include "master/ssp/ssp.h"
 
 namespace stride::ssp {

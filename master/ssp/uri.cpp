@@ -8,6 +8,7 @@
 
 #include "master/util/hex.h"
 #include "master/util/input_file.h"
+#include "master/util/loose_path.h"
 #include "master/util/lower_case.h"
 
 namespace stride::ssp {
@@ -55,6 +56,13 @@ FoundFile find_elsewhere(std::string path, const std::filesystem::path& folder) 
   std::ranges::replace(path, '\\', '/');
   if (const FoundFile found = if_there(folder / path)) return found;
   return if_there(folder / "resources" / path);
+}
+
+/// Likewise, a file whose name is written in another way.
+FoundFile find_similar(std::string path, const std::filesystem::path& folder) {
+  std::ranges::replace(path, '\\', '/');
+  const FoundFile found = core::find_loosely(folder, path);
+  return found ? found : core::find_loosely(folder / "resources", path);
 }
 
 [[noreturn]] void fail_windows(const xml::Element& element, const std::string& source) {
@@ -115,12 +123,22 @@ Source source_of(const xml::Element& element, const std::filesystem::path& folde
   }
   const std::string path = percent_decoded(rest, element);
   if (has_drive(path) && !core::path_exists(folder / path)) fail_windows(element, source);
-  return {find_elsewhere(path, folder).value_or((folder / path).lexically_normal()),
-          percent_decoded(fragment, element)};
+  Source found{find_elsewhere(path, folder).value_or((folder / path).lexically_normal()),
+               percent_decoded(fragment, element)};
+  if (core::path_exists(found.path)) return found;
+  if (const FoundFile similar = find_similar(path, folder)) {
+    found.path = *similar;
+    found.warning = core::to_text({.where = element.where()}) +
+                    fmt::format(
+                        "source=\"{}\" is taken for the file '{}', whose name differs by "
+                        "case or by the form of its letters",
+                        source, similar->filename().string());
+  }
+  return found;
 }
 
-std::filesystem::path source_path(const xml::Element& element,
-                                  const std::filesystem::path& folder) {
+std::filesystem::path source_path(const xml::Element& element, const std::filesystem::path& folder,
+                                  std::vector<std::string>& warnings) {
   Source source = source_of(element, folder);
   if (!source.fragment.empty()) {
     element.fail_unsupported(fmt::format("a source with a fragment, which names a part of a file: "
@@ -128,6 +146,7 @@ std::filesystem::path source_path(const xml::Element& element,
                                          element.required("source")),
                              "write %23 if the file's name has a '#'");
   }
+  if (!source.warning.empty()) warnings.push_back(source.warning);
   return source.path;
 }
 

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "master/util/xml/element.h"
 
@@ -12,17 +13,20 @@ namespace stride::ssp {
 /// What the attribute `source` of an element names.
 struct Source {
   std::filesystem::path path;
-  std::string fragment;  ///< what is behind a '#', a part of the file
+  std::string fragment;   ///< what is behind a '#', a part of the file
+  std::string warning{};  ///< where a file is named in another way than it should be
 };
 
 /// A URI (RFC 3986) relative to `folder`, or with the scheme file. What is no such URI, and names a
 /// file as it is written, is this file; a path that leads to none is also looked for with '\\' as
-/// its separator, and in the folder `resources`. Throws core::Error (Input) for any other scheme, a
-/// query or a malformed escape.
+/// its separator, in the folder `resources`, and by names that differ by case only or by the form
+/// of their letters (find_loosely()), with a warning. Throws core::Error (Input) for any other
+/// scheme, a query or a malformed escape.
 Source source_of(const xml::Element& element, const std::filesystem::path& folder);
 
-/// Likewise, where a fragment is refused, too.
-std::filesystem::path source_path(const xml::Element& element, const std::filesystem::path& folder);
+/// Likewise, where a fragment is refused, too. Adds the source's warning, if it has one.
+std::filesystem::path source_path(const xml::Element& element, const std::filesystem::path& folder,
+                                  std::vector<std::string>& warnings);
 
 }  // namespace stride::ssp
 

@@ -2,8 +2,10 @@
 
 #include <charconv>
 #include <cmath>
+#include <cstdlib>
 #include <optional>
 #include <stdexcept>
+#include <string>
 
 #include <fmt/format.h>
 
@@ -29,6 +31,11 @@ double parse_above_zero(std::string_view text) {
   const std::optional<double> value = finite_number(text);
   if (value && *value > 0) return *value;
   throw std::invalid_argument(fmt::format("'{}' is not a number above 0", text));
+}
+
+bool is_tiny_number(std::string_view text) {
+  constexpr double kAnyBetween = 1;
+  return std::abs(std::strtod(std::string(text).c_str(), nullptr)) < kAnyBetween;
 }
 
 }  // namespace stride::core

@@ -160,10 +160,39 @@ TEST_CASE("a Boolean is connected to a Real, as 1 or 0, with a warning for the c
   CHECK(workspace.stride({"run", "completed.ssd", "--quiet", "--out", "again"}).exit_code == 0);
 }
 
-TEST_CASE("a source that differs by case from a file beside it is named with it") {
-  const Workspace workspace(Parts{component("unit", "Plain.fmu")});
-  fs::copy_file(test_fmu("fmi2_relaxation"), workspace / "plain.fmu");
-  CHECK_THAT(input_error_of(workspace.run()), Contains("did you mean 'plain.fmu'?"));
+TEST_CASE("a source whose name differs by case or composition from one file's means this file") {
+  const auto [source, name] = GENERATE(table<std::string, std::string>(
+      {{"Plain.fmu", "plain.fmu"}, {"gr\u00F6\u00DFe.fmu", "gro\u0308\u00DFe.fmu"}}));
+  const Workspace workspace(Parts{component("unit", source)});
+  fs::copy_file(test_fmu("fmi2_relaxation"), workspace / name);
+  const Outcome outcome = workspace.run({"--quiet"});
+  CHECK(outcome.exit_code == 0);
+  CHECK_THAT(outcome.err, Contains("is taken for the file '" + name + "'"));
+  fs::copy_file(workspace / name, workspace / "PLAIN.fmu");
+  if (source == "Plain.fmu") {
+    CHECK_THAT(input_error_of(workspace.run()), Contains("did you mean"));
+  }
+}
+
+TEST_CASE("a value is converted between a Boolean and a number, as on a connection") {
+  const auto value = [](const std::string& name, const std::string& text) {
+    return "<ssv:Parameter name=\"" + name + "\">" + text + "</ssv:Parameter>";
+  };
+  const Workspace workspace(
+      Parts{component("unit", "fmi2_types.fmu",
+                      "<ssd:ParameterBindings><ssd:ParameterBinding><ssd:ParameterValues>"
+                      "<ssv:ParameterSet "
+                      "xmlns:ssv=\"http://ssp-standard.org/SSP1/SystemStructureParameterValues\" "
+                      "version=\"1.0\" name=\"p\"><ssv:Parameters>" +
+                          value("boolean", "<ssv:Real value=\"1.0\"/>") +
+                          value("integer", "<ssv:Boolean value=\"true\"/>") +
+                          "</ssv:Parameters></ssv:ParameterSet></ssd:ParameterValues>"
+                          "</ssd:ParameterBinding></ssd:ParameterBindings>")});
+  const Outcome outcome = workspace.run({"--quiet", "--stop", "0.1"});
+  INFO(outcome.err);
+  REQUIRE(outcome.exit_code == 0);
+  CHECK_THAT(outcome.err, Contains("'1.0' is taken for true") && Contains("'true' is taken for 1"));
+  CHECK(workspace.signals().numbers("unit.integer.echo").back() == 1);
 }
 
 TEST_CASE("a run of a system that ends where it starts has initial values, however it is said") {

@@ -52,8 +52,7 @@ const std::string kAll =
 const std::vector<std::string> kNames{
     "the working folder",
     "umask",
-    "the environment variable TMPDIR",
-    "the environment variable STRIDE_MEDDLED",
+    "the environment variables STRIDE_MEDDLED, TMPDIR",
     "the locale",
     "the handler of SIGINT",
     "the blocking of SIGINT",

@@ -144,7 +144,7 @@ class LoopPlanner {
     const auto order = order_with_few_back_edges(inner_edges([](VariableId) { return true; }));
     std::vector<std::size_t> position(order.size());
     for (std::size_t i = 0; i < order.size(); ++i) position[order[i]] = i;
-    using Key = std::tuple<VariableId, double, double, NumberMap, ValueType>;
+    using Key = std::tuple<VariableId, double, double, NumberMap, NumberMap, ValueType>;
     std::map<Key, TearingVariable> tearing_variables;
     for (std::size_t i = 0; i < nodes_.size(); ++i) {
       for (const VariableId input : network_.inputs_of(nodes_[i])) {
@@ -154,9 +154,9 @@ class LoopPlanner {
         inner_.insert(input);
         if (position[from->second] < position[i] || !torn_.insert(input).second) continue;
         const Conversion& conversion = connection.conversion;
-        TearingVariable& variable =
-            tearing_variables[{connection.from, conversion.linear.factor, conversion.linear.offset,
-                               conversion.map, network_.system().variable(input).type}];
+        TearingVariable& variable = tearing_variables[{
+            connection.from, conversion.linear.factor, conversion.linear.offset, conversion.map,
+            conversion.truth, network_.system().variable(input).type}];
         variable.source = connection.from;
         variable.conversion = conversion;
         variable.inputs.push_back(input);

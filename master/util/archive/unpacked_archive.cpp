@@ -89,9 +89,10 @@ class Utf8Names {
 /// path of checked names cannot leave the folder.
 class Extraction {
  public:
-  Extraction(fs::path archive, fs::path folder, std::string expected, core::Location where,
-             UnpackLimits limits)
+  Extraction(fs::path archive, fs::path folder, std::string shown_as, std::string expected,
+             core::Location where, UnpackLimits limits)
       : archive_(std::move(archive)),
+        shown_as_(std::move(shown_as)),
         folder_(std::move(folder)),
         expected_("expected " + std::move(expected)),
         where_(std::move(where)),
@@ -114,7 +115,7 @@ class Extraction {
   static constexpr std::size_t kPiece = 1 << 16;
 
   [[noreturn]] void fail(const std::string& what, const std::string& hint = "") const {
-    core::fail_input({.where = where_}, fmt::format("'{}' {}", archive_.string(), what), hint);
+    core::fail_input({.where = where_}, fmt::format("'{}' {}", shown_as_, what), hint);
   }
   [[noreturn]] void fail_entry(const std::string& what) const {
     fail(fmt::format("holds the entry '{}', {}", name_, what),
@@ -124,7 +125,7 @@ class Extraction {
     if (errno == ENAMETOOLONG) fail_entry("whose name is longer than the file system allows");
     core::fail_run({.where = where_},
                    fmt::format("cannot write '{}' while unpacking '{}': {}", path.string(),
-                               archive_.string(), std::strerror(errno)),
+                               shown_as_, std::strerror(errno)),
                    "set TMPDIR to a folder that you may write to and that has room");
   }
 
@@ -235,6 +236,7 @@ class Extraction {
   }
 
   fs::path archive_;
+  std::string shown_as_;
   fs::path folder_;
   std::string expected_;
   core::Location where_;
@@ -250,13 +252,15 @@ class Extraction {
 }  // namespace
 
 UnpackedArchive::UnpackedArchive(const fs::path& path, const std::string& expected,
-                                 const core::Location& where, const UnpackLimits& limits) {
+                                 const core::Location& where, const UnpackLimits& limits,
+                                 const std::string& shown_as) {
+  const std::string shown = shown_as.empty() ? path.string() : shown_as;
   if (const std::string reason = core::why_unreachable(path); !reason.empty()) {
-    core::fail_input({.where = where}, fmt::format("cannot reach '{}': {}", path.string(), reason),
+    core::fail_input({.where = where}, fmt::format("cannot reach '{}': {}", shown, reason),
                      "check its path");
   }
   if (!core::path_exists(path)) {
-    core::fail_input({.where = where}, fmt::format("there is no file '{}'", path.string()),
+    core::fail_input({.where = where}, fmt::format("there is no file '{}'", shown),
                      "relative names are taken from the folder of the file that names them");
   }
   if (core::is_folder(path)) {
@@ -264,7 +268,7 @@ UnpackedArchive::UnpackedArchive(const fs::path& path, const std::string& expect
   } else {
     temporary_.emplace();
     folder_ = temporary_->path();
-    Extraction(path, folder_, expected, where, limits).run();
+    Extraction(path, folder_, shown, expected, where, limits).run();
   }
 }
 

@@ -26,9 +26,10 @@ class UnpackedArchive {
   /// for what is no regular file or no zip archive, is larger than the limits, or holds an entry
   /// that could reach out of the folder: an absolute path, `..`, a link or a device. Nothing is
   /// ever written outside of the folder. `expected`: what the file should have been: "an FMU: a
-  /// .fmu archive (zip), …".
+  /// .fmu archive (zip), …". `shown_as`: its path in messages, if that is another one.
   UnpackedArchive(const std::filesystem::path& path, const std::string& expected,
-                  const core::Location& where = {}, const UnpackLimits& limits = {});
+                  const core::Location& where = {}, const UnpackLimits& limits = {},
+                  const std::string& shown_as = "");
 
   const std::filesystem::path& folder() const { return folder_; }
 

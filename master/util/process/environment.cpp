@@ -1,9 +1,14 @@
 #include "master/util/process/environment.h"
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdlib>
 #include <map>
+#include <span>
 #include <string_view>
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <unistd.h>
 
 namespace stride::core {
@@ -37,6 +42,16 @@ void add_variable(Variables& variables, std::string_view entry) {
   variables.emplace(entry.substr(0, end), entry.substr(end + 1));
 }
 
+/// The first ones by name: a unit may have cleared them all.
+std::string described(const std::vector<std::string>& names) {
+  constexpr std::size_t kMostNames = 4;
+  const std::span shown(names.data(), std::min(names.size(), kMostNames));
+  std::string text = fmt::format("the environment variable{} {}", names.size() > 1 ? "s" : "",
+                                 fmt::join(shown, ", "));
+  if (names.size() > kMostNames) text += fmt::format(" and {} more", names.size() - kMostNames);
+  return text;
+}
+
 }  // namespace
 
 Environment::Environment() {
@@ -48,20 +63,19 @@ void Environment::restore(std::vector<std::string>& changes) const {
   Variables before, now;
   for (const std::string& entry : entries_) add_variable(before, entry);
   for_each_entry([&](std::string_view text) { add_variable(now, text); });
-  const auto note = [&](const std::string& name) {
-    changes.push_back("the environment variable " + name);
-  };
+  std::vector<std::string> names;
   for (const auto& [name, value] : now) {
     if (before.contains(name)) continue;
     ::unsetenv(name.c_str());
-    note(name);
+    names.push_back(name);
   }
   for (const auto& [name, value] : before) {
     const auto found = now.find(name);
     if (found != now.end() && found->second == value) continue;
     ::setenv(name.c_str(), value.c_str(), 1);
-    note(name);
+    names.push_back(name);
   }
+  if (!names.empty()) changes.push_back(described(names));
 }
 
 }  // namespace stride::core

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <tinyxml2.h>
 
+#include "master/util/lower_case.h"
 #include "master/util/suggest.h"
 
 namespace stride::xml {
@@ -133,6 +134,15 @@ std::string Element::required(const char* name) const {
   std::string value = given(name);
   if (value.empty()) fail(fmt::format("the attribute '{}' of {} is empty", name, tag()));
   return value;
+}
+
+bool Element::lenient_flag(const char* name, std::vector<std::string>& warnings) const {
+  const std::string value = attribute_or(name);
+  const std::string lower = core::lower_case(value);
+  if (lower == value || (lower != "true" && lower != "false")) return flag(name);
+  warnings.push_back(core::to_text({.where = where()}) +
+                     fmt::format("{}=\"{}\" of {} is taken for {}", name, value, tag(), lower));
+  return lower == "true";
 }
 
 bool Element::flag(const char* name, bool otherwise) const {

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "master/util/error.h"
+#include "master/util/number_text.h"
 
 namespace tinyxml2 {
 class XMLElement;
@@ -29,7 +30,11 @@ std::optional<T> to_number(std::string_view word) {
   if (word.starts_with('+')) word.remove_prefix(1);
   T value{};
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  if (error != std::errc{} || end != word.data() + word.size()) return std::nullopt;
+  if (end != word.data() + word.size()) return std::nullopt;
+  if constexpr (std::is_floating_point_v<T>) {
+    if (error == std::errc::result_out_of_range && core::is_tiny_number(word)) return T{0};
+  }
+  if (error != std::errc{}) return std::nullopt;
   return value;
 }
 
@@ -74,6 +79,9 @@ class Element {
   /// An attribute that must be there and not be empty.
   std::string required(const char* name) const;
   bool flag(const char* name, bool otherwise = false) const;
+  /// Likewise, false where it is missing; True and FALSE, which some tools write, are taken with a
+  /// warning.
+  bool lenient_flag(const char* name, std::vector<std::string>& warnings) const;
 
   template <class T>
   std::optional<T> number(const char* name) const {

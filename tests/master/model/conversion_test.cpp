@@ -1,5 +1,7 @@
 #include "master/model/conversion.h"
 
+#include <tuple>
+
 #include <catch2/catch.hpp>
 
 #include "master/model/values.h"
@@ -137,10 +139,51 @@ TEST_CASE("a transformation is for its types") {
              Contains("is for Boolean") && Contains("IntegerMappingTransformation"));
   CHECK_THAT(reason({whole("a.y"), whole("b.u")}, {names({{"a", "b"}})}),
              Contains("is for Enumerations"));
-  CHECK_THAT(reason({whole("a.y"), real("b.u")}, {linear(2, 0)}), Contains("is for Float64"));
+  CHECK_THAT(reason({whole("a.y"), whole("b.u")}, {linear(2, 0)}),
+             Contains("is for Float64") && Contains("by an <ssc:IntegerMappingTransformation>"));
+  CHECK_THAT(reason({real("a.y"), real("b.u")}, {numbers(Kind::IntegerMapping, {})}),
+             Contains(": an IntegerMappingTransformation is for"));
   const auto text = [](const char* name) { return point(name, ValueType::String); };
   CHECK_THAT(reason({text("a.y"), text("b.u")}, {linear(2, 0)}),
              Contains("SSP has no transformation for them"));
+}
+
+TEST_CASE("a transformation is applied to the end whose type it is for") {
+  const auto real = point("r", ValueType::Float64);
+  const auto whole = point("n", ValueType::Int32);
+  const auto flag = point("b", ValueType::Boolean);
+  const auto exchange = numbers(Kind::BooleanMapping, {{0, 1}, {1, 0}});
+  const auto swap = numbers(Kind::IntegerMapping, {{1, 7}, {2, 0}});
+  CHECK(converted<double>(std::int32_t{3}, of({whole, real}, {linear(2, 1)})) == 7);
+  CHECK(converted<double>(true, of({flag, real}, {linear(5, 1)})) == 6);
+  CHECK(converted<float>(false, of({flag, real}, {exchange})) == 1);
+  CHECK(converted<double>(std::int32_t{1}, of({whole, real}, {swap})) == 7);
+  CHECK(converted<std::int32_t>(true, of({flag, whole}, {exchange})) == 0);
+  CHECK(converted<std::int32_t>(true, of({flag, whole}, {swap})) == 7);
+  for (const auto& [number, swapped, exchanged] :
+       {std::tuple{0, false, true}, {1, true, false}, {2, false, false}, {9, true, false}}) {
+    CHECK(converted<bool>(number, of({whole, flag}, {swap})) == swapped);
+    CHECK(converted<bool>(number, of({whole, flag}, {exchange})) == exchanged);
+    CHECK(converted<bool>(number, of({whole, flag, flag}, {swap, exchange})) == !swapped);
+  }
+}
+
+TEST_CASE("a Boolean that is a number on its way is mapped there") {
+  const auto whole = point("n", ValueType::Int32);
+  const auto flag = point("b", ValueType::Boolean);
+  const auto exchange = numbers(Kind::BooleanMapping, {{0, 1}, {1, 0}});
+  const Conversion c =
+      of({flag, whole, flag, flag}, {numbers(Kind::IntegerMapping, {{0, 5}, {1, 6}}),
+                                     numbers(Kind::IntegerMapping, {{5, 0}}), exchange});
+  CHECK(converted<bool>(true, c) == false);
+  CHECK(converted<bool>(false, c) == true);
+  const Conversion both = of({flag, whole, point("r", ValueType::Float64)},
+                             {numbers(Kind::IntegerMapping, {{1, 4}}), linear(10, 1)});
+  CHECK(converted<double>(true, both) == 41);
+  CHECK_THAT(
+      reason({flag, whole, point("u", ValueType::UInt8)},
+             {numbers(Kind::IntegerMapping, {{1, 300}}), numbers(Kind::IntegerMapping, {{2, 2}})}),
+      Contains("the value 'true' of the one becomes 300, which is not a valid UInt8"));
 }
 
 TEST_CASE("what a mapping does not name stays what it is") {
@@ -219,6 +262,12 @@ TEST_CASE("values that are given as text are mapped word by word") {
   CHECK(with("1 2  3", ValueType::Int32, numbers(Kind::IntegerMapping, {{2, 5}})) == "1 5 3");
   CHECK(with("0 true", ValueType::Boolean, numbers(Kind::BooleanMapping, {{0, 1}})) == "true true");
   CHECK(with(" a  b ", ValueType::String, {}) == " a  b ");
+  CHECK(with("2 true", ValueType::Float64, numbers(Kind::IntegerMapping, {{1, 3}, {2, 5}})) ==
+        "5 3");
+  CHECK(with("2.0 2.5", ValueType::Float64, numbers(Kind::IntegerMapping, {{2, 5}})) == "5 2.5");
+  CHECK(with("2.0 0.0", ValueType::Boolean, numbers(Kind::BooleanMapping, {{1, 0}})) ==
+        "false false");
+  CHECK(with("true", ValueType::Int32, numbers(Kind::BooleanMapping, {{1, 0}})) == "false");
 }
 
 TEST_CASE("each connection of a running system converts, from the first instant on") {

@@ -35,6 +35,9 @@ TEST_CASE("each type is parsed and printed back") {
   CHECK(round_trip(ValueType::Float64, "0.1") == "0.1");
   CHECK(round_trip(ValueType::Float64, "+1e-3") == "0.001");
   CHECK(round_trip(ValueType::Float32, "0.1") == "0.1");
+  CHECK(round_trip(ValueType::Float64, "1e-400") == "0");
+  CHECK(round_trip(ValueType::Float64, "-1e-400") == "-0");
+  CHECK(round_trip(ValueType::Float32, "1e-60") == "0");
   CHECK(round_trip(ValueType::Int8, "-128") == "-128");
   CHECK(round_trip(ValueType::UInt8, "255") == "255");
   CHECK(round_trip(ValueType::Int64, "-9223372036854775808") == "-9223372036854775808");
@@ -64,6 +67,7 @@ TEST_CASE("the error of an invalid value has what was expected") {
   CHECK_THAT(reason(variable(ValueType::Float64), "fast"), Contains("expected a Float64 number"));
   CHECK_THAT(reason(variable(ValueType::Float64), "1 2"), Contains("expected one Float64 value"));
   CHECK_THAT(reason(variable(ValueType::Float64), ""), Contains("expected one Float64 value"));
+  CHECK_THAT(reason(variable(ValueType::Float64), "1e400"), Contains("within the range"));
   CHECK_THAT(reason(variable(ValueType::UInt8), "256"), Contains("within the range of UInt8"));
   CHECK_THAT(reason(variable(ValueType::UInt8), "-1"), Contains("expected a UInt8 number"));
   CHECK_THAT(reason(variable(ValueType::Int32), "1.5"), Contains("expected an Int32 number"));
@@ -82,6 +86,12 @@ TEST_CASE("values of another form that have one meaning are understood, others a
     CHECK_FALSE(meant_value(ValueType::Int32, text));
   }
   CHECK_FALSE(meant_value(ValueType::Boolean, "on"));
+  CHECK_FALSE(meant_value(ValueType::Boolean, "0 1"));
+  CHECK(meant_value(ValueType::Boolean, "1.0 0.0 -3 00 2.") == "true false true false true");
+  CHECK_FALSE(meant_value(ValueType::Boolean, "2.5"));
+  CHECK(meant_value(ValueType::Float64, "true 2.5 False") == "1 2.5 0");
+  CHECK(meant_value(ValueType::UInt8, "TRUE") == "1");
+  CHECK_FALSE(meant_value(ValueType::Enumeration, "true"));
   CHECK_FALSE(meant_value(ValueType::Float64, "2.0"));
   CHECK_FALSE(meant_value(ValueType::String, "True"));
 }

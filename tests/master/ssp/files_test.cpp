@@ -47,6 +47,26 @@ TEST_CASE("a package is read by its SystemStructure.ssd, or the one that is name
           Contains("did you mean 'Variant.ssd'?"));
 }
 
+TEST_CASE("the system of a package may be in another case, or in the folder that was packed") {
+  const TemporaryFolder folder;
+  const archive::Content system{system_named("one"), {}, false};
+  const auto name = GENERATE(as<std::string>(), "systemstructure.SSD", "pkg/SystemStructure.ssd");
+  const auto file = package(folder, {{name, system}, {"__MACOSX/._pkg", {"x", {}, false}}});
+  const Scenario scenario = read_scenario(file);
+  CHECK(scenario.system.components.at(0).name == "one");
+  REQUIRE(scenario.warnings.size() == 1);
+  CHECK_THAT(scenario.warnings[0],
+             Contains("p.ssp' has its SystemStructure.ssd as '" + name + "'"));
+}
+
+TEST_CASE("a package in a package that is no archive is named by both") {
+  const TemporaryFolder folder;
+  const std::string inner = ssd_with("<ssd:Component name='s' source='resources/i.ssp'/>");
+  const auto file = package(folder, {{"SystemStructure.ssd", {inner, {}, false}},
+                                     {"resources/i.ssp", {"PK\x03\x04 no archive", {}, false}}});
+  CHECK_THROWS_WITH(read_scenario(file), Contains("p.ssp/resources/i.ssp' "));
+}
+
 TEST_CASE("the folder that a package unpacks to is read like it") {
   const TemporaryFolder folder;
   folder.write("SystemStructure.ssd", system_named("one"));

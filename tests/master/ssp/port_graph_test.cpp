@@ -80,6 +80,53 @@ TEST_CASE("a circle of connectors without a component is found where it is follo
   CHECK_THROWS_WITH(graph.follow(u, [](const auto&) {}), Contains("through connectors of systems"));
 }
 
+TEST_CASE("a connection to a connector of a system that is there twice is one, with a warning") {
+  SystemNode root = tree();
+  root.connections.push_back(wired({"s", "u"}, {"a", "y"}));
+  const PortGraph graph(root);
+  CHECK(graph.connections().size() == 4);
+  REQUIRE(graph.warnings().size() == 1);
+  CHECK_THAT(graph.warnings()[0],
+             Contains("x.ssd:1: ") && Contains("'a.y' to 's.u' is there already"));
+  root.connections.back().segment.transformation.kind = core::Transformation::Kind::Linear;
+  CHECK_THROWS_WITH(PortGraph(root), Contains("has two sources"));
+}
+
+TEST_CASE("ticks of a time-based clock, an input of its unit, leave its system by an output") {
+  SystemNode root = tree();
+  SystemNode& inner = *root.elements[1].system;
+  const auto clock = [](const std::string& name, Flow flow) {
+    Connector made = connector(name, flow);
+    made.declared.type = ValueType::Clock;
+    return made;
+  };
+  inner.connectors.push_back(clock("tick", GENERATE(Flow::Out, Flow::In)));
+  inner.elements[0].connectors = {clock("tx", Flow::In)};
+  inner.connections = {wired({"c", "tx"}, {"", "tick"})};
+  root.elements[0].connectors = {clock("rx", Flow::In)};
+  root.connections = {wired({"s", "tick"}, {"a", "rx"})};
+  const PortGraph graph(root);
+  using Ways = std::vector<std::vector<std::string>>;
+  Ways ways;
+  for (std::size_t i = 0; i < graph.ports().size(); ++i) {
+    if (!graph.ports()[i].is_component()) continue;
+    graph.follow(i, [&](const auto& way) { ways.push_back(names(graph, way)); });
+  }
+  const std::vector<std::string> out{"s.c.tx", "s.tick", "a.rx"}, in{"a.rx", "s.tick", "s.c.tx"};
+  CHECK((ways == Ways{out} || ways == Ways{in}));
+}
+
+TEST_CASE("the error of two systems' clocks that both are inputs has the way out") {
+  SystemNode root = tree();
+  SystemNode other;
+  other.connectors = {connector("u", Flow::In)};
+  other.connectors[0].declared.type = ValueType::Clock;
+  root.elements[0].system = std::make_unique<SystemNode>(std::move(other));
+  root.connections = {wired({"a", "u"}, {"s", "u"})};
+  CHECK_THROWS_WITH(PortGraph(root), Contains("a value goes to both") &&
+                                         Contains("time-based clock") && Contains("kind output"));
+}
+
 TEST_CASE("two values cannot go to one connector of a system") {
   SystemNode root = tree();
   root.connections.push_back(wired({"a", "z"}, {"s", "u"}));

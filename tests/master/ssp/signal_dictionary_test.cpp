@@ -27,8 +27,9 @@ std::map<std::string, SignalDictionary> read_dictionaries(
   const auto document = stride::xml::Document::parse(
       ssd("<ssd:SignalDictionaries>" + inside + "</ssd:SignalDictionaries>"), "x.ssd");
   Files files;
+  std::vector<std::string> warnings;
   return read_signal_dictionaries(*document.root().child({kSsd, "SignalDictionaries"}), folder,
-                                  files);
+                                  files, warnings);
 }
 
 const std::string kSpeed =

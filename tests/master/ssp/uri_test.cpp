@@ -16,7 +16,8 @@ std::filesystem::path resolve(const std::string& source,
                               const std::filesystem::path& base = "runs") {
   const TemporaryFolder folder;
   const stride::xml::Document document(folder.write("x.ssd", "<a source='" + source + "'/>"));
-  return source_path(document.root(), base);
+  std::vector<std::string> warnings;
+  return source_path(document.root(), base, warnings);
 }
 
 }  // namespace
@@ -65,6 +66,8 @@ TEST_CASE("a source that is no proper URI names the file that it can only mean")
   CHECK(resolve("in.fmu", base) == folder / "resources/in.fmu");
   CHECK(resolve("file://resources/in.fmu", base) == folder / "resources/in.fmu");
   CHECK(resolve("absent.fmu", base) == folder / "absent.fmu");
+  CHECK(resolve("IN.fmu", base) == folder / "resources/in.fmu");
+  CHECK(resolve("SUB\\Unit.fmu", base) == folder / "sub/unit.fmu");
 }
 
 TEST_CASE("a path of Windows and a server for FMUs are refused by name") {

@@ -110,6 +110,21 @@ TEST_CASE("each change is put back once, and named") {
   CHECK(std::fegetround() == FE_TONEAREST);
 }
 
+TEST_CASE("of many variables that are gone, some are named") {
+  for (const char* name : {"STRIDE_TEST_1", "STRIDE_TEST_2", "STRIDE_TEST_3", "STRIDE_TEST_4",
+                           "STRIDE_TEST_5", "STRIDE_TEST_6"}) {
+    ::setenv(name, "x", 1);
+  }
+  const ProcessState before;
+  ::clearenv();
+  const Texts changes = before.restore();
+  REQUIRE(changes.size() == 1);
+  CHECK(changes[0].starts_with("the environment variables "));
+  CHECK(changes[0].ends_with(" more"));
+  CHECK(changes[0].size() < 200);
+  CHECK(std::string(std::getenv("STRIDE_TEST_5")) == "x");
+}
+
 TEST_CASE("a folder is found again where it has another name by now") {
   const fs::path folder =
       fs::temp_directory_path() / ("stride-state-" + std::to_string(::getpid()));

@@ -87,6 +87,9 @@ TEST_CASE("complaints name file and line") {
              Contains("i=\"1.5\"") && Contains("expected an integer"));
   CHECK_THAT(error_of([&] { b.number<double>("f"); }), Contains("expected a number"));
   CHECK_THAT(error_of([&] { b.flag("flag"); }), Contains("expected true or false"));
+  std::vector<std::string> warnings;
+  CHECK_THAT(error_of([&] { b.lenient_flag("flag", warnings); }),
+             Contains("expected true or false"));
   CHECK_THAT(error_of([&] { b.number_list<int>("list"); }), Contains("list=\"two\""));
 }
 
@@ -111,10 +114,27 @@ TEST_CASE("a list is split at blanks of any kind") {
 TEST_CASE("a number is the whole word and within its type") {
   CHECK(xml::to_number<int>("-7") == -7);
   CHECK(xml::to_number<int>("+7") == 7);
+  CHECK(xml::to_number<double>("1e-400") == 0.0);
+  CHECK_FALSE(xml::to_number<double>("1e400"));
   CHECK_FALSE(xml::to_number<int>("7x"));
   CHECK_FALSE(xml::to_number<int>(""));
   CHECK_FALSE(xml::to_number<std::uint32_t>("-1"));
   CHECK_FALSE(xml::to_number<std::uint32_t>("4294967296"));
   CHECK(xml::to_number<double>("1e-3") == 1e-3);
   CHECK(xml::to_number<double>("INF") == std::numeric_limits<double>::infinity());
+}
+
+TEST_CASE("a flag of other tools is taken with a warning") {
+  const auto document =
+      xml::Document::parse("<a t='True' f='FALSE' one='1' plain='true'/>", "x.xml");
+  const xml::Element a = document.root();
+  std::vector<std::string> warnings;
+  CHECK(a.lenient_flag("one", warnings));
+  CHECK(a.lenient_flag("plain", warnings));
+  CHECK_FALSE(a.lenient_flag("absent", warnings));
+  CHECK(warnings.empty());
+  CHECK(a.lenient_flag("t", warnings));
+  CHECK_FALSE(a.lenient_flag("f", warnings));
+  CHECK(warnings == std::vector<std::string>{"x.xml:1: t=\"True\" of <a> is taken for true",
+                                             "x.xml:1: f=\"FALSE\" of <a> is taken for false"});
 }
