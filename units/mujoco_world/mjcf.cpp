@@ -2,10 +2,12 @@
 
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <mutex>
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "units/mujoco_world/hooks.h"
 #include "units/xml/file.h"
@@ -149,16 +151,37 @@ std::string names_of(const std::vector<Site>& sites) {
   return names.empty() ? "none" : names;
 }
 
+/// The words of one of the model's texts; none if it has no such text.
+std::vector<std::string> words_of_text(const mjModel& model, const char* name) {
+  const int text = mj_name2id(&model, mjOBJ_TEXT, name);
+  if (text < 0) return {};
+  std::istringstream words(model.text_data + model.text_adr[text]);
+  return {std::istream_iterator<std::string>(words), {}};
+}
+
 void check_required_sites(const mjModel& model, const fs::path& file) {
-  const int text = mj_name2id(&model, mjOBJ_TEXT, kRequiredSites);
-  if (text < 0) return;
-  std::istringstream names(model.text_data + model.text_adr[text]);
-  for (std::string name; names >> name;) {
+  for (const std::string& name : words_of_text(model, kRequiredSites)) {
     if (mj_name2id(&model, mjOBJ_SITE, name.c_str()) >= 0) continue;
     throw std::runtime_error("'" + file.string() + "' has no site '" + name +
                              "', which its <text name=\"" + kRequiredSites +
                              "\"> asks for; its named sites are: " + names_of(list_sites(model)));
   }
+}
+
+void check_lamps(const mjModel& model, const fs::path& file) {
+  for (const std::string& name : words_of_text(model, kLamps)) {
+    if (mj_name2id(&model, mjOBJ_GEOM, name.c_str()) >= 0) continue;
+    throw std::runtime_error("'" + file.string() + "' has no geom '" + name +
+                             "', which its <text name=\"" + kLamps + "\"> lists");
+  }
+}
+
+std::vector<Lamp> list_lamps(const mjModel& model) {
+  std::vector<Lamp> lamps;
+  for (const std::string& name : words_of_text(model, kLamps)) {
+    lamps.push_back({name, mj_name2id(&model, mjOBJ_GEOM, name.c_str())});
+  }
+  return lamps;
 }
 
 void switch_off_irreproducible(mjModel& model, const fs::path& file) {
@@ -231,11 +254,13 @@ ModelPointer load_model(const fs::path& file) {
   if (message[0] != '\0') add_warning(file.string() + ": " + message.data());
   switch_off_irreproducible(*model, file);
   check_required_sites(*model, file);
+  check_lamps(*model, file);
   return model;
 }
 
 Catalogue list(const mjModel& model) {
-  return {list_actuators(model), list_joints(model), list_sites(model), list_sensors(model)};
+  return {list_actuators(model), list_joints(model), list_sites(model), list_sensors(model),
+          list_lamps(model)};
 }
 
 std::string name_of(const mjModel& model, int type, int id) {

@@ -48,6 +48,12 @@ struct Sensor {
   int dimension;
 };
 
+/// A geom that can shine.
+struct Lamp {
+  std::string name;  ///< of the geom
+  int geom;          ///< its id
+};
+
 /// What can be wired, each kind in the model's order. An unnamed actuator, joint or sensor is
 /// called unnamed_<index within its kind>. Unnamed sites, and free and ball joints, are left out:
 /// put a named site on such a body.
@@ -56,6 +62,7 @@ struct Catalogue {
   std::vector<Joint> joints;
   std::vector<Site> sites;
   std::vector<Sensor> sensors;
+  std::vector<Lamp> lamps;
 };
 
 /// The MJCF of a folder: scene.xml, or else its only .xml file.
@@ -66,8 +73,11 @@ std::filesystem::path find_scene(const std::filesystem::path& folder);
 /// useless without, separated by blanks.
 inline constexpr const char* kRequiredSites = "required_sites";
 
+/// The geoms that can shine, in a <custom><text name="lamps" data="..."/>, likewise.
+inline constexpr const char* kLamps = "lamps";
+
 /// Compiles an MJCF file. Throws std::runtime_error with the file and MuJoCo's message, or with the
-/// site that is required and missing, and those that there are.
+/// site that is required and missing, and those that there are, or with the lamp that is no geom.
 /// Features that would make the world irreproducible are switched off: noise on sensors (MuJoCo 2),
 /// sleeping bodies (MuJoCo 3). A warning reports that (hooks.h).
 ModelPointer load_model(const std::filesystem::path& file);

@@ -81,6 +81,7 @@ World::World(const std::filesystem::path& folder)
   grid_data_ = make_data();
   instant_data_ = make_data();
   inputs_.resize(catalogue_.actuators.size());
+  lamps_.resize(catalogue_.lamps.size());
   scratch_.resize(api::state_size(model_.get(), grid_data_.get()));
   reset(Time{});
 }
@@ -102,6 +103,7 @@ void World::reset(Time start) {
   for (std::size_t i = 0; i < inputs_.size(); ++i) {
     inputs_[i] = data->ctrl[catalogue_.actuators[i].control];
   }
+  std::fill(lamps_.begin(), lamps_.end(), 0.0);
   failed_ = false;
   resting_ = false;
   rest_detector_.restart();
@@ -115,6 +117,14 @@ void World::set_input(std::size_t actuator, double value) {
                                 ": expected a finite number");
   }
   inputs_.at(actuator) = value;
+}
+
+std::vector<int> World::shining() const {
+  std::vector<int> geoms;
+  for (std::size_t i = 0; i < lamps_.size(); ++i) {
+    if (lamps_[i] != 0) geoms.push_back(catalogue_.lamps[i].geom);
+  }
+  return geoms;
 }
 
 void World::advance(Time to) {
@@ -266,12 +276,13 @@ double World::sensor(std::size_t sensor, int element) const {
 
 std::size_t World::state_size() const {
   const std::size_t rest = rest_settings_ ? kRest + rest_detector_.state_size() : 0;
-  return scratch_.size() + inputs_.size() + kTimes + rest;
+  return scratch_.size() + inputs_.size() + lamps_.size() + kTimes + rest;
 }
 
 void World::save(double* block) const {
   api::get_state(model_.get(), grid_data_.get(), block);
   block = std::copy(inputs_.begin(), inputs_.end(), block + scratch_.size());
+  block = std::copy(lamps_.begin(), lamps_.end(), block);
   put_time(block++, grid_);
   put_time(block++, now_);
   if (!rest_settings_) return;
@@ -287,6 +298,8 @@ void World::restore(const double* block) {
   block += scratch_.size();
   std::copy_n(block, inputs_.size(), inputs_.begin());
   block += inputs_.size();
+  std::copy_n(block, lamps_.size(), lamps_.begin());
+  block += lamps_.size();
   const double* times = block;
   block += kTimes;
   if (rest_settings_) {

@@ -73,6 +73,11 @@ class World {
   void set_input(std::size_t actuator, double value);
   double input(std::size_t actuator) const { return inputs_.at(actuator); }
 
+  /// Whether a lamp, by its index in catalogue().lamps, shines. It is seen in pictures only.
+  void set_lamp(std::size_t lamp, bool on) { lamps_.at(lamp) = on ? 1.0 : 0.0; }
+  /// The geoms that shine, as their ids.
+  std::vector<int> shining() const;
+
   /// Until when nothing that is seen changes, unless an input is set to another value; now() if the
   /// world is not at rest.
   stride::Time rests_until() const { return resting_ && keeps_inputs() ? rest_end_ : now_; }
@@ -133,6 +138,7 @@ class World {
   DataPointer grid_data_;     // the state at the grid point grid_
   DataPointer instant_data_;  // scratch: what is seen at now_
   std::vector<double> inputs_;
+  std::vector<double> lamps_;  // 1 for one that shines
   stride::Time grid_{};
   stride::Time now_{};
   bool failed_ = false;

@@ -55,6 +55,7 @@ class MujocoWorld : public stride::Unit {
     joints_.resize(catalogue.joints.size());
     sites_.resize(catalogue.sites.size());
     for (std::size_t i = 0; i < inputs_.size(); ++i) list_actuator(i);
+    for (const auto& lamp : catalogue.lamps) list_lamp(lamp);
     for (std::size_t i = 0; i < joints_.size(); ++i) list_joint(i);
     for (std::size_t i = 0; i < sites_.size(); ++i) list_site(i);
     for (const auto& sensor : catalogue.sensors) list_sensor(sensor);
@@ -72,6 +73,7 @@ class MujocoWorld : public stride::Unit {
 
   void step(stride::Step& step) override {
     for (std::size_t i = 0; i < inputs_.size(); ++i) world_.set_input(i, inputs_[i]);
+    for (std::size_t i = 0; i < lamps_.size(); ++i) world_.set_lamp(i, lamps_[i]);
     const bool rests = world_.rests_until() >= step.to();
     if (film_) {
       film_->advance(world_, step.to());
@@ -194,6 +196,12 @@ class MujocoWorld : public stride::Unit {
     if (actuator.range) row.range(actuator.range->first, actuator.range->second);
   }
 
+  void list_lamp(const mujoco_world::Lamp& lamp) {
+    input("lamp." + name_part(lamp.name), lamps_.emplace_back(false))
+        .discrete()
+        .description("whether the geom " + lamp.name + " shines");
+  }
+
   void list_joint(std::size_t i) {
     const auto& joint = world_.catalogue().joints[i];
     const std::string name = "joint." + name_part(joint.name);
@@ -269,6 +277,7 @@ class MujocoWorld : public stride::Unit {
   mujoco_world::film::View view_;
   std::optional<mujoco_world::film::Film> film_;
   std::vector<double> inputs_;
+  std::deque<bool> lamps_;
   std::vector<Joint> joints_;
   std::vector<Site> sites_;
   std::deque<std::vector<double>> sensors_;

@@ -15,8 +15,9 @@ namespace sensor {
 
 /// A request that has been received without error.
 struct ReceivedCommand {
-  stride::Time received;  ///< the end of its frame; the answer's delay is counted from here
-  nfc::Bytes data;        ///< command byte and arguments, without CRC
+  stride::Time received;      ///< the end of its frame
+  stride::Time first_answer;  ///< when its answer may start at the earliest
+  nfc::Bytes data;            ///< command byte and arguments, without CRC
 };
 
 /// Keeps the order of arrival. What does not fit is lost and counted.

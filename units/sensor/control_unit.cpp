@@ -234,7 +234,7 @@ void ControlUnit::answer(Status status, const nfc::Bytes& data) {
 
 void ControlUnit::hand_over() {
   if (!transmitter->can_send()) return;
-  transmitter->send({command_.received, answer_});
+  transmitter->send({command_.first_answer, answer_});
   fetch();
 }
 

@@ -103,7 +103,7 @@ void Transceiver::finish_reception() {
   }
   ++counters_.received;
   received_data.write(as_number(*data));
-  fifo_.push({end_of(reception.frame), *data});
+  fifo_.push({end_of(reception.frame), nfc::first_answer_start(reception.frame), *data});
 }
 
 std::optional<nfc::Bytes> Transceiver::decode(const Reception& reception) const {
@@ -124,7 +124,7 @@ void Transceiver::run_transmitter() {
   stride::Time next = on_air_ ? transmission_end_ : stride::Time::max();
   if (answer_ && !on_air_) {
     next =
-        nfc::answer_start(answer_->request_end, reception_ ? std::max(now, reception_->end) : now);
+        nfc::answer_start(answer_->first_start, reception_ ? std::max(now, reception_->end) : now);
     if (next == now) {
       begin_transmission();
       next = transmission_end_;

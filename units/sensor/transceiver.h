@@ -18,8 +18,8 @@
 namespace sensor {
 
 struct Answer {
-  stride::Time request_end;
-  nfc::Bytes data;  ///< status byte and data, without CRC
+  stride::Time first_start;  ///< of the grid on which it may start, see nfc::first_answer_start()
+  nfc::Bytes data;           ///< status byte and data, without CRC
 };
 
 /// The part of the transceiver that the control unit uses.

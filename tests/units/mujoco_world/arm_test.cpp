@@ -56,6 +56,12 @@ constexpr std::array<double, 6> kClose{0.2915, 0.5116, 1.6946, 0.9330, 0, 0};  /
 
 }  // namespace
 
+TEST_CASE("the sensor on the table has an LED", "[mujoco_world]") {
+  const World world(kArm);
+  REQUIRE(world.catalogue().lamps.size() == 1);
+  CHECK(world.catalogue().lamps[0].name == "led");
+}
+
 TEST_CASE("the arm starts at rest, the coils 0.40 m apart on one axis", "[mujoco_world][arm]") {
   World world(kArm);
   std::string names;

@@ -147,3 +147,12 @@ TEST_CASE("an MJCF that is no XML is an error in plain words", "[mujoco_world]")
                    !Catch::Contains("XML_ERROR"));
   }
 }
+
+TEST_CASE("a lamp that is no geom is an error", "[mujoco_world]") {
+  const worlds::Folder folder(R"(<mujoco>
+    <custom><text name="lamps" data="lid"/></custom>
+    <worldbody><geom name="led" type="sphere" size="0.1"/></worldbody>
+  </mujoco>)");
+  REQUIRE_THROWS_WITH(mujoco_world::load_model(folder.path() / "scene.xml"),
+                      Catch::Contains("has no geom 'lid'") && Catch::Contains("lamps"));
+}

@@ -180,6 +180,23 @@ TEST_CASE("two worlds in two threads give the results that each gives alone", "[
   CHECK(same_bits(results[1], saved(alone)));
 }
 
+TEST_CASE("a lamp is part of the state, and off at the start", "[mujoco_world]") {
+  const worlds::Folder folder(worlds::kLamp);
+  World world(folder.path());
+  REQUIRE(world.catalogue().lamps.size() == 1);
+  CHECK(world.catalogue().lamps[0].name == "led");
+  CHECK(world.shining().empty());
+  world.set_lamp(0, true);
+  CHECK(world.shining() == std::vector<int>{world.catalogue().lamps[0].geom});
+  std::vector<double> lit(world.state_size());
+  world.save(lit.data());
+  world.set_lamp(0, false);
+  world.restore(lit.data());
+  CHECK(world.shining().size() == 1);
+  world.reset(Time{});
+  CHECK(world.shining().empty());
+}
+
 TEST_CASE("a pendulum swings with the period of the elliptic integral", "[mujoco_world]") {
   const worlds::Folder folder(worlds::kPendulum);
   World world(folder.path());

@@ -53,6 +53,17 @@ inline const std::string kPendulum = R"(
   <keyframe><key name="start" qpos="2"/></keyframe>
 </mujoco>)";
 
+/// A dark red ball that is a lamp, beside one that is none.
+inline const std::string kLamp = R"(
+<mujoco>
+  <visual><headlight ambient="0.1 0.1 0.1" diffuse="0 0 0" specular="0 0 0"/></visual>
+  <custom><text name="lamps" data="led"/></custom>
+  <worldbody>
+    <geom name="led" type="sphere" size="0.1" rgba="1 0 0 1"/>
+    <geom name="ball" type="sphere" pos="0.3 0 0" size="0.1" rgba="1 0 0 1"/>
+  </worldbody>
+</mujoco>)";
+
 /// Bodies that tumble onto a floor while a servo pushes them about: contacts, quaternions, warm
 /// starts, activations.
 inline const std::string kTumble = R"(

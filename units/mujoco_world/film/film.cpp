@@ -49,7 +49,7 @@ void Film::go_on() {
 }
 
 void Film::take() {
-  frames_.add(next_, to_jpeg(renderer_.draw(world_.model(), world_.drawn())));
+  frames_.add(next_, to_jpeg(renderer_.draw(world_.model(), world_.drawn(), world_.shining())));
   next_ = stride::later(next_, settings_.interval);
 }
 

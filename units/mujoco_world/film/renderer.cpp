@@ -92,9 +92,11 @@ Renderer::~Renderer() {
   }
 }
 
-const Picture& Renderer::draw(const mjModel& model, mjData& data) {
+const Picture& Renderer::draw(const mjModel& model, mjData& data,
+                              const std::vector<int>& shining) {
   guarded([&] {
     mjv_updateScene(&model, &data, &options_, nullptr, &camera_, mjCAT_ALL, &scene_);
+    light_up(shining);
     if (is_unchanged(model)) return;
     screen_->with([&] {
       mjr_render(frame_, &scene_, &context_);
@@ -104,6 +106,14 @@ const Picture& Renderer::draw(const mjModel& model, mjData& data) {
     });
   });
   return picture_;
+}
+
+void Renderer::light_up(const std::vector<int>& shining) {
+  if (shining.empty()) return;
+  for (mjvGeom* geom = scene_.geoms; geom != scene_.geoms + scene_.ngeom; ++geom) {
+    if (geom->objtype != mjOBJ_GEOM) continue;
+    if (std::find(shining.begin(), shining.end(), geom->objid) != shining.end()) geom->emission = 1;
+  }
 }
 
 bool Renderer::is_unchanged(const mjModel& model) {

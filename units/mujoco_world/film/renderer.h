@@ -36,9 +36,10 @@ class Renderer {
   Renderer(const Renderer&) = delete;
   Renderer& operator=(const Renderer&) = delete;
 
-  /// `data` has the poses of all that is to be seen (World::drawn()); the picture is valid until
-  /// the next call. Throws std::runtime_error if OpenGL fails.
-  const Picture& draw(const mjModel& model, mjData& data);
+  /// `data` has the poses of all that is to be seen (World::drawn()), `shining` the ids of the geoms
+  /// that emit light of their own colour (World::shining()); the picture is valid until the next
+  /// call. Throws std::runtime_error if OpenGL fails.
+  const Picture& draw(const mjModel& model, mjData& data, const std::vector<int>& shining = {});
 
  private:
   /// What goes into a picture, but for skins and other deformable surfaces.
@@ -49,6 +50,7 @@ class Renderer {
   };
 
   void make(const mjModel& model);
+  void light_up(const std::vector<int>& shining);
   bool is_unchanged(const mjModel& model);
   void read_pixels();
 

@@ -55,6 +55,21 @@ TEST_CASE("what is red and in the middle is red in the middle of the picture") {
   CHECK(red.row == Approx(59.5).margin(0.6));
 }
 
+TEST_CASE("a lamp shines in the dark") {
+  if (scene::lacks_open_gl()) return;
+  const worlds::Folder folder(worlds::kLamp);
+  World world(folder.path());
+  Renderer renderer(world.model(), {160, 120, ""});
+  const auto red = [&] {
+    return patch(renderer.draw(world.model(), world.drawn(), world.shining()), kRed).count;
+  };
+  CHECK(red() == 0);
+  world.set_lamp(0, true);
+  CHECK(red() > 100);
+  world.set_lamp(0, false);
+  CHECK(red() == 0);
+}
+
 TEST_CASE("what is nearer hides what is behind it") {
   if (scene::lacks_open_gl()) return;
   const worlds::Folder folder(scene::kBoxes);
