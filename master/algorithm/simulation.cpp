@@ -249,7 +249,12 @@ class Simulation::Run {
 
   void handle_requests() {
     for (std::size_t i = 0; i < count(); ++i) {
-      if (stepper_.result(i).event_handling_needed) event_handler_.request_event(i);
+      const StepResult& result = stepper_.result(i);
+      if (!result.event_handling_needed) continue;
+      if (!result.early_return && !event_handler_.has_announced(i, time_)) {
+        ++statistics_.units[i].unannounced_events;
+      }
+      event_handler_.request_event(i);
     }
   }
 

@@ -368,6 +368,11 @@ void CrashGuard::set_conclusion(Conclusion conclusion) {
   guarded.conclusion = &conclusion_;
 }
 
+void end_guarding() {
+  guarded.conclusion = nullptr;
+  guarded.process = 0;
+}
+
 int leave_with(int code) {
   if (guarded.process != ::getpid()) return code;
   if (guarded.ending != 0) wait_for_end();

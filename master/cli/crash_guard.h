@@ -70,6 +70,10 @@ struct LimitedEnd {
   ~LimitedEnd() { limit_end(); }
 };
 
+/// For a fork of the process with guards of its own, when these and its units are gone: it may end
+/// as it likes.
+void end_guarding();
+
 /// What main() returns after the last CrashGuard: from here on libraries of units that are still
 /// loaded call their destructors and exit functions. A crash or _exit() there is an error with the
 /// exit code 1, as is an end that takes longer than kLongestEnd, and exit() does not change the

@@ -9,6 +9,7 @@
 #include <fmt/ranges.h>
 #include <spdlog/spdlog.h>
 
+#include "master/algorithm/step_policies/unlimited_steps.h"
 #include "master/cli/output.h"
 #include "master/cli/report_page.h"
 #include "master/cli/table.h"
@@ -147,6 +148,7 @@ void RecordedRun::run() {
   restore_process();
   const core::RunEnd end = simulation_.statistics().end;
   progress_.end(name(end));
+  warn_of_late_events();
   collect_verdicts(end == core::RunEnd::EndedByUnit ||
                    (end == core::RunEnd::Completed && !is_cut_short()));
   as_run_failure([&] {
@@ -220,6 +222,21 @@ void RecordedRun::collect_verdicts(bool is_complete) {
 void RecordedRun::warn_of_verdicts() const {
   const std::string failures = failures_text(verdicts_);
   if (!failures.empty()) spdlog::warn("checks have failed before the end of the run:{}", failures);
+}
+
+/// A unit that neither announces its events nor returns early for them has them where steps end.
+void RecordedRun::warn_of_late_events() const {
+  const core::System& system = setup_.loaded.system();
+  if (!core::has_unlimited_steps(system, setup_.options)) return;
+  const std::span<const core::UnitStatistics> units = simulation_.statistics().units;
+  for (std::size_t i = 0; i < units.size(); ++i) {
+    if (units[i].unannounced_events == 0) continue;
+    spdlog::warn(
+        "unit '{}' had events at the ends of its steps which it had not announced ({} times), and "
+        "nothing but events ends a step here, so they may be late; <stride:Step maximum=\"…\"/> "
+        "(--max-step) ends steps, or says with a long one that this is meant",
+        system.components()[i].name, units[i].unannounced_events);
+  }
 }
 
 /// Where one of the two files cannot be written, the other one contains that.

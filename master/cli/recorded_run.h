@@ -89,6 +89,7 @@ class RecordedRun {
   void print_summary() const;
   void require_end() const;
   void warn_of_verdicts() const;
+  void warn_of_late_events() const;
   bool is_cut_short() const;
 
   const RunSetup setup_;

@@ -13,6 +13,7 @@
 #include "master/capture/capture.h"
 #include "master/cli/commands.h"
 #include "master/cli/crash_guard.h"
+#include "master/cli/idle_check.h"
 #include "master/cli/interruption.h"
 #include "master/cli/output.h"
 #include "master/cli/output_paths.h"
@@ -20,6 +21,7 @@
 #include "master/cli/report_page.h"
 #include "master/cli/scenario_options.h"
 #include "master/cli/test_report.h"
+#include "master/isolation/process/child.h"
 #include "master/recorders/results_folder.h"
 #include "master/recorders/run_json.h"
 #include "master/recorders/unit_folders.h"
@@ -45,6 +47,8 @@ struct RunArguments {
   bool no_report = false;
   bool open = false;  ///< the report
   bool quiet = false;
+  bool check_idle = false;
+  std::filesystem::path full_run{};  ///< the results without idle skipping to compare with
 };
 
 std::filesystem::path results_folder(const RunArguments& arguments) {
@@ -124,6 +128,14 @@ struct EndOfUnits {
   }
 };
 
+/// The run with idle skipping has come to its end: compares it with the one without.
+void conclude_idle_check(const RunArguments& arguments, const scenario::LoadedScenario& loaded,
+                         const ResultsTarget& results) {
+  if (arguments.full_run.empty()) return;
+  const std::string text = compare_with_full_run(loaded, results, arguments.full_run);
+  if (!arguments.quiet) print_text("\n{}\n", text);
+}
+
 /// What contains how the run has ended. What fails after that, when libraries are unloaded, is
 /// added.
 struct Records {
@@ -176,6 +188,7 @@ void run(const RunArguments& arguments, Records& records, CrashGuard& guard) {
   const CrashGuard::Scope scope(guard, [&](const std::string& error) { recorded.abandon(error); });
   try {
     recorded.run();
+    conclude_idle_check(arguments, loaded, *records.results);
   } catch (const core::TakenFileError& failure) {
     end_with(failure.what());
   } catch (const std::exception& failure) {
@@ -202,6 +215,55 @@ void run_and_report(RunArguments arguments) {
     if (!records.tests.is_written()) records.tests.write(failure.what());
     throw;
   }
+}
+
+/// The same run without idle skipping, which writes nothing but what is compared.
+RunArguments full_run(const RunArguments& arguments) {
+  RunArguments full = arguments;
+  full.out = results_folder(arguments) / kFullRunFolder;
+  full.scenario.no_idle_skip = true;
+  full.scenario.max_skip.clear();
+  full.captures.clear();
+  full.junit.clear();
+  full.scenario.film.clear();
+  full.no_trace = full.no_report = full.quiet = true;
+  full.open = full.check_idle = false;
+  return full;
+}
+
+struct EndOfFork {
+  ~EndOfFork() { end_guarding(); }
+};
+
+/// In a process of its own, so that units of both runs share nothing. Whether a check or a verdict
+/// fails in it is seen in the other run, too.
+void make_full_run(const RunArguments& arguments) {
+  const Interruption interruption;
+  const isolation::ChildOutcome outcome = isolation::run_in_child(
+      [&] {
+        const EndOfFork end;
+        run_and_report(full_run(arguments));
+        return std::string();
+      },
+      {.limit = {}, .interrupted = &Interruption::flag()});
+  using End = isolation::ChildOutcome::End;
+  if (outcome.end == End::Answered) return;
+  if (outcome.end == End::Interrupted) {
+    core::fail_run({}, "interrupted during the run without idle skipping");
+  }
+  const std::string why = outcome.end == End::Threw ? outcome.text : outcome.printed;
+  spdlog::warn("the run without idle skipping has failed: {}", why);
+}
+
+void run_with_checks(RunArguments arguments) {
+  if (!arguments.check_idle) return run_and_report(std::move(arguments));
+  if (arguments.scenario.no_idle_skip) {
+    core::fail_input({}, "--check-idle and --no-idle-skip contradict each other",
+                     "use one of them");
+  }
+  arguments.full_run = results_folder(arguments) / kFullRunFolder;
+  make_full_run(arguments);
+  run_and_report(std::move(arguments));
 }
 
 void add_recording_options(CLI::App& command, RunArguments& arguments) {
@@ -259,7 +321,10 @@ void add_run(CLI::App& app) {
   add_scenario_options(*command, arguments->scenario);
   add_recording_options(*command, *arguments);
   add_display_options(*command, *arguments);
-  command->callback([arguments] { run_and_report(*arguments); });
+  command->add_flag("--check-idle", arguments->check_idle,
+                    "Run the scenario without idle skipping, too, and fail with the first "
+                    "difference that the units' tolerances do not allow");
+  command->callback([arguments] { run_with_checks(*arguments); });
 }
 
 }  // namespace stride::cli

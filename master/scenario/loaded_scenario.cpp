@@ -6,9 +6,11 @@
 #include <stdexcept>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <spdlog/spdlog.h>
 
 #include "master/algorithm/step_policies/step_policy.h"
+#include "master/algorithm/step_policies/unlimited_steps.h"
 #include "master/checks/checks.h"
 #include "master/isolation/hosted_unit.h"
 #include "master/recorders/unit_folders.h"
@@ -281,6 +283,7 @@ void LoadedScenario::choose_hosts(const HostRequest& request) {
 
 void LoadedScenario::check_steps() const {
   core::check_step_policy(*system_, options_);
+  if (core::has_unlimited_steps(*system_, options_)) warn_of_unlimited_steps();
   if (!options_.step.policy->has_grid) return;
   check_fixed_steps();
   warn_of_internal_steps();
@@ -340,6 +343,19 @@ void LoadedScenario::warn_of_internal_steps() const {
         scenario_.system.components[i].name, core::to_text(*internal),
         core::to_text(options_.step.size));
   }
+}
+
+void LoadedScenario::warn_of_unlimited_steps() const {
+  constexpr std::size_t kMostNames = 5;
+  std::vector<std::string> names = core::connections_without_events(*system_);
+  if (names.empty()) return;
+  const std::size_t unnamed = names.size() - std::min(names.size(), kMostNames);
+  names.resize(names.size() - unnamed);
+  spdlog::warn(
+      "values travel at events only, since nothing else ends a step, so what these outputs do "
+      "meanwhile is missed: {}{}; <stride:Step maximum=\"…\"/> (--max-step) ends steps, or says "
+      "with a long one that this is meant",
+      fmt::join(names, ", "), unnamed == 0 ? "" : fmt::format(" and {} more", unnamed));
 }
 
 importer::InstanceOptions LoadedScenario::instance_options(

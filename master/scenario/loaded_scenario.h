@@ -82,6 +82,7 @@ class LoadedScenario {
   void choose_signals(const ScenarioRequest& request);
   void check_fixed_steps() const;
   void warn_of_internal_steps() const;
+  void warn_of_unlimited_steps() const;
   importer::InstanceOptions instance_options(std::size_t component,
                                              const std::filesystem::path& results) const;
 

@@ -105,6 +105,8 @@ const std::vector<UnitCheck>& checks() {
        {"4.2.4", "2.3 and 4.2"}},
       {"messages", "message descriptions are valid text and change no state", &check_messages},
       {"splitting", "steps may be split, if the unit declares it", &check_splitting},
+      {"idle", "what the unit promises while it is idle holds, and skipping changes nothing else",
+       &check_idle},
       {"rejection",
        "a rejected step leaves the unit as it was",
        &check_rejection,

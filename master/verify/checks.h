@@ -68,6 +68,7 @@ Finding check_values(const Trial& trial);
 Finding check_dependencies(const Trial& trial);
 Finding check_events(const Trial& trial);
 Finding check_calls(const Trial& trial);
+Finding check_idle(const Trial& trial);
 Finding check_messages(const Trial& trial);
 Finding check_splitting(const Trial& trial);
 Finding check_rejection(const Trial& trial);

@@ -15,13 +15,7 @@ using core::ValueType;
 using core::Variability;
 using core::Variable;
 
-/// SplitMix64 (Steele, Lea and Flood, 2014), for a uniform number in [0, 1).
-double uniform(std::uint64_t seed, std::uint64_t index) {
-  std::uint64_t z = seed * 0x9e3779b97f4a7c15U + (index + 1) * 0xbf58476d1ce4e5b9U;
-  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9U;
-  z = (z ^ (z >> 27)) * 0x94d049bb133111ebU;
-  return static_cast<double>((z ^ (z >> 31)) >> 11) * 0x1p-53;
-}
+constexpr std::size_t kPointsPerTick = 7;
 
 bool is_number(ValueType type) {
   return type != ValueType::String && type != ValueType::Binary && type != ValueType::Clock;
@@ -71,6 +65,16 @@ std::int64_t other_item(const Variable& variable, std::int64_t start) {
 }
 
 }  // namespace
+
+// SplitMix64 (Steele, Lea and Flood, 2014)
+double uniform(std::uint64_t seed, std::uint64_t index) {
+  std::uint64_t z = seed * 0x9e3779b97f4a7c15U + (index + 1) * 0xbf58476d1ce4e5b9U;
+  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9U;
+  z = (z ^ (z >> 27)) * 0x94d049bb133111ebU;
+  return static_cast<double>((z ^ (z >> 31)) >> 11) * 0x1p-53;
+}
+
+std::pair<double, double> range_of(const Variable& variable) { return bounds<double>(variable); }
 
 bool has_start_value(const Variable& variable) {
   const bool is_opaque = variable.type == ValueType::String || variable.type == ValueType::Binary;
@@ -131,6 +135,8 @@ bool Stimulus::changes_at(std::size_t k) const {
            input.start != input.other;
   });
 }
+
+bool Stimulus::ticks_at(std::size_t k) const { return k % kPointsPerTick == 3; }
 
 ValueBlock Stimulus::value(const Input& input, std::size_t k) const {
   if (!input.is_continuous) return (k / input.hold) % 2 == 0 ? input.start : input.other;

@@ -3,6 +3,7 @@
 #define STRIDE_MASTER_VERIFY_STIMULUS_H
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "master/algorithm/unit.h"
@@ -19,6 +20,7 @@ namespace stride::verify {
 class Stimulus {
  public:
   Stimulus(const TestedUnit& tested, std::uint64_t seed);
+  virtual ~Stimulus() = default;
 
   struct Input {
     std::size_t variable;  ///< its index in the description
@@ -33,12 +35,21 @@ class Stimulus {
 
   /// Whether an input that is neither continuous nor clocked has another value at point k than at
   /// point k - 1.
-  bool changes_at(std::size_t k) const;
-  core::ValueBlock value(const Input& input, std::size_t k) const;
+  virtual bool changes_at(std::size_t k) const;
+  virtual core::ValueBlock value(const Input& input, std::size_t k) const;
+  /// Whether Event Mode is entered at point k without a reason, and triggered clocks tick.
+  virtual bool ticks_at(std::size_t k) const;
 
  private:
   std::vector<Input> inputs_;
 };
+
+/// A uniform number in [0, 1), a function of both alone.
+double uniform(std::uint64_t seed, std::uint64_t index);
+
+/// The least and the greatest value of a Float64 that the description allows, those of its type
+/// where it declares none.
+std::pair<double, double> range_of(const core::Variable& variable);
 
 /// Another value than `start` that is allowed for the variable, near it; `start` itself where there
 /// is none.

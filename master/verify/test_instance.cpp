@@ -23,8 +23,6 @@ using core::Variable;
 constexpr int kMostIterations = 1000;
 /// A unit that rejects steps shorter than this rejects all.
 constexpr Duration kShortestStep = std::chrono::nanoseconds(1);
-/// Triggered clocks tick at each such point of the grid.
-constexpr std::size_t kPointsPerTick = 7;
 
 bool is_triggered_input(const Variable& variable) {
   return variable.causality == Causality::Input && variable.is_triggered_clock();
@@ -64,7 +62,10 @@ TestInstance::TestInstance(const TestedUnit& tested, importer::CallNote& note,
                            TestInstanceOptions options)
     : tested_(tested),
       options_(std::move(options)),
-      stimulus_(tested, options_.seed != 0 ? options_.seed : tested.request().seed),
+      stimulus_(options_.stimulus
+                    ? options_.stimulus
+                    : std::make_shared<const Stimulus>(
+                          tested, options_.seed != 0 ? options_.seed : tested.request().seed)),
       units_([&] {
         std::vector<std::unique_ptr<core::Unit>> units;
         units.push_back(instantiate(tested, note, options_));
@@ -146,18 +147,18 @@ std::vector<std::string> TestInstance::observe() {
 }
 
 void TestInstance::set_inputs(std::size_t k, bool continuous_only) {
-  for (const Stimulus::Input& input : stimulus_.inputs()) {
+  for (const Stimulus::Input& input : stimulus_->inputs()) {
     if (input.is_clocked || (continuous_only && !input.is_continuous)) continue;
-    unit().set({&input.reference, 1}, stimulus_.value(input, k));
+    unit().set({&input.reference, 1}, stimulus_->value(input, k));
   }
 }
 
 void TestInstance::set_clocked_inputs(std::size_t k) {
-  for (const Stimulus::Input& input : stimulus_.inputs()) {
+  for (const Stimulus::Input& input : stimulus_->inputs()) {
     const Variable& variable = tested_.description().variables[input.variable];
     const bool is_due = std::any_of(variable.clocks.begin(), variable.clocks.end(),
                                     [&](ValueReference clock) { return ticks(clock); });
-    if (is_due) unit().set({&input.reference, 1}, stimulus_.value(input, k));
+    if (is_due) unit().set({&input.reference, 1}, stimulus_->value(input, k));
   }
 }
 
@@ -183,22 +184,32 @@ std::vector<Time> TestInstance::targets(std::size_t k) const {
 void TestInstance::run_to(std::size_t k, bool records) {
   records_ = records;
   while (position_.point < k && !recording_.has_ended) {
-    enter_grid_step(position_.point);
-    for (const Time target : targets(position_.point)) advance(target);
+    hand_over_inputs();
+    step_to_next_point();
     if (recording_.has_ended) break;
-    ++position_.point;
     if (!records) continue;
     recording_.rows.push_back({position_.now.time_since_epoch().count(), observe(), false});
   }
 }
 
-void TestInstance::enter_grid_step(std::size_t k) {
+void TestInstance::hand_over_inputs() {
+  const std::size_t k = position_.point;
   const bool has_event_mode = tested_.description().has_event_mode;
-  if (has_event_mode && (is_event_due() || stimulus_.changes_at(k) || k % kPointsPerTick == 3)) {
+  if (has_event_mode && (is_event_due() || stimulus_->changes_at(k) || stimulus_->ticks_at(k))) {
     handle_events(k);
   } else {
     set_inputs(k, has_event_mode);
   }
+}
+
+void TestInstance::step_to_next_point() {
+  for (const Time target : targets(position_.point)) advance(target);
+  if (!recording_.has_ended) ++position_.point;
+}
+
+bool TestInstance::leap_to(std::size_t k) {
+  position_.point = k;
+  return try_step(tested_.point(k));
 }
 
 void TestInstance::advance(Time to) {
@@ -268,7 +279,7 @@ void TestInstance::handle_events(std::optional<std::size_t> k) {
 }
 
 void TestInstance::tick_triggered(std::size_t k) {
-  if (k % kPointsPerTick != 3) return;
+  if (!stimulus_->ticks_at(k)) return;
   for (const Variable& variable : tested_.description().variables) {
     const bool can_tick = is_triggered_input(variable) &&
                           !carries_messages(tested_.description(), variable.reference);

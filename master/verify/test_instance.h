@@ -23,7 +23,8 @@ struct TestInstanceOptions {
   std::string name = "unit";
   bool early_return_allowed = true;
   Split split = Split::None;
-  std::uint64_t seed = 0;  ///< of the stimulus; 0 = that of the request
+  std::uint64_t seed = 0;                              ///< of the stimulus; 0 = that of the request
+  std::shared_ptr<const Stimulus> stimulus = nullptr;  ///< null: an ordinary one of that seed
 };
 
 /// Call order: {start(), run_to() with ascending points} again after each reset(). Throws Failure
@@ -57,6 +58,12 @@ class TestInstance {
 
   /// To the communication point k, unless the unit requests the end of the simulation before.
   void run_to(std::size_t k, bool records = true);
+  /// Its two parts, of the way to the next point: sets the inputs of the point that was reached, in
+  /// Event Mode where that is due; and makes the step.
+  void hand_over_inputs();
+  void step_to_next_point();
+  /// One step to the point k, with the inputs as they are; false if it was rejected.
+  bool leap_to(std::size_t k);
   /// One communication step with the inputs as they are, and the events at its end; false if it was
   /// rejected, in which case nothing has changed.
   bool try_step(Time to);
@@ -97,7 +104,6 @@ class TestInstance {
 
   void advance(Time to);
   void shorten(Time to);
-  void enter_grid_step(std::size_t k);
   void set_inputs(std::size_t k, bool continuous_only);
   void set_clocked_inputs(std::size_t k);
   std::vector<Time> targets(std::size_t k) const;
@@ -108,7 +114,7 @@ class TestInstance {
 
   const TestedUnit& tested_;
   TestInstanceOptions options_;
-  Stimulus stimulus_;
+  std::shared_ptr<const Stimulus> stimulus_;
   std::vector<std::unique_ptr<core::Unit>> units_;  ///< one
   std::optional<core::Clocks> clocks_;              ///< new with each start
   std::vector<core::ValueBlock> blocks_;            ///< for the groups of TestedUnit::observed()

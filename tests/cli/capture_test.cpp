@@ -26,7 +26,7 @@ Outcome replay(const Workspace& workspace, const std::string& component_name,
   workspace.scratch().write(
       "replay.ssd",
       scenario_text({component("player", "player.fmu") + component(component_name, source),
-                     connections, "<stride:Step size=\"1\"/>"}));
+                     connections, "<stride:Step size=\"1\" maximum=\"1\"/>"}));
   Arguments arguments{"run", "replay.ssd", "--out", "replayed", "--quiet", "--no-trace"};
   arguments.insert(arguments.end(), options.begin(), options.end());
   return workspace.stride(arguments);

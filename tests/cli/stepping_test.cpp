@@ -124,6 +124,34 @@ TEST_CASE("check prints how it would step") {
                  Contains("its state is saved before each step"));
 }
 
+TEST_CASE("steps that nothing but events ends miss what continuous outputs do between") {
+  const Workspace workspace(two_filters());
+  const std::string missed =
+      "values travel at events only, since nothing else ends a step, so what these outputs do "
+      "meanwhile is missed: first.y → second.u; <stride:Step maximum";
+  CHECK_THAT(workspace.run({"--policy", "event-driven"}).err, Contains(missed));
+  CHECK_THAT(workspace.run({"--step", "1"}).err, Contains(missed));
+  CHECK_THAT(workspace.stride({"check", "test.ssd", "--step", "2"}).err, Contains(missed));
+  CHECK(workspace.run({"--policy", "event-driven", "--max-step", "1", "--quiet"}).err == "");
+  CHECK(workspace.run({"--step", "0.5", "--quiet"}).err == "");
+}
+
+TEST_CASE("a unit that says nothing of its events has them late where nothing else ends a step") {
+  Parts parts{component("device", "early.fmu")};
+  const Arguments event_driven{"--quiet", "--policy", "event-driven", "--set",
+                               "device.instants=0.3 -1 -1 -1 -1 -1 -1 -1"};
+  CHECK(Workspace(parts).run(event_driven).err == "");
+  parts.annotation = "<stride:EarlyReturn components='device' allowed='false'/>";
+  const Workspace workspace(parts);
+  CHECK_THAT(
+      workspace.run(event_driven).err,
+      Contains("unit 'device' had events at the ends of its steps which it had not announced "
+               "(1 times)"));
+  Arguments meant = event_driven;
+  meant.insert(meant.end(), {"--max-step", "1"});
+  CHECK(workspace.run(meant).err == "");
+}
+
 TEST_CASE("what a policy cannot do is an error before the run") {
   Parts parts{component("filter", "minimal.fmu") + component("s", "stateless.fmu")};
   parts.annotation = "<stride:Host components='s' process='false'/>";

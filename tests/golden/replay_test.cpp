@@ -73,7 +73,7 @@ std::string replay_scenario(const player::Stimuli& stimuli, const std::string& a
          "<ssd:Annotations><ssc:Annotation type=\"org.stride\">\n"
          "<stride:Scenario xmlns:stride=\"urn:org.stride:scenario:1\">\n"
          "<stride:Step size=\"" +
-         stop + "\"/>\n" + annotation +
+         stop + "\" maximum=\"" + stop + "\"/>\n" + annotation +
          "</stride:Scenario></ssc:Annotation></ssd:Annotations>\n"
          "</ssd:SystemStructureDescription>\n";
 }

@@ -91,6 +91,24 @@ void fail_type(const sc_core::sc_object& object, const char* type) {
                               ", but no port or signal of the type " + readable(type));
 }
 
+void pause_on_change(sc_core::sc_port_base* port, sc_core::sc_interface* channel,
+                     bool& has_changed) {
+  sc_core::sc_spawn_options options;
+  options.spawn_method();
+  options.dont_initialize();
+  if (port != nullptr) {
+    options.set_sensitivity(port);
+  } else {
+    options.set_sensitivity(channel);
+  }
+  sc_core::sc_spawn(
+      [&has_changed] {
+        has_changed = true;
+        sc_core::sc_pause();
+      },
+      sc_core::sc_gen_unique_name("change"), &options);
+}
+
 template <class T>
 void ClockRowOf<T>::connect(Elaboration& elaboration) {
   const Place<T> place = find_(elaboration.module());

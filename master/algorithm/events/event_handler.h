@@ -44,6 +44,11 @@ class EventHandler : private OrderedEvaluation::Participants {
   /// settle after 1000 iterations.
   void handle_events(Time time);
 
+  /// Whether the unit has announced an event for this time.
+  bool has_announced(std::size_t component, Time time) const {
+    return next_event_[component] == time;
+  }
+
   /// Whether the unit handled an event in the last handle_events(), by component.
   std::span<const char> had_event() const { return had_event_; }
 

@@ -10,7 +10,14 @@ namespace {
 
 constexpr double kDeadband = 1e-5;
 
-enum class Promise : std::int64_t { Honest, Ticks, ReturnsEarly, Rejects, LeavesItsTangent };
+enum class Promise : std::int64_t {
+  Honest,
+  Ticks,
+  ReturnsEarly,
+  Rejects,
+  LeavesItsTangent,
+  LosesTime,  ///< a step that skips has its next report come late
+};
 
 class Idler : public stride::Unit {
  public:
@@ -30,7 +37,12 @@ class Idler : public stride::Unit {
     parameter("period", period_).unit("s").description("0: reports only when it is asked").min(0);
     parameter("announces", announces_).description("its reports, so that no step passes them");
     parameter("promise", promise_)
-        .items({{"honest", 0}, {"ticks", 1}, {"returns_early", 2}, {"rejects", 3}, {"drifts", 4}});
+        .items({{"honest", 0},
+                {"ticks", 1},
+                {"returns_early", 2},
+                {"rejects", 3},
+                {"drifts", 4},
+                {"loses_time", 5}});
     state(start_, slope_, time_);
   }
 
@@ -47,6 +59,8 @@ class Idler : public stride::Unit {
       return step.reject("this is too long for me");
     }
     ++steps_;
+    const bool skips = max_skip().has_value() && step.size() > kLongest;
+    if (promise_ == Promise::LosesTime && skips) start_ += std::chrono::microseconds(300);
     stride::Time to = step.to();
     if (promise_ == Promise::ReturnsEarly && step.size() > kLongest) to = step.from() + kLongest;
     if (next_report() <= to && !announces_) {

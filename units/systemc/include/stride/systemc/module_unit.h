@@ -33,6 +33,23 @@
 
 namespace stride::systemc {
 
+/// What else is to be said of an output().
+class OutputBuilder : public VariableBuilder {
+ public:
+  OutputBuilder(VariableBuilder builder, detail::Row& row, bool& has_changed)
+      : VariableBuilder(builder), row_(row), has_changed_(has_changed) {}
+
+  /// A step ends where the value changes, so that other units see it at that instant: for an
+  /// interrupt. Comes before what VariableBuilder says. A change is an early return, and is seen
+  /// at the end of the step where the importer does not allow one. Throws std::invalid_argument for
+  /// a function or a plain member, whose changes have no event.
+  OutputBuilder& stop_on_change() { return row_.stop_on_change(has_changed_), *this; }
+
+ private:
+  detail::Row& row_;
+  bool& has_changed_;
+};
+
 /// A DeviceUnit that is declared row by row, in the constructor. A row's target is where its value
 /// is in the module:
 ///
@@ -109,9 +126,10 @@ class ModuleUnit : public DeviceUnit<Module> {
   /// A port, a signal, or the value of a member or a function. An sc_inout may have an input and an
   /// output, of two names: the output is what the signal holds, whichever of both wrote last.
   template <class Target, std::enable_if_t<kIsTarget<Target>, int> = 0>
-  VariableBuilder output(std::string name, Target target) {
+  OutputBuilder output(std::string name, Target target) {
     auto row = make_output(name, std::move(target));
-    return add(row, this->Unit::output(std::move(name), row->value));
+    detail::Row& kept = *row;
+    return {add(row, this->Unit::output(std::move(name), row->value)), kept, has_stopped_};
   }
   /// The same, for what no other unit is concerned with.
   template <class Target, std::enable_if_t<kIsTarget<Target>, int> = 0>
@@ -315,11 +333,13 @@ class ModuleUnit : public DeviceUnit<Module> {
     }
     return false;
   }
+  bool wants_to_stop() const override { return has_stopped_ || has_message(); }
   void list_signals(const Module& module, SignalList& signals) const override {
     DeviceUnit<Module>::list_signals(module, signals);
     for (const auto& row : rows_) row->list_signals(signals);
   }
   void begin_step(const Step& step) override {
+    has_stopped_ = false;
     sampling_.begin_step(step.size(), shortest_period(), std::exchange(has_changed_, false));
   }
   void end() override {
@@ -476,6 +496,7 @@ class ModuleUnit : public DeviceUnit<Module> {
   std::function<void(Module&, const Skipped&)> catch_up_;
   bool has_functions_ = false;  ///< among the outputs
   bool has_changed_ = false;    ///< an input, since the last step began
+  bool has_stopped_ = false;    ///< likewise, an output whose changes end steps
   detail::Sampling sampling_;
 };
 

@@ -39,6 +39,11 @@ class Row {
   virtual void read() {}
   /// The signals that connect() has made.
   virtual void list_signals(SignalList& /*signals*/) const {}
+  /// Of an output, before connect(): where its value changes, the device pauses and `has_changed`
+  /// is set. Throws std::invalid_argument where no event tells of a change.
+  virtual void stop_on_change(bool& /*has_changed*/) {
+    throw std::invalid_argument(name_ + ": stop_on_change() needs a port or a signal");
+  }
 
  private:
   std::string name_;
@@ -55,6 +60,11 @@ decltype(auto) named(const Row& row, Function&& f) {
     throw std::invalid_argument(row.name() + ": " + error.what());
   }
 }
+
+/// While a module is elaborated: where the value of the port, or else of the channel, changes, the
+/// device calls sc_pause and `has_changed` is set.
+void pause_on_change(sc_core::sc_port_base* port, sc_core::sc_interface* channel,
+                     bool& has_changed);
 
 /// A row that leads to a port or a signal of values T.
 template <class T>
@@ -165,13 +175,24 @@ class OutputRow final : public PlaceRow<T> {
 
   void connect(Elaboration& elaboration) override {
     this->find(elaboration.module());
-    const bool is_output = this->place().out != nullptr;
-    if (!is_output || this->place().object->get_parent_object() != &elaboration.module()) return;
+    const Place<T>& place = this->place();
+    if (has_changed_ != nullptr) pause_on_change(port_of(place), place.signal, *has_changed_);
+    const bool is_output = place.out != nullptr;
+    if (!is_output || place.object->get_parent_object() != &elaboration.module()) return;
     this->bind(elaboration, value_at_rest<T>(), Share::Output);
   }
+  void stop_on_change(bool& has_changed) override { has_changed_ = &has_changed; }
   void read() override {
     value = named(*this, [this]() -> Fmi { return Conversion<T>::to_fmi(this->channel().read()); });
   }
+
+ private:
+  static sc_core::sc_port_base* port_of(const Place<T>& place) {
+    if (place.in != nullptr) return place.in;
+    return place.out;
+  }
+
+  bool* has_changed_ = nullptr;  ///< where a change ends the step
 };
 
 /// What a function of the module gives, or a member of it that is not a signal.

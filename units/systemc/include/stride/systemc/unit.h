@@ -66,7 +66,7 @@ class DeviceUnit : public Unit {
     begin_step(step);
     hand_over_inputs();
     Time reached = device_->advance(device_->now());
-    if (!step.early_return_allowed() || !has_message()) {
+    if (!step.early_return_allowed() || !wants_to_stop()) {
       reached = advance(to_device(step.to()), step.early_return_allowed());
     }
     device_->within([this](Module& module) { read_outputs(module); });
@@ -121,9 +121,11 @@ class DeviceUnit : public Unit {
   virtual void receive(Module& /*module*/) {}
   /// Ticks output clocks, a message each.
   virtual void publish() {}
-  /// Whether publish() has something to do. The inputs of a step may cause a message where the step
-  /// begins; the step then ends there, too, if it may.
+  /// Whether publish() has something to do.
   virtual bool has_message() const { return false; }
+  /// Whether the inputs of a step have caused something where the step begins that other units need
+  /// to see there, as a message is; the step then ends there, too, if it may.
+  virtual bool wants_to_stop() const { return has_message(); }
 
   /// The signals that `trace.signals` chooses from: by default all that trace.h finds by itself.
   virtual void list_signals(const Module& module, SignalList& signals) const {

@@ -1,0 +1,250 @@
+#include "master/cli/idle_check.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "master/report/csv_reader.h"
+#include "master/util/error.h"
+#include "master/util/time_text.h"
+
+namespace stride::cli {
+namespace {
+
+using report::CsvReader;
+
+/// Of the greatest value, for what has no tolerance of its own.
+constexpr double kEffect = 1e-3;
+constexpr double kRounding = 1e-9;
+
+struct Difference {
+  core::Context context;
+  std::string text;
+};
+
+Time time_of(const CsvReader& reader) {
+  return Time(core::parse_seconds(reader.fields().front().text));
+}
+
+std::string value_of(const CsvReader& reader, std::size_t column) {
+  return reader.fields().at(column).value();
+}
+
+/// A recorded element, and how far it may be off.
+struct Column {
+  core::VariableId id;
+  bool is_real = false;
+  double absolute = 0;
+  double relative = 0;  ///< of the greatest value
+};
+
+/// What idle skipping may do in this system.
+class Allowances {
+ public:
+  explicit Allowances(const scenario::LoadedScenario& loaded)
+      : system_(loaded.system()), idle_(loaded.options().idle) {
+    for (std::size_t i = 0; i < system_.components().size(); ++i) {
+      const auto& variables = system_.components()[i].description->variables;
+      if (i >= idle_.max_skip.size() || !idle_.max_skip[i]) continue;
+      inexact_units_ += std::ranges::any_of(
+          variables, [](const core::Variable& variable) { return variable.tolerance.has_value(); });
+      has_deadbands_ |= std::ranges::any_of(
+          variables, [](const core::Variable& variable) { return variable.deadband > 0; });
+    }
+    has_deadbands_ |= !idle_.deadbands.empty();
+  }
+
+  Column of(core::VariableId id) const {
+    Column column{id, core::is_real(system_.variable(id).type)};
+    const auto tolerance = tolerance_of(id);
+    if (tolerance) {
+      column.absolute = *tolerance * static_cast<double>(std::max<std::size_t>(1, inexact_units_));
+    }
+    const bool has_effects = inexact_units_ > 0 || has_deadbands_;
+    column.relative = has_effects && !tolerance ? kEffect : kRounding;
+    return column;
+  }
+
+ private:
+  std::optional<double> tolerance_of(core::VariableId id) const {
+    for (const core::IdleSetting& setting : idle_.tolerances) {
+      if (setting.id == id) return setting.value;
+    }
+    return system_.variable(id).tolerance;
+  }
+
+  const core::System& system_;
+  const core::IdleOptions& idle_;
+  std::size_t inexact_units_ = 0;  ///< with outputs that have tolerances
+  bool has_deadbands_ = false;
+};
+
+class SignalComparison {
+ public:
+  SignalComparison(const scenario::LoadedScenario& loaded, const std::filesystem::path& skipping,
+                   const std::filesystem::path& full)
+      : system_(loaded.system()), full_file_(full), skipping_(skipping), full_(full) {
+    const Allowances allowances(loaded);
+    for (const core::VariableId id : loaded.options().recorded) {
+      columns_.insert(columns_.end(), system_.variable(id).size, allowances.of(id));
+    }
+    greatest_.resize(columns_.size());
+    skipping_.next();
+    full_.next();
+  }
+
+  /// Of the rows of an instant the last one counts, which has what it settled to.
+  std::optional<Difference> first() {
+    find_greatest();
+    for (bool has_row = skipping_.next(); has_row;) {
+      const Time time = time_of(skipping_);
+      const std::vector<std::string> values = values_at(skipping_, time, has_row);
+      if (!go_to(time)) {
+        return Difference{{{}, {}, {}, time}, "there is a communication point here with skipping"};
+      }
+      if (auto difference = compare(time, values)) return difference;
+      ++points_;
+    }
+    return std::nullopt;
+  }
+
+  std::size_t points() const { return points_; }
+
+ private:
+  void find_greatest() {
+    CsvReader reader(full_file_);
+    reader.next();
+    while (reader.next()) {
+      for (std::size_t i = 0; i < columns_.size(); ++i) {
+        if (!columns_[i].is_real) continue;
+        const double value = std::abs(std::strtod(value_of(reader, i + 1).c_str(), nullptr));
+        if (std::isfinite(value)) greatest_[i] = std::max(greatest_[i], value);
+      }
+    }
+  }
+
+  /// Reads on beyond the rows of this time, and returns the values of the last one.
+  std::vector<std::string> values_at(CsvReader& reader, Time time, bool& has_row) const {
+    std::vector<std::string> values(columns_.size());
+    while (has_row && time_of(reader) == time) {
+      for (std::size_t i = 0; i < values.size(); ++i) values[i] = value_of(reader, i + 1);
+      has_row = reader.next();
+    }
+    return values;
+  }
+
+  bool go_to(Time time) {
+    if (!has_begun_) has_full_row_ = full_.next();
+    has_begun_ = true;
+    while (has_full_row_ && time_of(full_) < time) has_full_row_ = full_.next();
+    if (!has_full_row_ || time_of(full_) != time) return false;
+    full_values_ = values_at(full_, time, has_full_row_);
+    return true;
+  }
+
+  std::optional<Difference> compare(Time time, const std::vector<std::string>& values) const {
+    for (std::size_t i = 0; i < columns_.size(); ++i) {
+      if (values[i] == full_values_[i] || is_near(i, values[i], full_values_[i])) continue;
+      return Difference{context_of(columns_[i].id, time),
+                        fmt::format("the value is {} with skipping, and {} without it", values[i],
+                                    full_values_[i])};
+    }
+    return std::nullopt;
+  }
+
+  bool is_near(std::size_t i, const std::string& one, const std::string& other) const {
+    const Column& column = columns_[i];
+    if (!column.is_real) return false;
+    const double distance =
+        std::abs(std::strtod(one.c_str(), nullptr) - std::strtod(other.c_str(), nullptr));
+    return distance <= column.absolute + column.relative * greatest_[i];
+  }
+
+  core::Context context_of(core::VariableId id, Time time) const {
+    const std::string unit =
+        system_.is_output(id) ? std::string() : system_.components()[id.component].name;
+    return {{}, unit, system_.variable(id).name, time};
+  }
+
+  const core::System& system_;
+  std::filesystem::path full_file_;
+  CsvReader skipping_, full_;
+  std::vector<Column> columns_;
+  std::vector<double> greatest_;
+  std::vector<std::string> full_values_;
+  bool has_begun_ = false;
+  bool has_full_row_ = false;
+  std::size_t points_ = 0;
+};
+
+std::string message_text(const CsvReader& reader) {
+  return fmt::format("{} {} {} {}", value_of(reader, 0), value_of(reader, 2), value_of(reader, 3),
+                     value_of(reader, 4));
+}
+
+Difference message_difference(const CsvReader& reader, const std::string& text) {
+  return {{{}, value_of(reader, 2), value_of(reader, 3), time_of(reader)}, text};
+}
+
+/// The first difference of the messages; counts those that are equal.
+std::optional<Difference> first_message(const std::filesystem::path& skipping_file,
+                                        const std::filesystem::path& full_file,
+                                        std::size_t& count) {
+  CsvReader skipping(skipping_file);
+  CsvReader full(full_file);
+  while (true) {
+    const bool has_skipping = skipping.next();
+    const bool has_full = full.next();
+    if (!has_skipping && !has_full) return std::nullopt;
+    if (!has_full) return message_difference(skipping, "the message is there with skipping only");
+    if (!has_skipping) return message_difference(full, "the message is missing with skipping");
+    for (std::size_t i = 0; i < full.fields().size(); ++i) {
+      if (value_of(skipping, i) == value_of(full, i)) continue;
+      const bool is_other = message_text(skipping) != message_text(full);
+      return message_difference(
+          time_of(skipping) < time_of(full) ? skipping : full,
+          is_other ? fmt::format("without skipping the message is '{}', and with it '{}'",
+                                 message_text(full), message_text(skipping))
+                   : fmt::format("the message is {} with skipping, and {} without it",
+                                 value_of(skipping, i), value_of(full, i)));
+    }
+    ++count;
+  }
+}
+
+}  // namespace
+
+std::string compare_with_full_run(const scenario::LoadedScenario& loaded,
+                                  const ResultsTarget& skipping,
+                                  const std::filesystem::path& full) {
+  const auto& [folder, files] = skipping;
+  std::optional<Difference> first;
+  std::size_t messages = 0, points = 0;
+  if (!files.events.empty()) {
+    first = first_message(folder / files.events, full / files.events, messages);
+  }
+  if (!files.signals.empty()) {
+    SignalComparison signals(loaded, folder / files.signals, full / files.signals);
+    const auto difference = signals.first();
+    if (difference && (!first || difference->context.time <= first->context.time)) {
+      first = difference;
+    }
+    points = signals.points();
+  }
+  if (first) {
+    core::fail_run(first->context, first->text + "; that is more than idle skipping may change",
+                   "a unit does not keep its promises: 'stride verify --check idle' tests one; "
+                   "<stride:IdleSkip components=\"…\" enabled=\"false\"/> leaves it out");
+  }
+  return fmt::format(
+      "Idle skipping changes nothing but what tolerances allow: {} communication points and {} "
+      "messages agree with those in {}",
+      points, messages == 0 ? 0 : messages - 1, full.string());
+}
+
+}  // namespace stride::cli

@@ -1,0 +1,80 @@
+#include <algorithm>
+#include <cstdlib>
+
+#include <fmt/format.h>
+
+#include "master/verify/checks.h"
+#include "master/verify/idle_comparison.h"
+#include "master/verify/idle_run.h"
+#include "master/verify/idle_stimulus.h"
+
+namespace stride::verify {
+namespace {
+
+constexpr std::uint64_t kRounds = 4;  ///< of each kind of inputs
+
+struct Inputs {
+  std::uint64_t seed;
+  Wander wander;
+  Jump jump;
+};
+
+Recording record(const Trial& trial, const Inputs& inputs, bool is_skipping) {
+  return recording_from_text(trial.in_child([&] {
+    const auto stimulus =
+        std::make_shared<const IdleStimulus>(trial.tested, inputs.seed, inputs.wander, inputs.jump);
+    TestInstance instance = trial.make_instance({.stimulus = stimulus});
+    return to_text(IdleRun(trial.tested, instance, *stimulus, is_skipping).run());
+  }));
+}
+
+bool has_deadbands(const core::UnitDescription& unit) {
+  return std::ranges::any_of(unit.variables,
+                             [](const core::Variable& input) { return input.deadband > 0; });
+}
+
+/// A run without skipping; what is far from the start values may be nonsense to the unit.
+Recording record_full(const Trial& trial, Inputs& inputs) {
+  if (inputs.jump == Jump::Far) {
+    try {
+      return record(trial, inputs, false);
+    } catch (const Failure&) {
+      inputs.jump = Jump::Near;
+    }
+  }
+  return record(trial, inputs, false);
+}
+
+std::size_t promises_in(const Recording& skipping) {
+  const auto last = std::find_if(skipping.rows.rbegin(), skipping.rows.rend(),
+                                 [](const Row& row) { return !row.is_event; });
+  return last == skipping.rows.rend() ? 0 : std::strtoul(last->values.back().c_str(), nullptr, 10);
+}
+
+}  // namespace
+
+Finding check_idle(const Trial& trial) {
+  const core::UnitDescription& unit = trial.tested.description();
+  if (!unit.promises_idle) return skipped("it never promises to be idle (org.stride.idle)");
+  std::size_t promises = 0;
+  std::size_t runs = 0;
+  for (const Wander wander : {Wander::Still, Wander::WithinDeadbands}) {
+    if (wander == Wander::WithinDeadbands && !has_deadbands(unit)) continue;
+    for (std::uint64_t round = 0; round < kRounds; ++round, ++runs) {
+      const Jump jump = round % 2 == 0 ? Jump::Far : Jump::Near;
+      Inputs inputs{trial.tested.request().seed * 1000 + 10 * round, wander, jump};
+      const Recording full = record_full(trial, inputs);
+      const Recording skipping = record(trial, inputs, true);
+      const auto difference = idle_difference(trial.tested, full, skipping, wander);
+      if (difference) throw Failure("with skipping of idle time " + *difference, false);
+      promises += promises_in(skipping);
+    }
+  }
+  if (promises == 0) {
+    return passed("skipping of idle time changes nothing", {"it promised nothing in these runs"});
+  }
+  return passed(
+      fmt::format("{} promises were kept, in {} runs with random inputs", promises, runs));
+}
+
+}  // namespace stride::verify

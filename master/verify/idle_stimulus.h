@@ -1,0 +1,40 @@
+// Inputs for a unit that promises to be idle.
+#ifndef STRIDE_MASTER_VERIFY_IDLE_STIMULUS_H
+#define STRIDE_MASTER_VERIFY_IDLE_STIMULUS_H
+
+#include <cstdint>
+
+#include "master/verify/stimulus.h"
+
+namespace stride::verify {
+
+/// How an input with a deadband moves between two jumps.
+enum class Wander { Still, WithinDeadbands };
+/// How far inputs jump: to the values of Stimulus, or far beyond them, where min and max allow it.
+enum class Jump { Near, Far };
+
+/// Inputs that jump at random points, and beyond their deadbands then. In between they stay what
+/// they are, or move at random such that two values are never further apart than the deadband.
+/// Event Mode is entered without a reason at random points, too. Like every stimulus a function of
+/// the seed and the point alone.
+class IdleStimulus final : public Stimulus {
+ public:
+  IdleStimulus(const TestedUnit& tested, std::uint64_t seed, Wander wander, Jump jump);
+
+  bool changes_at(std::size_t k) const override;
+  bool ticks_at(std::size_t k) const override;
+  core::ValueBlock value(const Input& input, std::size_t k) const override;
+
+ private:
+  std::size_t jumps_until(const Input& input, std::size_t k) const;
+  double element(const Input& input, double start, double other, std::uint64_t jump) const;
+
+  const core::UnitDescription& unit_;
+  std::uint64_t seed_;
+  Wander wander_;
+  Jump jump_;
+};
+
+}  // namespace stride::verify
+
+#endif
