@@ -1,13 +1,14 @@
-// The error of a process that a unit in it ends, in words.
+// The error of a process that something in it ends, in words.
 #ifndef STRIDE_MASTER_CLI_CRASH_ERROR_H
 #define STRIDE_MASTER_CLI_CRASH_ERROR_H
 
-#include <span>
-#include <string_view>
+#include <vector>
 
 #include "master/cli/signal_origin.h"
-#include "master/importer/fmu_instance.h"
+#include "master/importer/shared_library.h"
+#include "master/importer/unit_call.h"
 #include "master/util/error.h"
+#include "master/util/fixed_text.h"
 
 namespace stride::cli {
 
@@ -16,25 +17,25 @@ inline constexpr unsigned kLongestEnd = 10;
 
 /// How a process ends.
 struct ProcessEnd {
-  enum class Kind { Signal, Call, TimeOut, Error };
+  enum class Kind { Signal, ExitCall, ExitCode, Program, TimeOut, Error };
   Kind kind = Kind::Signal;
-  int signal = 0;                  ///< of kind Signal
-  const char* function = nullptr;  ///< that was called, such as exit: of kind Call
-  const char* error = nullptr;     ///< the text of one that was thrown: of kind Error
+  int number = 0;  ///< of the signal, or the exit code
   SignalOrigin origin = SignalOrigin::Call;
+  /// Which ends it: its address of importer::this_thread; null if that is not known.
+  const char* thread = nullptr;
+  /// Of kind Error, that of the one that was thrown; of kind Program, what replaces the process.
+  core::FixedText<4096> text{};
 };
 
-/// "signal 11 (SIGSEGV) ends stride". Allocates nothing; the result is in `text`.
-std::string_view describe_end(const ProcessEnd& end, std::span<char> text);
+/// What units were doing then.
+struct UnitWork {
+  std::vector<importer::UnitCall> calls;  ///< those that have not returned
+  importer::LibraryWork library;
+  bool is_leaving = false;  ///< the command is over
+};
 
-/// `calls` are those of units that have not returned. If this thread makes none of them, a unit has
-/// started it. `is_leaving`: the command is over.
-core::Error error_of(const ProcessEnd& end, std::span<const importer::UnitCall> calls,
-                     bool is_leaving);
-
-/// In short, where nothing can be allocated; the result is in `text`.
-std::string_view describe_briefly(const ProcessEnd& end, std::span<const importer::UnitCall> calls,
-                                  std::span<char> text);
+/// If the thread that ends the process makes none of the calls, a unit has started it.
+core::Error error_of(const ProcessEnd& end, const UnitWork& work);
 
 }  // namespace stride::cli
 

@@ -8,7 +8,6 @@
 #include <ctime>
 #include <iterator>
 #include <new>
-#include <span>
 #include <string_view>
 #include <utility>
 
@@ -21,9 +20,11 @@
 #include <unistd.h>
 
 #include "master/cli/crash_error.h"
+#include "master/cli/end_note.h"
+#include "master/cli/exit.h"
 #include "master/cli/output.h"
-#include "master/cli/replaced_calls.h"
-#include "master/importer/fmu_instance.h"
+#include "master/importer/present_call.h"
+#include "master/importer/unit_call.h"
 #include "master/util/archive/temporary_folder.h"
 #include "master/util/error.h"
 #include "master/util/output_file.h"
@@ -34,7 +35,6 @@ namespace {
 
 using core::kCrashes;
 
-constexpr int kRunFailed = 1;
 /// Of virtual memory: the conclusion runs on it.
 constexpr std::size_t kStackSize = std::size_t{8} << 20;
 
@@ -47,22 +47,12 @@ constexpr int kFirstHidden = 32;  ///< of those that the C library keeps to itse
 struct Guarded {
   std::atomic<const CrashGuard::Conclusion*> conclusion{nullptr};
   std::atomic<pid_t> process{0};
-  std::atomic<pid_t> ending{0};         ///< the thread that ends the process
-  std::atomic<bool> is_leaving{false};  ///< the command is over
-  std::atomic<int> code{0};             ///< of the command
-  timer_t time_limit{};                 ///< for the end of the process
+  std::atomic<pid_t> ending{0};  ///< the thread that ends the process
+  timer_t time_limit{};          ///< for the end of the process
   bool has_time_limit = false;
-  // of the thread that ends the process
-  ProcessEnd end;
-  std::size_t steps = 0;  ///< to the end that have begun
-  std::array<importer::UnitCall, 16> found;
-  std::span<const importer::UnitCall> calls;
+  std::size_t steps = 0;  ///< to the end that have begun, by the thread that ends the process
 };
 Guarded guarded;
-
-[[noreturn]] void end_now(int code) {
-  for (;;) system_call(SYS_exit_group, code);
-}
 
 void print(std::string_view text) { (void)!::write(STDERR_FILENO, text.data(), text.size()); }
 
@@ -71,27 +61,17 @@ void print(std::string_view text) { (void)!::write(STDERR_FILENO, text.data(), t
 /// In the fork.
 [[noreturn]] void conclude() {
   try {
-    const core::Error error = error_of(guarded.end, guarded.calls, guarded.is_leaving);
+    EndNote& note = end_note();
+    const UnitWork work{importer::unfinished_calls(note.end.thread),
+                        importer::unfinished_library_work(), note.is_leaving};
+    const core::Error error = error_of(note.end, work);
     print(core::terminal_text(fmt::format("stride: error: {}\n", error.what())));
+    note.is_printed = true;
     (*guarded.conclusion.load())(error.what());
   } catch (...) {  // the rest is lost
   }
   archive::TemporaryFolder::remove_all();
-  end_now(kRunFailed);
-}
-
-/// What can be said without memory of its own, and nothing after that.
-[[noreturn]] void conclude_briefly() {
-  std::array<char, 1024> text{};
-  print("stride: error: ");
-  print(describe_briefly(guarded.end, guarded.calls, text));
-  print("; run.json and the report are not complete, and rows may be missing\n");
-  end_now(kRunFailed);
-}
-
-[[noreturn]] void remove_folders() {
-  archive::TemporaryFolder::remove_all();
-  end_now(kRunFailed);
+  ::_exit(kRunFailed);
 }
 
 /// Returns whether the process has ended by itself, and not by a signal.
@@ -121,22 +101,14 @@ bool is_done_in_fork(void (*work)()) {
   return fork > 0 && wait_for(fork);
 }
 
-/// The process ends as such a signal does that is not handled, so that others see that.
-void end_by_signal_from_outside() {
-  if (guarded.end.kind != ProcessEnd::Kind::Signal || guarded.end.origin != SignalOrigin::Outside) {
-    return;
-  }
-  ::signal(guarded.end.signal, SIG_DFL);
-  sigset_t none;
-  ::sigemptyset(&none);
-  ::raise(guarded.end.signal);
-  ::pthread_sigmask(SIG_SETMASK, &none, nullptr);
-}
-
-/// What is left to be done when the end is reported.
-void end_reported() {
-  end_by_signal_from_outside();
-  end_now(kRunFailed);
+[[noreturn]] void end_complete() {
+  EndNote& note = end_note();
+  const bool is_from_outside =
+      note.end.kind == ProcessEnd::Kind::Signal && note.end.origin == SignalOrigin::Outside;
+  note.code = is_from_outside ? -note.end.number : kRunFailed;
+  note.is_complete = true;
+  if (is_from_outside) end_by(note.end.number);
+  ::_exit(kRunFailed);
 }
 
 [[noreturn]] void wait_for_end() {
@@ -163,31 +135,13 @@ void stop_other_threads() {
   ::nanosleep(&kUntilTheyHaveStopped, nullptr);
 }
 
-void find_calls() {
-  const std::size_t count = importer::unfinished_calls(guarded.found);
-  guarded.calls = std::span(guarded.found).first(count);
-}
-
+/// After the command no conclusion has put the error into the files.
 void report() {
-  if (is_done_in_fork(conclude)) end_reported();
-}
-
-void report_briefly() {
-  if (!is_done_in_fork(conclude_briefly)) return;
-  is_done_in_fork(remove_folders);
-  end_reported();
-}
-
-/// The names may be damaged, too.
-void report_without_names() {
-  guarded.calls = {};
-  conclude_briefly();
+  if (is_done_in_fork(conclude) && !end_note().is_leaving) end_complete();
 }
 
 /// A crash in one of them goes on with the next one.
-constexpr void (*kSteps[])() = {stop_other_threads, core::OutputFile::rescue_all,
-                                find_calls,         report,
-                                report_briefly,     report_without_names};
+constexpr void (*kSteps[])() = {stop_other_threads, core::OutputFile::rescue_all, report};
 
 [[noreturn]] void end_process(const ProcessEnd& end) {
   sigset_t blocked;
@@ -197,12 +151,16 @@ constexpr void (*kSteps[])() = {stop_other_threads, core::OutputFile::rescue_all
   pid_t ending = 0;
   const pid_t self = ::gettid();
   if (guarded.ending.compare_exchange_strong(ending, self)) {
-    guarded.end = end;
+    EndNote& note = end_note();
+    note.is_complete = false;
+    note.end = end;
+    note.end.thread = &importer::this_thread;
+    note.has_end = true;
   } else if (ending != self) {
     wait_for_end();
   }
   while (guarded.steps < std::size(kSteps)) kSteps[guarded.steps++]();
-  end_now(kRunFailed);
+  ::_exit(kRunFailed);  // not complete: a process that watches this one says what has happened
 }
 
 /// Forks of a guarded process, such as those of hosts, are not guarded.
@@ -241,9 +199,8 @@ void begin_time_limit() {
 
 /// What takes long is a unit's, or stride's own work with many files, which may.
 void on_time_limit() {
-  std::array<importer::UnitCall, 1> call;
-  const bool is_of_unit = guarded.is_leaving || importer::unfinished_calls(call) > 0 ||
-                          importer::unfinished_library_work().library != nullptr;
+  const bool is_of_unit = end_note().is_leaving || importer::is_any_call_unfinished() ||
+                          !importer::unfinished_library_work().what.view().empty();
   if (is_of_unit) end_process({.kind = ProcessEnd::Kind::TimeOut});
   begin_time_limit();
 }
@@ -253,7 +210,7 @@ int limit_signal() { return SIGRTMAX - 1; }
 
 void on_signal(int signal, siginfo_t* info, void*) {
   if (is_guarded() && is_time_limit(*info)) return on_time_limit();
-  if (is_guarded()) end_process({.signal = signal, .origin = origin_of(signal, *info)});
+  if (is_guarded()) end_process({.number = signal, .origin = origin_of(signal, *info)});
   KernelAction().set(signal);  // the default; it comes again when this returns
   ::syscall(SYS_tgkill, ::getpid(), ::gettid(), signal);
 }
@@ -291,28 +248,17 @@ void set_handlers(int flags) {
 
 // ---- exit() and its like ----
 
-void end_in_call(const char* function) {
-  if (is_guarded()) end_process({.kind = ProcessEnd::Kind::Call, .function = function});
+void on_exit() {
+  if (is_guarded()) end_process({.kind = ProcessEnd::Kind::ExitCall});
 }
-
-void on_exit() { end_in_call("exit"); }
 
 void on_exit_functions() {
-  if (!guarded.is_leaving) on_exit();
-}
-
-/// The last of the exit functions: the code with which one before it has called exit() does not
-/// count.
-void keep_code(int code, void*) {
-  if (!guarded.is_leaving || guarded.process != ::getpid() || code == guarded.code) return;
-  std::fflush(nullptr);
-  end_now(guarded.code);
+  if (!end_note().is_leaving) on_exit();
 }
 
 /// Before any library of a unit is loaded, so that its exit functions come first.
 void register_exit_functions() {
-  static const int registered =
-      ::on_exit(keep_code, nullptr) + std::atexit(on_exit_functions) + std::at_quick_exit(on_exit);
+  static const int registered = std::atexit(on_exit_functions) + std::at_quick_exit(on_exit);
   (void)registered;
 }
 
@@ -333,13 +279,15 @@ const CrashGuard::Conclusion& no_conclusion() {
 }  // namespace
 
 void end_with(const std::string& error) {
-  end_process({.kind = ProcessEnd::Kind::Error, .error = error.c_str()});
+  ProcessEnd end{.kind = ProcessEnd::Kind::Error};
+  end.text.set(error);
+  end_process(end);
 }
 
 void end_if_own(int signal, const siginfo_t& info) {
   const SignalOrigin origin = origin_of(signal, info);
   if (origin != SignalOrigin::Outside && is_guarded()) {
-    end_process({.signal = signal, .origin = origin});
+    end_process({.number = signal, .origin = origin});
   }
 }
 
@@ -351,7 +299,6 @@ CrashGuard::CrashGuard(Conclusion conclusion) : conclusion_(std::move(conclusion
   ::sigaltstack(&stack, nullptr);
   set_handlers(SA_ONSTACK);
   register_exit_functions();
-  watch_ends(end_in_call);
   make_time_limit();
   guarded.process = ::getpid();
   guarded.conclusion = &conclusion_;
@@ -374,11 +321,12 @@ void end_guarding() {
 }
 
 int leave_with(int code) {
-  if (guarded.process != ::getpid()) return code;
+  EndNote& note = end_note();
   if (guarded.ending != 0) wait_for_end();
+  note.code = code;
+  note.is_leaving = true;
+  if (guarded.process != ::getpid()) return code;
   set_handlers(0);
-  guarded.code = code;
-  guarded.is_leaving = true;
   guarded.conclusion = &no_conclusion();
   limit_end();
   return code;

@@ -9,13 +9,13 @@
 namespace stride::cli {
 
 /// While it lives, a crash of this process (a signal such as SIGSEGV, abort(), std::terminate()),
-/// the calls in replaced_calls.h and signals whose default action ends a process are not its silent
-/// end: the lines that files still hold in memory are written, the error is printed, with the unit
-/// whose function was being called, and the exit code is 1; after a signal from outside the process
-/// ends by that signal. From its end until that of the process the same is so, without the
-/// conclusion: a thread of a unit may go on. There is one at a time, and one in a process. It
-/// cannot prevent SIGKILL, and the crash of a unit's own thread by an overflow of its stack; a
-/// process of the unit's own can (docs/hosts.md).
+/// exit() and signals whose default action ends a process end it in order: the lines that files
+/// still hold in memory are written, the error is printed, with the unit whose function was being
+/// called, and the exit code is 1; after a signal from outside the process ends by that signal.
+/// From its end until that of the process the same is so, without the conclusion: a thread of a
+/// unit may go on. There is one at a time, and one in a process. What it cannot see, such as
+/// SIGKILL, or does not survive is left to the process that watches this one (go_on_watched()),
+/// which has less to say.
 ///
 /// Signals for which there is a handler already are left to it. SIGINT, SIGTERM, SIGHUP and SIGPIPE
 /// end the process as usual.

@@ -1,5 +1,9 @@
 #include "master/cli/interruption.h"
 
+#include <cstdint>
+#include <ctime>
+#include <utility>
+
 #include "master/cli/crash_guard.h"
 #include "master/util/output_file.h"
 
@@ -8,11 +12,24 @@ namespace {
 
 volatile std::sig_atomic_t interrupted = 0;
 
+std::int64_t last_interruption = 0;  ///< [ns]
+
+/// Of one request, which may come twice: from the sender, and by way of the process that watches
+/// this one.
+bool is_repeated() {
+  constexpr std::int64_t kApart = 100'000'000;  // [ns]
+  timespec now{};
+  ::clock_gettime(CLOCK_MONOTONIC, &now);
+  const std::int64_t time = now.tv_sec * 1'000'000'000 + now.tv_nsec;
+  return time - std::exchange(last_interruption, time) < kApart;
+}
+
 /// The second signal ends a run that reaches no communication point. One that a unit sends is an
 /// error of the unit.
 void note_interruption(int signal, siginfo_t* info, void*) {
   end_if_own(signal, *info);
-  if (interrupted != 0) {
+  const bool is_same = is_repeated();
+  if (interrupted != 0 && !is_same) {
     core::OutputFile::rescue_all();
     ::signal(signal, SIG_DFL);
     ::raise(signal);

@@ -18,9 +18,11 @@
 
 #include "master/cli/commands.h"
 #include "master/cli/crash_guard.h"
+#include "master/cli/exit.h"
 #include "master/cli/hard_limits.h"
 #include "master/cli/memory_limits.h"
 #include "master/cli/output.h"
+#include "master/cli/process_watch.h"
 #include "master/cli/repeated_options.h"
 #include "master/util/error.h"
 #include "master/util/message_text.h"
@@ -29,8 +31,8 @@
 
 namespace {
 
-constexpr int kRunFailed = 1;
-constexpr int kWrongInput = 2;
+using stride::cli::kRunFailed;
+using stride::cli::kWrongInput;
 
 std::vector<std::string> command_names(const CLI::App& app) {
   std::vector<std::string> names;
@@ -198,6 +200,7 @@ int main(int argc, char** argv) {
   stride::cli::keep_hard_limits();
   stride::cli::set_up_output();
   std::signal(SIGXFSZ, SIG_IGN);  // then writing fails with an error; the signal would kill
+  stride::cli::go_on_watched();
   CLI::App app(
       "stride couples simulators: it loads units of FMI 3.0, 2.0 and 1.0 as plug-ins\n"
       "and runs them in steps, as a scenario (an SSP system file, .ssd) wires them.\n",

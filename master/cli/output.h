@@ -3,10 +3,12 @@
 #define STRIDE_MASTER_CLI_OUTPUT_H
 
 #include <cstdio>
+#include <exception>
 #include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
 namespace stride::cli {
 
@@ -21,6 +23,16 @@ void print_text(fmt::format_string<Values...> format, Values&&... values) {
 
 /// "stride: error: TEXT", to the standard error stream; core::message_text() of the text.
 void print_error(std::string_view text);
+
+/// For work whose failure must not hide how the run ended.
+template <class Work>
+void warn_of_failure(Work&& work) {
+  try {
+    work();
+  } catch (const std::exception& failure) {
+    spdlog::warn("{}", failure.what());
+  }
+}
 
 /// To be called before anything is printed. The log goes to the standard error stream, likewise.
 void set_up_output();

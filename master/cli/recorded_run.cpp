@@ -10,6 +10,7 @@
 #include <spdlog/spdlog.h>
 
 #include "master/algorithm/step_policies/unlimited_steps.h"
+#include "master/cli/end_note.h"
 #include "master/cli/output.h"
 #include "master/cli/report_page.h"
 #include "master/cli/table.h"
@@ -23,16 +24,6 @@
 
 namespace stride::cli {
 namespace {
-
-/// For work whose failure must not hide how the run ended.
-template <class Work>
-void warn_of_failure(Work&& work) {
-  try {
-    work();
-  } catch (const std::exception& failure) {
-    spdlog::warn("{}", failure.what());
-  }
-}
 
 /// Calls write(), which writes of a run that is over: whatever is wrong with a file then, it is not
 /// the input that is.
@@ -132,6 +123,16 @@ RecordedRun::RecordedRun(const RunSetup& setup, std::vector<std::unique_ptr<core
   if (!setup_.capture.is_empty()) simulation_.add_observer(setup_.capture);
   if (!setup_.display.quiet) simulation_.add_observer(summary_);
   simulation_.add_observer(progress_);
+  announce();
+}
+
+/// So that a run which ends without a word is not taken for none, or for a good one.
+void RecordedRun::announce() const {
+  const auto& [folder, files] = setup_.results;
+  if (files.statistics.empty()) return;
+  write_run_file(std::nullopt, false);
+  std::error_code none;  // then nothing is added to it
+  end_note().run_file.set(std::filesystem::absolute(folder / files.statistics, none).native());
 }
 
 void RecordedRun::run() {
@@ -252,7 +253,7 @@ void RecordedRun::write_statistics(std::optional<std::string> error) {
   if (failure) std::rethrow_exception(failure);
 }
 
-void RecordedRun::write_run_file(const std::optional<std::string>& error) const {
+void RecordedRun::write_run_file(const std::optional<std::string>& error, bool is_over) const {
   if (setup_.results.files.statistics.empty()) return;
   recorders::write_run_json(setup_.results.folder / setup_.results.files.statistics,
                             {.scenario = setup_.loaded.scenario().path,
@@ -261,6 +262,7 @@ void RecordedRun::write_run_file(const std::optional<std::string>& error) const 
                              .statistics = simulation_.statistics(),
                              .verdicts = verdicts_,
                              .error = error,
+                             .is_over = is_over,
                              .files = setup_.results.files,
                              .plots = setup_.loaded.plots()});
 }

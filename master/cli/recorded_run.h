@@ -84,7 +84,8 @@ class RecordedRun {
   void conclude();
   void collect_verdicts(bool is_complete);
   void write_statistics(std::optional<std::string> error);
-  void write_run_file(const std::optional<std::string>& error) const;
+  void announce() const;
+  void write_run_file(const std::optional<std::string>& error, bool is_over = true) const;
   void write_page() const;
   void print_summary() const;
   void require_end() const;

@@ -13,6 +13,7 @@
 #include "master/capture/capture.h"
 #include "master/cli/commands.h"
 #include "master/cli/crash_guard.h"
+#include "master/cli/end_note.h"
 #include "master/cli/idle_check.h"
 #include "master/cli/interruption.h"
 #include "master/cli/output.h"
@@ -197,11 +198,20 @@ void run(const RunArguments& arguments, Records& records, CrashGuard& guard) {
   }
 }
 
+/// For an end without a word.
+void note_test_report(const RunArguments& arguments) {
+  std::error_code none;  // then nothing is added to it
+  if (arguments.junit.empty()) return;
+  end_note().test_report.set(std::filesystem::absolute(arguments.junit, none).native());
+  end_note().scenario.set(arguments.scenario.scenario.native());
+}
+
 /// Whatever ends the command, the test report contains it.
 void run_and_report(RunArguments arguments) {
   arguments.scenario.files = check_output_paths(arguments);
   const core::ProcessState process;
   Records records{{arguments.junit, arguments.scenario.scenario}};
+  note_test_report(arguments);
   const core::SpareFiles spare;
   CrashGuard guard([&](const std::string& error) {
     core::SpareFiles::release_all();

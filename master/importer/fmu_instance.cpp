@@ -38,7 +38,7 @@ bool has_variable(const core::UnitDescription& unit, Predicate&& predicate) {
 
 FmuInstance::FmuInstance(const char* prefix, std::shared_ptr<const SharedLibrary> library,
                          std::string name, UnitParts parts, InstanceOptions options)
-    : present_(options.call_note),
+    : present_(name, options.where, options.call_note),
       is_unusable_(library->is_unusable()),
       name_(std::move(name)),
       parts_(std::move(parts)),
@@ -150,7 +150,7 @@ void FmuInstance::fail_thrown(const char* function) {
   if (is_fork_ || !core::ForkMark::is_set()) leave_fork();
   failed_in_ = function;
   if (!mode_.is_present()) restore_mode();
-  present_.end();
+  present_->end();
   mark_unusable();
   fail(fmt::format("{} threw {}", function, what), "a function of FMI returns a status instead");
 }
@@ -162,7 +162,7 @@ void FmuInstance::fail_thrown(const char* function) {
 /// unit calls back may set anew.
 void FmuInstance::note_fork() noexcept {
   core::Listed<FmuInstance>::for_each(
-      [](FmuInstance& instance) { instance.is_fork_ = instance.present_.is_by_this_thread(); });
+      [](FmuInstance& instance) { instance.is_fork_ = instance.present_->is_by_this_thread(); });
 }
 
 /// What is in memory, as lines of results, is the first process's to write.
@@ -170,7 +170,7 @@ void FmuInstance::leave_fork() const {
   const std::string text = core::terminal_text(
       fmt::format("warning: unit '{}': {} called fork() and returned in both processes; the new "
                   "one ends here\n",
-                  name_, present_.function()));
+                  name_, present_->function()));
   (void)!::write(STDERR_FILENO, text.data(), text.size());
   ::_exit(0);
 }
@@ -185,7 +185,7 @@ void FmuInstance::restore_mode() {
       fmt::format("{} left another floating-point mode behind ({}); it is put back, here and after "
                   "later calls, since the numbers of all units depend on it: a function has to "
                   "restore it before it returns",
-                  present_.function(), mode_.differences(left)));
+                  present_->function(), mode_.differences(left)));
 }
 
 void FmuInstance::restore_process(const char* function) {
@@ -230,20 +230,27 @@ void FmuInstance::fail_missing(const char* name, const char* capability) const {
       fmt::format("a unit with {} must export it{}{}", capability, hint.empty() ? "" : "; ", hint));
 }
 
-std::size_t unfinished_calls(std::span<UnitCall> calls) noexcept {
-  std::size_t count = 0;
+bool is_any_call_unfinished() noexcept {
+  bool is_any = false;
+  core::Listed<FmuInstance>::for_each(
+      [&](const FmuInstance& instance) { is_any |= instance.is_in_call(); });
+  return is_any;
+}
+
+std::vector<UnitCall> unfinished_calls(const char* thread) {
+  std::vector<UnitCall> calls;
   core::Listed<FmuInstance>::for_each([&](const FmuInstance& instance) {
-    const PresentCall& present = instance.present_;
-    if (present.function() == nullptr || count == calls.size()) return;
-    UnitCall& call = calls[count++];
-    call = {present.function(), &instance.name_, &instance.options_.where, instance.time_,
-            present.is_by_this_thread()};
-    if (present.variable() == nullptr) return;
-    const core::UnitDescription& description = *instance.parts_.description;
-    const auto place = description.find(*present.variable());
-    if (place) call.variable = &description.variables[*place].name;
+    const PresentCall& present = *instance.present_;
+    if (present.function() == nullptr) return;
+    const core::ValueReference* const variable = present.variable();
+    calls.push_back({.function = present.function(),
+                     .unit = instance.name_,
+                     .where = instance.options_.where,
+                     .time = present.time(),
+                     .variable = variable != nullptr ? instance.variable_name(*variable) : "",
+                     .is_by_thread = present.thread() == thread});
   });
-  return count;
+  return calls;
 }
 
 // ---- Messages ----

@@ -24,10 +24,12 @@
 #include "master/importer/present_call.h"
 #include "master/importer/shared_library.h"
 #include "master/importer/status.h"
+#include "master/importer/unit_call.h"
 #include "master/util/error.h"
 #include "master/util/listed.h"
 #include "master/util/process/floating_point_mode.h"
 #include "master/util/process/fork_mark.h"
+#include "master/util/process/outliving.h"
 #include "master/util/process/process_state.h"
 
 namespace stride::importer {
@@ -64,18 +66,6 @@ struct UnitParts {
   std::shared_ptr<const void> fmu;  ///< kept alive as long as the instance
 };
 
-/// A call of a unit in this process that has not returned. The pointers are valid as long as its
-/// instance.
-struct UnitCall {
-  const char* function = nullptr;
-  const std::string* unit = nullptr;
-  const core::Location* where = nullptr;  ///< the component's position in the scenario
-  std::optional<Time> time;
-  bool is_by_this_thread = false;
-  /// Whose value is being read from the memory of the unit; null if none is.
-  const std::string* variable = nullptr;
-};
-
 /// Calls functions of a unit, and turns what they answer into results and errors. A status Error or
 /// Fatal, and Discard of any function but those that may answer it, becomes a core::Error of the
 /// kind Run, with the name of the function, the simulated time and the unit's own messages; so does
@@ -90,7 +80,8 @@ struct UnitCall {
 /// Where a function calls fork() and both processes return, the new one ends there.
 class FmuInstance : public core::Unit, public core::UnitDiagnostics, public CallbackReceiver {
  public:
-  friend std::size_t unfinished_calls(std::span<UnitCall> calls) noexcept;
+  friend bool is_any_call_unfinished() noexcept;
+  friend std::vector<UnitCall> unfinished_calls(const char* thread);
 
   FmuInstance(const FmuInstance&) = delete;
   FmuInstance& operator=(const FmuInstance&) = delete;
@@ -102,8 +93,8 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics, public Call
   std::string rejection_reason() const override { return rejection_reason_; }
   std::uint64_t calls() const override { return calls_; }
 
-  bool is_in_call() const final { return present_.function() != nullptr; }
-  bool is_called_by_this_thread() const final { return present_.is_by_this_thread(); }
+  bool is_in_call() const final { return present_->function() != nullptr; }
+  bool is_called_by_this_thread() const final { return present_->is_by_this_thread(); }
 
  protected:
   using References = std::span<const core::ValueReference>;
@@ -145,14 +136,14 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics, public Call
   /// For a call that does not count, or goes on.
   void write_note(const char* name) {
     core::ForkMark::set();
-    present_.begin(name, time_.value_or(Time{}));
+    present_->begin(name, time_);
   }
   void end_call() {
     if (is_fork_ || !core::ForkMark::is_set()) [[unlikely]]
       leave_fork();
     if (!mode_.is_present()) [[unlikely]]
       restore_mode();
-    present_.end();
+    present_->end();
   }
   /// After a call of this function: see InstanceOptions::process.
   void restore_process(const char* function);
@@ -267,7 +258,7 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics, public Call
   void* instance_ = nullptr;         ///< as the unit calls it
   const char* failed_in_ = nullptr;  ///< the function after whose status nothing goes on
   std::uint64_t calls_ = 0;
-  PresentCall present_;
+  core::Outliving<PresentCall> present_;
   bool was_restored_ = false;  ///< from a kept state, and no step has ended since
   bool is_fork_ = false;       ///< the present function has made this process, by fork()
   const core::FloatingPointMode mode_ = core::FloatingPointMode::present();
@@ -312,10 +303,6 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics, public Call
   bool has_null_state_warning_ = false;
   core::Listed<FmuInstance> listed_{*this};
 };
-
-/// Such calls, as many as there is space for; returns their number. Each thread has one at most.
-/// Can be called by a signal handler.
-std::size_t unfinished_calls(std::span<UnitCall> calls) noexcept;
 
 }  // namespace stride::importer
 

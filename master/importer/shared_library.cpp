@@ -15,6 +15,7 @@
 #include "master/importer/python_library.h"
 #include "master/util/input_file.h"
 #include "master/util/lower_case.h"
+#include "master/util/process/outliving.h"
 #include "master/util/process/process_state.h"
 
 namespace stride::importer {
@@ -139,8 +140,15 @@ fs::path find_companion(const fs::path& library, const std::string& name) {
   core::fail_input(context, head + reason, hint);
 }
 
-std::atomic<const char*> present_work{nullptr};
-std::atomic<const SharedLibrary*> present_library{nullptr};
+std::atomic<const LibraryWork*> noted_work{nullptr};
+
+/// Made when it is needed first, and so after the memory that outlives the process. Never
+/// destroyed, since handlers of signals may look later.
+LibraryWork& present_work() {
+  static auto& work = **new core::Outliving<LibraryWork>;
+  noted_work = &work;
+  return work;
+}
 
 /// One flag per library in the process: dlopen gives the same handle however often it is opened.
 /// Kept as long as the process exists, as an unusable library is.
@@ -252,16 +260,24 @@ std::string SharedLibrary::answer_of(const char* what, const char* (*function)()
 
 SharedLibrary::Work::Work(const char* what, const SharedLibrary& library) noexcept
     : process_(::getpid()) {
-  present_work = what;
-  present_library = &library;
+  LibraryWork& work = present_work();
+  work.library.set(library.shown_as());
+  work.unit.set(library.user().unit);
+  work.file.set(library.user().where.file);
+  work.line = library.user().where.line;
+  work.what.set(what);
 }
 
 SharedLibrary::Work::~Work() {
   if (::getpid() != process_) ::_exit(0);
-  present_library = nullptr;
+  present_work().what.set("");
 }
 
-LibraryWork unfinished_library_work() noexcept { return {present_work, present_library}; }
+const LibraryWork& unfinished_library_work() noexcept {
+  static constexpr LibraryWork kNone;
+  const LibraryWork* const work = noted_work;
+  return work == nullptr ? kNone : *work;
+}
 
 void* SharedLibrary::address(const std::string& symbol) const {
   return ::dlsym(handle_.get(), symbol.c_str());

@@ -15,6 +15,7 @@
 
 #include "master/importer/status.h"
 #include "master/util/error.h"
+#include "master/util/fixed_text.h"
 #include "master/util/process/remnants.h"
 
 namespace stride::importer {
@@ -108,12 +109,17 @@ class SharedLibrary {
 
 /// Code of a library that is being run outside of calls of its instances.
 struct LibraryWork {
-  const char* what = nullptr;              ///< "loading", "unloading", …
-  const SharedLibrary* library = nullptr;  ///< null if there is no such work
+  static constexpr std::size_t kMostOutliving = 1;
+
+  core::FixedText<32> what{};      ///< "loading", "unloading", …; empty if there is no such work
+  core::FixedText<256> library{};  ///< as messages show it
+  core::FixedText<128> unit{};     ///< whose library it is; empty if that is not known
+  core::FixedText<256> file{};     ///< with `line`, the component's position in the scenario
+  int line = 0;
 };
 
-/// The work that has not ended. Can be called by a signal handler.
-LibraryWork unfinished_library_work() noexcept;
+/// The work that has not ended, if there is some. Can be called by a signal handler.
+const LibraryWork& unfinished_library_work() noexcept;
 
 /// A list of function names, for compile time.
 template <std::size_t kSize>

@@ -22,6 +22,7 @@
 #include "master/isolation/process/children.h"
 #include "master/isolation/process/surroundings.h"
 #include "master/util/archive/temporary_folder.h"
+#include "master/util/process/outliving_memory.h"
 
 namespace stride::isolation {
 namespace {
@@ -188,6 +189,7 @@ void clean_up_after(pid_t master) {
 
 void supervise(HostLink& link, Descriptor control, pid_t master, const MemoryAllowance& memory,
                const std::function<void(pid_t)>& serve) noexcept {
+  core::OutlivingMemory::leave();
   ::setsid();  // without a terminal, and in a group of its own
   ::prctl(PR_SET_CHILD_SUBREAPER, 1);
   ::prctl(PR_SET_NAME, "unit-supervisor");

@@ -183,6 +183,23 @@ void add_verdicts(Json& run, std::span<const core::Verdict> verdicts) {
   }
 }
 
+constexpr const char* kRunning = "running";
+
+const char* outcome(const RunRecord& record) {
+  if (record.error) return "failed";
+  return record.is_over ? name(record.statistics.end) : kRunning;
+}
+
+void add(Json& run, const core::RunStatistics& statistics) {
+  run["reached"] = to_seconds(statistics.reached);
+  run["communication_steps"] = statistics.communication_steps;
+  run["undone_steps"] = statistics.undone_steps;
+  run["event_iterations"] = statistics.event_iterations;
+  run["parallel_steps"] = statistics.parallel_steps;
+  run["wall_time"] = seconds(statistics.wall_time);
+  run["phases"] = phase_entry(statistics.phases);
+}
+
 void write(const std::filesystem::path& file, const Json& run) {
   core::Replacement output(file);
   output.file().write(run.dump(2, ' ', false, Json::error_handler_t::replace));
@@ -193,22 +210,16 @@ void write(const std::filesystem::path& file, const Json& run) {
 }  // namespace
 
 void write_run_json(const std::filesystem::path& file, const RunRecord& record) {
-  const auto& [scenario, system, options, statistics, verdicts, error, files, plots] = record;
-  Json run = {
-      {"scenario", scenario.string()},      {"system", system.name()},
-      {"start", to_seconds(options.start)}, {"stop", to_seconds(options.stop)},
-      {"step", step_entry(options)},        {"outcome", error ? "failed" : name(statistics.end)}};
+  const auto& [scenario, system, options, statistics, verdicts, error, is_over, files, plots] =
+      record;
+  Json run = {{"scenario", scenario.string()},      {"system", system.name()},
+              {"start", to_seconds(options.start)}, {"stop", to_seconds(options.stop)},
+              {"step", step_entry(options)},        {"outcome", outcome(record)}};
   if (error) run["error"] = *error;
   add_verdicts(run, verdicts);
-  run["reached"] = to_seconds(statistics.reached);
-  run["communication_steps"] = statistics.communication_steps;
-  run["undone_steps"] = statistics.undone_steps;
-  run["event_iterations"] = statistics.event_iterations;
   run["threads"] = options.threads.count;
-  run["parallel_steps"] = statistics.parallel_steps;
   run["recorded_signals"] = options.recorded.size();
-  run["wall_time"] = seconds(statistics.wall_time);
-  run["phases"] = phase_entry(statistics.phases);
+  if (is_over) add(run, statistics);
   run["units"] = unit_entries(system, statistics);
   run["connections"] = connection_entries(system);
   run["files"] = file_entries(files);
@@ -217,9 +228,11 @@ void write_run_json(const std::filesystem::path& file, const RunRecord& record) 
   write(file, run);
 }
 
-bool add_error(const std::filesystem::path& file, const std::string& error) {
+bool add_error(const std::filesystem::path& file, const std::string& error,
+               std::optional<Time> reached) {
   Json run = Json::parse(core::read_input(file));
   if (run.contains("error")) return false;
+  if (reached && run["outcome"] == kRunning) run["reached"] = to_seconds(*reached);
   run["outcome"] = "failed";
   run["error"] = error;
   write(file, run);

@@ -22,6 +22,7 @@ struct RunRecord {
   const core::RunStatistics& statistics;
   std::span<const core::Verdict> verdicts{};
   std::optional<std::string> error{};  ///< that ended the run, if one did
+  bool is_over = true;                 ///< else there are no statistics yet
   ResultFiles files{};
   std::span<const Plot> plots{};
 };
@@ -31,10 +32,11 @@ struct RunRecord {
 /// results this file does, too. It is there as a whole or not at all. Throws core::Error.
 void write_run_json(const std::filesystem::path& file, const RunRecord& record);
 
-/// Makes the run.json of a run one that has failed, for what has failed after it was written.
-/// Returns false if it has an error already, which stays. Throws core::Error, and exceptions of the
-/// JSON library, if it cannot be read.
-bool add_error(const std::filesystem::path& file, const std::string& error);
+/// Makes the run.json of a run one that has failed, for what has failed after it was written. A run
+/// that was not over has reached this time. Returns false if it has an error already, which stays.
+/// Throws core::Error, and exceptions of the JSON library, if it cannot be read.
+bool add_error(const std::filesystem::path& file, const std::string& error,
+               std::optional<Time> reached = {});
 
 }  // namespace stride::recorders
 

@@ -1,5 +1,6 @@
 #include "master/util/output_file.h"
 
+#include <atomic>
 #include <cerrno>
 #include <system_error>
 #include <utility>
@@ -64,13 +65,15 @@ bool is_pipe(const std::filesystem::path& path) {
 }  // namespace
 
 OutputFile::OutputFile(std::filesystem::path path, Hints hints, Existing existing)
-    : path_(std::move(path)), hints_(hints), buffer_(std::make_unique<char[]>(kCapacity)) {
+    : path_(std::move(path)), hints_(hints) {
   descriptor_ =
       open_without_waiting(path_, existing == Existing::Emptied ? O_TRUNC : O_EXCL | O_NOFOLLOW);
   if (descriptor_ >= 0) {
     identity_ = FileIdentity::of(descriptor_);
     std::error_code ignored;  // then it cannot be opened again
     if (is_regular(descriptor_)) absolute_path_ = std::filesystem::absolute(path_, ignored);
+    rest_->identity = identity_.value_or(FileIdentity{});
+    rest_->path.set(absolute_path_.native());
     return;
   }
   const int error = errno;
@@ -123,31 +126,36 @@ void OutputFile::rescue_all() noexcept {
   Listed<OutputFile>::for_each([](OutputFile& file) { file.rescue(); });
 }
 
+void OutputFile::rescue_left() {
+  Outliving<UnwrittenRest>::for_each_left([](const UnwrittenRest& rest) { rest.write(); });
+}
+
 void OutputFile::rescue() noexcept {
   if (descriptor_ < 0 || has_failed_ || is_flushing_ || !get_back()) return;
-  const std::size_t lines = std::string_view(buffer_.get(), used_).rfind('\n') + 1;
-  used_ = 0;
+  const std::size_t lines = std::string_view(rest_->bytes, rest_->size).rfind('\n') + 1;
   int tries = kMostTries;
   for (std::size_t done = 0; done < lines;) {
-    const long count = write_piece(buffer_.get() + done, lines - done);
+    const long count = write_piece(rest_->bytes + done, lines - done);
     const bool is_lost = count < 0 && errno == EBADF && !(tries-- > 0 && get_back());
     if (is_lost || (count < 0 && errno != EINTR && errno != EBADF)) return;
     if (count <= 0) continue;
     done += static_cast<std::size_t>(count);
     taken_ += count;
   }
-  line_end_ = taken_;
+  rest_->size = 0;
+  rest_->place = taken_;
+  if (lines > 0) rest_->line_end = taken_;
 }
 
 void OutputFile::flush() {
-  bool was_taken = used_ > 0 && !has_failed_ && !is_own();
+  bool was_taken = rest_->size > 0 && !has_failed_ && !is_own();
   bool is_back = !was_taken || get_back();
   if (!has_failed_ && is_own()) check_size();
   is_flushing_ = true;
   std::size_t done = 0;
   int error = 0, tries = kMostTries;
-  while (!has_failed_ && is_back && error == 0 && done < used_) {
-    const long count = write_piece(buffer_.get() + done, used_ - done);
+  while (!has_failed_ && is_back && error == 0 && done < rest_->size) {
+    const long count = write_piece(rest_->bytes + done, rest_->size - done);
     if (count >= 0) {
       done += static_cast<std::size_t>(count);
       taken_ += count;
@@ -158,11 +166,14 @@ void OutputFile::flush() {
       error = errno;
     }
   }
-  const std::size_t last = std::string_view(buffer_.get(), done).rfind('\n');
+  const std::size_t last = std::string_view(rest_->bytes, done).rfind('\n');
   if (last != std::string_view::npos) {
-    line_end_ = taken_ - static_cast<std::int64_t>(done) + static_cast<std::int64_t>(last) + 1;
+    rest_->line_end =
+        taken_ - static_cast<std::int64_t>(done) + static_cast<std::int64_t>(last) + 1;
   }
-  used_ = 0;
+  rest_->size = 0;
+  std::atomic_signal_fence(std::memory_order_seq_cst);  // or it would be written at a wrong place
+  rest_->place = taken_;
   is_flushing_ = false;
   if (error != 0) fail(error);
   if (was_taken) fail_taken(is_back);
@@ -220,6 +231,7 @@ void OutputFile::close() {
   flush();
   if (!has_failed_ && !is_own()) fail_taken(get_back());
   if (!has_failed_) check_path();
+  rest_->path.set("");
   const int result = ::close(std::exchange(descriptor_, -1));
   if (result == 0 || has_failed_) return;
   if (errno == EBADF) fail_taken(true);
@@ -229,8 +241,8 @@ void OutputFile::close() {
 void OutputFile::fail(int error) {
   has_failed_ = true;
   // fails for what is no regular file, where there is nothing to cut
-  if (descriptor_ >= 0 && is_own() && taken_ > line_end_)
-    (void)!::ftruncate(descriptor_, line_end_);
+  if (descriptor_ >= 0 && is_own() && taken_ > rest_->line_end)
+    (void)!::ftruncate(descriptor_, rest_->line_end);
   fail_run({.where = {path_.string(), 0}, .time = time_},
            fmt::format("cannot write the file: {}", std::generic_category().message(error)),
            hints_.write != nullptr ? hints_.write : hint_for(error));

@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
-#include <memory>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -17,6 +16,8 @@
 #include "master/util/error.h"
 #include "master/util/file_identity.h"
 #include "master/util/listed.h"
+#include "master/util/process/outliving.h"
+#include "master/util/unwritten_rest.h"
 
 namespace stride::core {
 
@@ -60,20 +61,20 @@ class OutputFile {
 
   void write(std::string_view text) {
     if (text.size() > room()) return write_slowly(text);
-    std::memcpy(buffer_.get() + used_, text.data(), text.size());
-    used_ += text.size();
+    std::memcpy(rest_->end(), text.data(), text.size());
+    rest_->size += text.size();
   }
   void write(char c) {
     if (room() == 0) flush();
-    buffer_[used_++] = c;
+    rest_->bytes[rest_->size++] = c;
   }
   /// The shortest decimal text that reads back as the same number.
   template <class Number>
   void write_number(Number value) {
     constexpr std::size_t kLongest = 32;
     if (room() < kLongest) flush();
-    char* const at = buffer_.get() + used_;
-    used_ += static_cast<std::size_t>(std::to_chars(at, at + kLongest, value).ptr - at);
+    char* const at = rest_->end();
+    rest_->size += static_cast<std::size_t>(std::to_chars(at, at + kLongest, value).ptr - at);
   }
   /// Exact decimal seconds without trailing zeros.
   void write_seconds(Time time);
@@ -89,10 +90,13 @@ class OutputFile {
   /// flushed meanwhile nothing is written twice.
   static void rescue_all() noexcept;
 
- private:
-  static constexpr std::size_t kCapacity = std::size_t{1} << 16;
+  /// Before the process is forked that is watched, and when it has ended: the same for the files
+  /// that it has left.
+  static void share() { Outliving<UnwrittenRest>::share(); }
+  static void rescue_left();
 
-  std::size_t room() const { return kCapacity - used_; }
+ private:
+  std::size_t room() const { return UnwrittenRest::kCapacity - rest_->size; }
   void write_slowly(std::string_view text);
   void rescue() noexcept;
   bool is_own() const noexcept { return FileIdentity::of(descriptor_) == identity_; }
@@ -109,10 +113,8 @@ class OutputFile {
   std::optional<FileIdentity> identity_;
   Hints hints_;
   std::optional<Time> time_;
-  std::unique_ptr<char[]> buffer_;
-  std::size_t used_ = 0;
-  std::int64_t line_end_ = 0;  ///< behind the last line feed that the system has taken
-  std::int64_t taken_ = 0;     ///< bytes that the system has taken
+  Outliving<UnwrittenRest> rest_;
+  std::int64_t taken_ = 0;  ///< bytes that the system has taken
   int descriptor_ = -1;
   bool has_failed_ = false;
   volatile bool is_flushing_ = false;  ///< for a signal handler

@@ -3,6 +3,7 @@
 // the way, complete results up to there, and nothing left behind.
 #include <array>
 #include <csignal>
+#include <utility>
 
 #include "tests/build.h"
 #include "tests/cli/failures.h"
@@ -54,22 +55,24 @@ constexpr Fault kFaults[] = {
     {"SIGRTMIN+3", "(SIGRTMIN+3) ends stride in FUNCTION", "(SIGRTMIN+3) in FUNCTION"},
     {"hidden signal", "signal 33 (without name) ends stride in FUNCTION",
      "its process was ended by signal 33 (without name) in FUNCTION"},
-    {"kill", nullptr, "its process was ended by signal 9 (SIGKILL) in FUNCTION"},
+    {"kill", "signal 9 (SIGKILL) ends stride during FUNCTION",
+     "its process was ended by signal 9 (SIGKILL) in FUNCTION"},
     {"exit with 0", "exit() ends stride in FUNCTION",
      "it ended its process with exit code 0 in FUNCTION"},
     {"exit", "exit() ends stride in FUNCTION", "it ended its process with exit code 3 in FUNCTION"},
-    {"_exit", "exit() ends stride in FUNCTION",
+    {"_exit", "an exit with code 4 ends stride during FUNCTION",
      "it ended its process with exit code 4 in FUNCTION"},
     {"exit in a thread", nullptr, "it ended its process with exit code 5 in FUNCTION"},
-    {"exit by system call", "exit() ends stride in FUNCTION",
+    {"exit by system call", "an exit with code 0 ends stride during FUNCTION",
      "it ended its process with exit code 0 in FUNCTION"},
-    {"exec", "execl() ends stride in FUNCTION",
+    {"exit of a looked-up name", "an exit with code 0 ends stride during FUNCTION",
      "it ended its process with exit code 0 in FUNCTION"},
-    {"exec of path", "execvp() ends stride in FUNCTION",
+    {"default signal", "signal 11 (SIGSEGV) ends stride during FUNCTION",
+     "its process was ended by signal 11 (SIGSEGV) in FUNCTION"},
+    {"exec", "the program '/usr/bin/sleep' has replaced stride during FUNCTION", nullptr},
+    {"exec by system call", " ends stride during FUNCTION",
      "it ended its process with exit code 0 in FUNCTION"},
-    {"exec by system call", "execve() ends stride in FUNCTION",
-     "it ended its process with exit code 0 in FUNCTION"},
-    {"become daemon", "daemon() ends stride in FUNCTION",
+    {"become daemon", "an exit with code 0 ends stride during FUNCTION",
      "it ended its process with exit code 0 in FUNCTION"},
     {"run programs", kCompletes, kCompletes},
     {"throw int", "FUNCTION threw something that is not a std::exception",
@@ -331,21 +334,16 @@ TEST_CASE("a unit that has damaged the memory of stride does not end it without 
   if (kSanitized) return;
   const Setting setting = GENERATE(Setting{2, false}, Setting{3, false});
   const Workspace workspace = workspace_for(setting, kStep);
-  const auto error_after = [&](const char* fault) {
-    const FaultOrder order(fault, kStep.name, kStep.at);
-    const Outcome outcome = workspace.run({"--quiet", "--step", "0.125"});
-    CHECK(outcome.exit_code == 1);
-    CHECK_FALSE(fs::exists(workspace / "out/run.json"));
-    return outcome.err;
-  };
-  CHECK_THAT(error_after("damage free memory"),
-             Contains(std::string("stride: error: unit 'faulty', at 0.375 s: signal 6 (SIGABRT) "
-                                  "ends stride in ") +
-                      setting.function(kStep) +
-                      "; run.json and the report are not complete, and rows may be missing"));
-  CHECK(last_time(workspace) == kStep.last);
-  CHECK_THAT(error_after("lock memory"),
-             Contains("stride: error: signal 11 (SIGSEGV) ends stride; run.json"));
+  for (const auto& [fault, signal] :
+       {std::pair("damage free memory", "6 (SIGABRT)"), {"lock memory", "11 (SIGSEGV)"}}) {
+    INFO(fault);
+    const Outcome outcome = run(workspace, setting, fault, kStep);
+    INFO(outcome.err);
+    check_error(workspace, outcome, "unit 'faulty', at 0.375 s: ");
+    check_error(workspace, outcome, std::string("signal ") + signal + " ends stride");
+    check_results(workspace, outcome, kStep.last);
+    CHECK(run_json(workspace)["reached"] == 0.375);
+  }
 }
 
 TEST_CASE("a unit whose state may not be saved is never asked for it") {
@@ -365,13 +363,19 @@ TEST_CASE("a unit whose state may not be saved is never asked for it") {
   CHECK(outcome.exit_code == 0);
 }
 
-TEST_CASE("a run that ends without a word has no run.json, also not that of an earlier one") {
+TEST_CASE("a run that is killed with what watches it is not taken for one that has ended") {
+  const Leftovers leftovers;
   const Workspace workspace = workspace_for({3, false}, kStep);
   REQUIRE(workspace.run({"--quiet", "--step", "0.125"}).exit_code == 0);
-  REQUIRE(fs::exists(workspace / "out/run.json"));
-  const FaultOrder order("kill", kStep.name, kStep.at);
-  CHECK(workspace.run({"--quiet", "--step", "0.125"}).exit_code == -SIGKILL);
-  CHECK_FALSE(fs::exists(workspace / "out/run.json"));
+  REQUIRE(run_json(workspace)["outcome"] == "completed");
+  Process process(stride_command(Workspace::run_arguments({"--stop", "1e6", "--no-trace"})),
+                  workspace.scratch().path());
+  await_first_results(process, workspace);
+  CHECK(run_json(workspace)["outcome"] == "running");
+  process.send(SIGKILL);
+  CHECK(process.wait().exit_code == -SIGKILL);
+  CHECK(leftovers.all() == std::vector<std::string>{});
+  CHECK(run_json(workspace)["outcome"] == "running");
   CHECK_FALSE(fs::exists(workspace / "out/report.html"));
 }
 
@@ -399,7 +403,7 @@ TEST_CASE("a unit cannot end other commands with the exit code 0, or without a w
     const FaultOrder order(fault, kInstantiate.name, kInstantiate.at);
     const Outcome outcome = workspace.stride({"check", "test.ssd"});
     CHECK(outcome.exit_code == 1);
-    CHECK_THAT(outcome.err, Contains("unit 'faulty'") && Contains(" ends stride in ") &&
+    CHECK_THAT(outcome.err, Contains("unit 'faulty'") && Contains(" ends stride ") &&
                                 Contains(setting.function(kInstantiate)));
   }
 }

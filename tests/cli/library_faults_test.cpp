@@ -160,8 +160,9 @@ TEST_CASE("a library that ends the process by a system call after the run leaves
     CHECK(outcome.exit_code == 1);
     return outcome.err;
   };
-  CHECK_THAT(error_with({}), Contains("exit() ends stride in a destructor or an exit function of a "
-                                      "library, after the command"));
+  CHECK_THAT(error_with({}), Contains("an exit with code 0 ends stride in a destructor or an exit "
+                                      "function of a library, after the command"));
+  CHECK(run_json(workspace)["outcome"] == "failed");
   CHECK_THAT(error_with({"--junit", "/dev/full"}), Contains("/dev/full: cannot write the file"));
 }
 

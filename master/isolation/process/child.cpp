@@ -12,6 +12,7 @@
 
 #include "master/isolation/process/descriptor.h"
 #include "master/isolation/process/surroundings.h"
+#include "master/util/process/outliving_memory.h"
 
 namespace stride::isolation {
 namespace {
@@ -31,6 +32,7 @@ constexpr char kException = 'E';
 void settle(pid_t parent, int output) {
   ::setpgid(0, 0);
   end_with(parent);
+  core::OutlivingMemory::leave();
   reset_signal_handlers();
   redirect_standard_files(output);
 }

@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <string>
 
+#include <dlfcn.h>
 #include <spawn.h>
 #include <sys/syscall.h>
 #include <sys/time.h>
@@ -32,12 +33,7 @@ void require_good_end(pid_t process, const char* how) {
 
 }  // namespace
 
-void become_program() { ::execl(kProgram, "true", nullptr); }
-
-void become_program_of_path() {
-  std::array<char*, 2> words{const_cast<char*>("true"), nullptr};
-  ::execvp("true", words.data());
-}
+void become_program() { ::execlp("sleep", "sleep", "30", nullptr); }
 
 void become_program_by_system_call() {
   std::array<const char*, 2> words{"true", nullptr};
@@ -49,6 +45,16 @@ void become_daemon() {
 }
 
 void exit_by_system_call() { ::syscall(SYS_exit_group, 0); }
+
+void exit_of_looked_up_name() {
+  void* const library = ::dlopen("libc.so.6", RTLD_LAZY);
+  reinterpret_cast<void (*)(int)>(::dlsym(library, "_exit"))(0);
+}
+
+void raise_default_signal() {
+  ::signal(SIGSEGV, SIG_DFL);
+  ::raise(SIGSEGV);
+}
 
 void exit_by_system_call_at_exit() {
   ::on_exit([](int, void*) { exit_by_system_call(); }, nullptr);

@@ -4,13 +4,15 @@
 
 namespace stride::tests {
 
-/// Each puts /bin/true in the place of the process, by another function.
+/// Each puts another program in the place of the process: one that sleeps, and one that ends.
 void become_program();
-void become_program_of_path();
 void become_program_by_system_call();
 /// The process goes on in a fork of it, and this one ends.
 void become_daemon();
 void exit_by_system_call();
+void exit_of_looked_up_name();
+/// One that nothing handles.
+void raise_default_signal();
 /// The same after the end of the command.
 void exit_by_system_call_at_exit();
 

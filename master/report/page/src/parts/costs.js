@@ -40,6 +40,7 @@ function row(unit, most) {
 
 /** The wall-clock time of the run that belongs to no unit: the master's own work. */
 function restText(run) {
+  if (!Number.isFinite(run.wall_time)) return "The run ended without its counts and times.";
   const rest = run.wall_time - run.units.reduce((sum, unit) => sum + total(unit), 0);
   const phases = Object.entries(run.phases ?? {}).map(([name, value]) => `${name} ${seconds(value)} s`);
   const texts = [`The run took ${seconds(run.wall_time)} s`];

@@ -1,0 +1,300 @@
+#include "master/cli/process_watch.h"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <filesystem>
+#include <fstream>
+#include <optional>
+#include <string>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include <fcntl.h>
+#include <poll.h>
+#include <spdlog/spdlog.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "master/cli/end_note.h"
+#include "master/cli/exit.h"
+#include "master/cli/output.h"
+#include "master/cli/report_page.h"
+#include "master/cli/test_report.h"
+#include "master/importer/unit_call.h"
+#include "master/isolation/process/children.h"
+#include "master/isolation/process/surroundings.h"
+#include "master/recorders/run_json.h"
+#include "master/report/results.h"
+#include "master/util/archive/temporary_folder.h"
+#include "master/util/descriptor.h"
+#include "master/util/file_identity.h"
+#include "master/util/input_file.h"
+#include "master/util/output_file.h"
+#include "master/util/process/outliving.h"
+
+namespace stride::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Those that end a process, and can be sent to it [man 7 signal].
+constexpr std::array kForwarded{SIGHUP,  SIGINT,  SIGQUIT, SIGTERM,   SIGUSR1, SIGUSR2,
+                                SIGALRM, SIGPROF, SIGXCPU, SIGVTALRM, SIGPWR};
+
+// What handlers, which have no arguments, have to know.
+volatile pid_t watched = 0;
+volatile std::sig_atomic_t last_signal = 0;
+pid_t own = 0;  ///< in which the command is run
+
+/// From the terminal, so that its whole foreground group gets it.
+bool is_of_terminal(int signal, const siginfo_t& info) {
+  return info.si_code == SI_KERNEL && (signal == SIGINT || signal == SIGQUIT || signal == SIGHUP);
+}
+
+void forward(int signal, siginfo_t* info, void*) {
+  last_signal = signal;
+  if (!is_of_terminal(signal, *info)) ::kill(watched, signal);
+}
+
+void note_child(int) {}
+
+/// The file of the program that the process runs.
+fs::path program_of(pid_t process) { return "/proc/" + std::to_string(process) + "/exe"; }
+
+bool is_traced() {
+  std::ifstream status("/proc/self/status");
+  for (std::string word; status >> word;) {
+    if (word == "TracerPid:") return status >> word && word != "0";
+  }
+  return false;
+}
+
+/// What is to be put back in the new process.
+class Signals {
+ public:
+  Signals() {
+    sigset_t blocked;
+    ::sigemptyset(&blocked);
+    for (const int signal : kForwarded) ::sigaddset(&blocked, signal);
+    ::sigaddset(&blocked, SIGCHLD);
+    ::sigprocmask(SIG_BLOCK, &blocked, &mask_);
+    struct sigaction action {};
+    action.sa_handler = note_child;
+    ::sigaction(SIGCHLD, &action, &of_children_);
+  }
+  void restore() const {
+    ::sigaction(SIGCHLD, &of_children_, nullptr);
+    ::sigprocmask(SIG_SETMASK, &mask_, nullptr);
+  }
+  const sigset_t& mask() const { return mask_; }
+
+ private:
+  sigset_t mask_{};
+  struct sigaction of_children_ {};
+};
+
+void forward_signals() {
+  struct sigaction action {};
+  action.sa_sigaction = forward;
+  action.sa_flags = SA_SIGINFO;
+  ::sigfillset(&action.sa_mask);
+  for (const int signal : kForwarded) {
+    struct sigaction before {};
+    ::sigaction(signal, nullptr, &before);
+    if (before.sa_handler != SIG_IGN) ::sigaction(signal, &action, nullptr);
+  }
+}
+
+bool is_copy(pid_t process) {
+  return core::FileIdentity::of(program_of(process).c_str()) ==
+         core::FileIdentity::of(program_of(::getpid()).c_str());
+}
+
+/// Of the process that has ended, which are adopted: they hold its files, and end by themselves.
+void await_copies() {
+  constexpr int kLongest = 200;  // [10 ms]
+  for (int i = 0; i <= kLongest; ++i) {
+    while (::waitpid(-1, nullptr, WNOHANG) > 0) {
+    }
+    const auto copies = isolation::children_of(::getpid()).value_or(std::vector<pid_t>{});
+    if (std::ranges::none_of(copies, is_copy)) return;
+    constexpr timespec kPause{0, 10'000'000};
+    ::nanosleep(&kPause, nullptr);
+    if (i < kLongest) continue;
+    for (const pid_t copy : copies) {
+      if (is_copy(copy)) ::kill(copy, SIGKILL);
+    }
+  }
+}
+
+class Watch {
+ public:
+  /// `image` can be read when the process has ended, or another program has replaced it.
+  Watch(core::Descriptor image, const Signals& signals)
+      : image_(std::move(image)), signals_(signals) {}
+
+  [[noreturn]] void run();
+
+ private:
+  void wait();
+  timespec patience() const;
+  void look_at_program();
+  void end_watched(const ProcessEnd& end);
+  ProcessEnd end() const;
+  bool is_ended_from_outside() const;
+  void report(const core::Error& error) const;
+
+  core::Descriptor image_;
+  const Signals& signals_;
+  const EndNote& note_ = end_note();
+  int status_ = 0;
+  std::optional<ProcessEnd> own_end_;  ///< by which this one has ended the other one
+};
+
+void Watch::run() {
+  wait();
+  const int code = WIFEXITED(status_) ? WEXITSTATUS(status_) : -WTERMSIG(status_);
+  const bool is_told = note_.is_complete && note_.code == code && !own_end_;
+  if (is_told && code >= 0) ::_exit(code);
+  core::OutputFile::rescue_left();
+  const bool is_ours = !is_ended_from_outside();
+  if (!is_told) {
+    const UnitWork work{importer::left_calls(note_.has_end ? note_.end.thread : nullptr),
+                        importer::left_library_work(), note_.is_leaving};
+    const core::Error error = error_of(end(), work);
+    if (is_ours && !note_.is_printed) print_error(error.what());
+    report(error);
+    await_copies();
+    archive::TemporaryFolder::sweep_abandoned();
+  }
+  if (is_ours) ::_exit(kRunFailed);
+  ::prctl(PR_SET_DUMPABLE, 0);  // there is an image of the other process's memory, if any
+  end_by(WTERMSIG(status_));
+}
+
+void Watch::wait() {
+  while (::waitpid(watched, &status_, WNOHANG) != watched) {
+    pollfd file{image_.number(), POLLIN, 0};
+    const timespec longest = patience();
+    const int count = ::ppoll(&file, 1, note_.is_leaving ? &longest : nullptr, &signals_.mask());
+    if (count > 0) look_at_program();
+    if (count == 0) end_watched({.kind = ProcessEnd::Kind::TimeOut});
+  }
+}
+
+/// Longer than the process itself waits for its end, which can say more about it.
+timespec Watch::patience() const { return {kLongestEnd + 5, 0}; }
+
+/// Some code may have closed the file, too.
+void Watch::look_at_program() {
+  image_ = core::Descriptor();
+  const fs::path program = program_of(watched);
+  if (is_copy(watched) || !core::FileIdentity::of(program.c_str())) return;
+  ProcessEnd end{.kind = ProcessEnd::Kind::Program};
+  std::error_code none;
+  end.text.set(fs::read_symlink(program, none).native());
+  end_watched(end);
+}
+
+void Watch::end_watched(const ProcessEnd& end) {
+  own_end_ = end;
+  ::kill(watched, SIGKILL);
+}
+
+ProcessEnd Watch::end() const {
+  if (own_end_) return *own_end_;
+  if (note_.has_end) return note_.end;
+  if (!WIFSIGNALED(status_)) {
+    return {.kind = ProcessEnd::Kind::ExitCode, .number = WEXITSTATUS(status_)};
+  }
+  return {.number = WTERMSIG(status_),
+          .origin = is_ended_from_outside() ? SignalOrigin::Outside : SignalOrigin::Call};
+}
+
+bool Watch::is_ended_from_outside() const {
+  if (own_end_ || !WIFSIGNALED(status_)) return false;
+  const int signal = WTERMSIG(status_);
+  return signal == last_signal || (note_.is_complete && note_.code == -signal);
+}
+
+void Watch::report(const core::Error& error) const {
+  const fs::path run_file(note_.run_file.view());
+  warn_of_failure([&] {
+    if (run_file.empty() || !core::is_file(run_file)) return;
+    if (!recorders::add_error(run_file, error.what(), error.context().time)) return;
+    const recorders::ResultFiles files = report::result_files(run_file.parent_path());
+    if (files.report.empty()) return;
+    write_report(run_file.parent_path(), files, run_file.parent_path() / files.report);
+  });
+  const fs::path test_report(note_.test_report.view());
+  warn_of_failure([&] {
+    if (core::is_file(test_report)) {
+      TestReport(test_report, fs::path(note_.scenario.view())).write(error.what());
+    }
+  });
+}
+
+/// The last of the exit functions: the code with which one before it has called exit() does not
+/// count.
+void complete_note(int code, void*) {
+  EndNote& note = end_note();
+  if (!note.is_leaving || own != ::getpid()) return;
+  note.is_complete = true;
+  if (code == note.code) return;
+  std::fflush(nullptr);
+  ::_exit(note.code);
+}
+
+/// In memory that the processes have in common.
+void share_notes() {
+  core::Outliving<EndNote>::share();
+  core::OutputFile::share();
+  importer::share_calls();
+  end_note();
+}
+
+/// Returns in the process in which the command is run.
+void fork_to_watch() {
+  const pid_t self = ::getpid();
+  const Signals signals;
+  std::array<int, 2> image{};
+  const bool has_pipe = ::pipe2(image.data(), O_CLOEXEC) == 0;
+  const pid_t process = has_pipe ? ::fork() : -1;
+  if (process <= 0) signals.restore();
+  if (process < 0) {
+    spdlog::warn("no process can be made that would tell of the end of this one: {}",
+                 std::generic_category().message(errno));
+  } else if (process == 0) {
+    isolation::end_with(self);
+    ::close(image[0]);
+  } else {
+    ::close(image[1]);
+    ::prctl(PR_SET_CHILD_SUBREAPER, 1);
+    watched = process;
+    forward_signals();
+    Watch(core::Descriptor(image[0]), signals).run();
+  }
+}
+
+}  // namespace
+
+EndNote& end_note() {
+  static auto& note = **new core::Outliving<EndNote>;
+  return note;
+}
+
+void go_on_watched() {
+  share_notes();
+  if (!is_traced()) fork_to_watch();
+  own = ::getpid();
+  ::on_exit(complete_note, nullptr);
+}
+
+}  // namespace stride::cli

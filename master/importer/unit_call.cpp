@@ -1,0 +1,56 @@
+#include "master/importer/unit_call.h"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+
+#include <sys/uio.h>
+#include <unistd.h>
+
+#include "master/importer/present_call.h"
+#include "master/util/process/outliving.h"
+
+namespace stride::importer {
+namespace {
+
+/// A function's name, which is a text of this program, and so of a forked process at the same
+/// address.
+std::string name_at(const char* pointer) {
+  std::array<char, 64> text{};
+  constexpr std::size_t kPiece = 16;  // the last ones may be beyond the end of the memory
+  for (std::size_t at = 0; at + kPiece < text.size(); at += kPiece) {
+    const iovec here{text.data() + at, kPiece};
+    const iovec there{const_cast<char*>(pointer) + at, kPiece};
+    if (::process_vm_readv(::getpid(), &here, 1, &there, 1, 0) <= 0) break;
+  }
+  return text[0] != '\0' ? text.data() : "a function whose name is lost";
+}
+
+}  // namespace
+
+void share_calls() {
+  core::Outliving<PresentCall>::share();
+  core::Outliving<LibraryWork>::share();
+}
+
+std::vector<UnitCall> left_calls(const char* thread) {
+  std::vector<UnitCall> calls;
+  core::Outliving<PresentCall>::for_each_left([&](const PresentCall& call) {
+    if (call.function() == nullptr) return;
+    calls.push_back({.function = name_at(call.function()),
+                     .unit = std::string(call.unit()),
+                     .where = {std::string(call.file()), call.line()},
+                     .time = call.time(),
+                     .variable = {},
+                     .is_by_thread = thread != nullptr && call.thread() == thread});
+  });
+  return calls;
+}
+
+LibraryWork left_library_work() {
+  LibraryWork left;
+  core::Outliving<LibraryWork>::for_each_left([&](const LibraryWork& work) { left = work; });
+  return left;
+}
+
+}  // namespace stride::importer

@@ -1,0 +1,35 @@
+#ifndef STRIDE_MASTER_UTIL_UNWRITTEN_REST_H
+#define STRIDE_MASTER_UTIL_UNWRITTEN_REST_H
+
+#include <climits>
+#include <cstddef>
+#include <cstdint>
+
+#include "master/util/file_identity.h"
+#include "master/util/fixed_text.h"
+
+namespace stride::core {
+
+/// What an open text file holds in memory, and where that belongs: enough for another process to
+/// write it.
+struct UnwrittenRest {
+  static constexpr std::size_t kMostOutliving = 16;
+  static constexpr std::size_t kCapacity = std::size_t{1} << 16;
+
+  char* end() { return bytes + size; }
+
+  FixedText<PATH_MAX> path{};  ///< absolute; empty for what is no regular file, or was closed
+  FileIdentity identity{};
+  std::int64_t place = 0;     ///< of the first byte in the file
+  std::int64_t line_end = 0;  ///< behind the last line feed before that
+  std::size_t size = 0;
+  char bytes[kCapacity];
+
+  /// Writes the whole lines, and cuts off what follows the last one in the file. Does nothing if
+  /// there is another file at the path.
+  void write() const;
+};
+
+}  // namespace stride::core
+
+#endif

@@ -1,0 +1,39 @@
+#include "master/importer/unit_call.h"
+
+#include <catch2/catch.hpp>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "master/importer/present_call.h"
+#include "master/util/process/outliving.h"
+
+using namespace stride;
+using namespace stride::importer;
+
+TEST_CASE("the calls that a process has left are named, whatever it has done to its memory") {
+  share_calls();
+  const pid_t process = ::fork();
+  if (process == 0) {
+    auto& call = *new core::Outliving<PresentCall>("fuse", core::Location{"a.ssd", 7}, nullptr);
+    call->begin("fmi3DoStep", Time(std::chrono::seconds(2)));
+    auto& other = *new core::Outliving<PresentCall>("idle", core::Location{}, nullptr);
+    other->begin("fmi3GetFloat64", {});
+    other->end();
+    auto& damaged = *new core::Outliving<PresentCall>("wild", core::Location{}, nullptr);
+    damaged->begin(reinterpret_cast<const char*>(8), {});
+    ::_exit(0);
+  }
+  ::waitpid(process, nullptr, 0);
+  const std::vector<UnitCall> calls = left_calls(&this_thread);
+  REQUIRE(calls.size() == 2);
+  CHECK(calls[0].function == "fmi3DoStep");
+  CHECK(calls[0].unit == "fuse");
+  CHECK(calls[0].where.file == "a.ssd");
+  CHECK(calls[0].where.line == 7);
+  CHECK(calls[0].time == Time(std::chrono::seconds(2)));
+  CHECK(calls[0].is_by_thread);
+  CHECK(calls[1].unit == "wild");
+  CHECK(calls[1].function == "a function whose name is lost");
+  CHECK_FALSE(left_calls(nullptr)[0].is_by_thread);
+  CHECK(left_library_work().what.view().empty());
+}
