@@ -32,8 +32,8 @@ struct UnitStatistics {
   std::uint64_t saves = 0;          ///< of its state
   std::uint64_t events = 0;         ///< super-dense instants handled in Event Mode
   std::uint64_t unannounced_events = 0;  ///< at the end of a step that it did not end early
-  std::uint64_t suspensions = 0;    ///< times that it was suspended, because it promised to be idle
-  Duration suspended_time{};        ///< the simulated time of all of them
+  std::uint64_t suspensions = 0;  ///< times that it was suspended, because it promised to be idle
+  Duration suspended_time{};      ///< the simulated time of all of them
   Duration longest_suspension{};
   std::uint64_t messages_sent = 0;
   std::uint64_t messages_received = 0;

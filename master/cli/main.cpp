@@ -197,10 +197,10 @@ int execute(CLI::App& app, int argc, char** argv) {
 
 int main(int argc, char** argv) {
   open_missing_standard_files();
-  stride::cli::keep_hard_limits();
   stride::cli::set_up_output();
   std::signal(SIGXFSZ, SIG_IGN);  // then writing fails with an error; the signal would kill
   stride::cli::go_on_watched();
+  stride::cli::keep_hard_limits();
   CLI::App app(
       "stride couples simulators: it loads units of FMI 3.0, 2.0 and 1.0 as plug-ins\n"
       "and runs them in steps, as a scenario (an SSP system file, .ssd) wires them.\n",

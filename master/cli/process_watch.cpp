@@ -149,6 +149,7 @@ class Watch {
   void end_watched(const ProcessEnd& end);
   ProcessEnd end() const;
   bool is_ended_from_outside() const;
+  bool is_recorded() const;
   void report(const core::Error& error) const;
 
   core::Descriptor image_;
@@ -221,10 +222,23 @@ ProcessEnd Watch::end() const {
 bool Watch::is_ended_from_outside() const {
   if (own_end_ || !WIFSIGNALED(status_)) return false;
   const int signal = WTERMSIG(status_);
-  return signal == last_signal || (note_.is_complete && note_.code == -signal);
+  // what reads the standard output has gone
+  const bool is_pipe = signal == SIGPIPE;
+  return is_pipe || signal == last_signal || (note_.is_complete && note_.code == -signal);
+}
+
+/// Where something ends the process when the run was over.
+bool Watch::is_recorded() const {
+  try {
+    const fs::path run_file(note_.run_file.view());
+    return core::is_file(run_file) && !recorders::is_running(run_file);
+  } catch (const std::exception&) {  // it cannot be read
+    return false;
+  }
 }
 
 void Watch::report(const core::Error& error) const {
+  if (is_ended_from_outside() && is_recorded()) return;
   const fs::path run_file(note_.run_file.view());
   warn_of_failure([&] {
     if (run_file.empty() || !core::is_file(run_file)) return;

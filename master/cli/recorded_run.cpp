@@ -20,6 +20,7 @@
 #include "master/util/error.h"
 #include "master/util/output_file.h"
 #include "master/util/process/spare_files.h"
+#include "master/util/replacement.h"
 #include "master/util/time_text.h"
 
 namespace stride::cli {
@@ -129,10 +130,14 @@ RecordedRun::RecordedRun(const RunSetup& setup, std::vector<std::unique_ptr<core
 /// So that a run which ends without a word is not taken for none, or for a good one.
 void RecordedRun::announce() const {
   const auto& [folder, files] = setup_.results;
-  if (files.statistics.empty()) return;
-  write_run_file(std::nullopt, false);
+  const std::filesystem::path file = folder / files.statistics;
+  if (files.statistics.empty() || core::Replacement::is_at_once(file)) return;
+  try {
+    write_run_file(std::nullopt, false);
+  } catch (const core::Error&) {  // what is wrong with the disk is an error at the end
+  }
   std::error_code none;  // then nothing is added to it
-  end_note().run_file.set(std::filesystem::absolute(folder / files.statistics, none).native());
+  end_note().run_file.set(std::filesystem::absolute(file, none).native());
 }
 
 void RecordedRun::run() {
@@ -248,9 +253,17 @@ void RecordedRun::write_statistics(std::optional<std::string> error) {
   } catch (const std::exception& mistake) {
     failure = std::current_exception();
     if (!error) error = mistake.what();
+    forget_announcement();
   }
   setup_.test_report.write(setup_.options, simulation_.statistics(), verdicts_, error);
   if (failure) std::rethrow_exception(failure);
+}
+
+/// The run does not go on.
+void RecordedRun::forget_announcement() const {
+  const std::filesystem::path file = setup_.results.folder / setup_.results.files.statistics;
+  std::error_code none;  // then it is there
+  if (!core::Replacement::is_at_once(file)) std::filesystem::remove(file, none);
 }
 
 void RecordedRun::write_run_file(const std::optional<std::string>& error, bool is_over) const {

@@ -228,6 +228,10 @@ void write_run_json(const std::filesystem::path& file, const RunRecord& record) 
   write(file, run);
 }
 
+bool is_running(const std::filesystem::path& file) {
+  return Json::parse(core::read_input(file))["outcome"] == kRunning;
+}
+
 bool add_error(const std::filesystem::path& file, const std::string& error,
                std::optional<Time> reached) {
   Json run = Json::parse(core::read_input(file));

@@ -32,6 +32,9 @@ struct RunRecord {
 /// results this file does, too. It is there as a whole or not at all. Throws core::Error.
 void write_run_json(const std::filesystem::path& file, const RunRecord& record);
 
+/// Whether the run is not over. Throws as add_error() does.
+bool is_running(const std::filesystem::path& file);
+
 /// Makes the run.json of a run one that has failed, for what has failed after it was written. A run
 /// that was not over has reached this time. Returns false if it has an error already, which stays.
 /// Throws core::Error, and exceptions of the JSON library, if it cannot be read.

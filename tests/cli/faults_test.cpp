@@ -70,7 +70,7 @@ constexpr Fault kFaults[] = {
     {"default signal", "signal 11 (SIGSEGV) ends stride during FUNCTION",
      "its process was ended by signal 11 (SIGSEGV) in FUNCTION"},
     {"exec", "the program '/usr/bin/sleep' has replaced stride during FUNCTION", nullptr},
-    {"exec by system call", " ends stride during FUNCTION",
+    {"exec by system call", " stride during FUNCTION",
      "it ended its process with exit code 0 in FUNCTION"},
     {"become daemon", "an exit with code 0 ends stride during FUNCTION",
      "it ended its process with exit code 0 in FUNCTION"},

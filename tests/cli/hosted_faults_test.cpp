@@ -251,7 +251,7 @@ TEST_CASE("a supervisor that is killed from outside") {
 
 TEST_CASE("nothing stays of a run that is killed") {
   LongRun run;
-  CHECK(run.leftovers.processes().size() == 5);
+  CHECK(run.leftovers.processes().size() == 6);
   run.process.send(SIGKILL);
   CHECK(run.process.wait().exit_code == -SIGKILL);
   CHECK(run.leftovers.after_a_while() == std::vector<std::string>{});

@@ -53,8 +53,8 @@ TEST_CASE("run.json has what was run and how far the run came") {
   statistics.wall_time = 250ms;
   statistics.phases = {10ms, 200ms, 30ms, 5ms};
   statistics.units = {
-      {71'000, 14'200, 5, 3, 8, 14'190, 2, 4, 2500ms, 1000ms, 1, 0, 1ms, 2ms, 3ms},
-      {0, 14'201, 0, 0, 0, 0, 0, 0, {}, {}, 0, 1, 0ms, 0ms, 0ms},
+      {71'000, 14'200, 5, 3, 8, 14'190, 2, 0, 4, 2500ms, 1000ms, 1, 0, 1ms, 2ms, 3ms},
+      {0, 14'201, 0, 0, 0, 0, 0, 0, 0, {}, {}, 0, 1, 0ms, 0ms, 0ms},
   };
   core::HostStatistics& host = statistics.units[1].host.emplace();
   host.most_memory = 4096;
