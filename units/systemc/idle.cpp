@@ -121,8 +121,8 @@ std::string unrest_text(const IdleSkipper::Unrest& unrest) {
   std::ostringstream text;
   text << "the device declared itself idle, but each period of its clock changed it, at "
        << to_seconds(unrest.when) << " s in or behind " << unrest.place
-       << "; such time is simulated, unless idle_when() says by repeats_every() or a function what "
-          "the module counts";
+       << "; such time is simulated: the first argument of idle_when() should be false meanwhile, "
+          "or the second say what the module counts, by repeats_every() or a function";
   return text.str();
 }
 

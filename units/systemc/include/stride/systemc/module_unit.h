@@ -259,7 +259,7 @@ class ModuleUnit : public DeviceUnit<Module> {
   /// The condition for idle(); calls may_idle(). `edges` is what the module makes of the edges of
   /// its clock that are skipped: counts_nothing(), repeats_every(period) where it divides the
   /// clock, or a function (Module&, const Skipped&) that lets its counters catch up. Without such a
-  /// function nothing is skipped unless the module has stayed what it was for a period.
+  /// function nothing is skipped or promised unless the module has stayed what it was for a period.
   ///
   /// While the module is idle its ports and signals stay what they are, so the unit promises that
   /// it need not be called. Where outputs are functions or plain members, which may move, it
