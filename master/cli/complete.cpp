@@ -41,6 +41,14 @@ void check_output_path_of(const CompleteArguments& arguments) {
   refuse_kept_paths({&output, 1}, kept);
 }
 
+/// The components of the scenario with what their FMUs declare.
+std::vector<core::ComponentDeclaration> with_descriptions(
+    const scenario::Scenario& scenario, const std::vector<std::shared_ptr<importer::Fmu>>& fmus) {
+  std::vector<core::ComponentDeclaration> components = scenario.system.components;
+  for (std::size_t i = 0; i < fmus.size(); ++i) components[i].description = fmus[i]->description();
+  return components;
+}
+
 void complete(const CompleteArguments& arguments) {
   check_output_path_of(arguments);
   const CrashGuard guard;
@@ -53,7 +61,10 @@ void complete(const CompleteArguments& arguments) {
     descriptions[scenario.system.components[i].name] = fmus[i]->description();
   }
   const std::filesystem::path file = scenario.files->system_file(arguments.scenario);
-  const std::string text = ssp::complete(file, descriptions, scenario.files->shown(file));
+  const std::string text =
+      ssp::complete(file, descriptions, scenario.files->shown(file),
+                    scenario::connect_terminals(scenario.annotation.terminals,
+                                                with_descriptions(scenario, fmus), fmus));
   const auto archive = scenario.files->archive_of(file);
   if (archive) return write_package(arguments, *archive, file, text);
   core::Replacement output(arguments.output.empty() ? file : arguments.output);

@@ -219,6 +219,7 @@ int main(int argc, char** argv) {
   stride::cli::add_verify(app);
   stride::cli::add_complete(app);
   stride::cli::add_pack(app);
+  stride::cli::add_build(app);
   stride::cli::add_trace(app);
   stride::cli::add_reference(app);
   for (const char* command : {"run", "check", "inspect", "verify", "complete", "pack"}) {

@@ -41,11 +41,12 @@ std::vector<std::string> folder_names(const fs::path& folder) {
 }
 
 /// What to do about an FMU that has sources and no library.
-std::string how_to_compile(bool is_fmi2, const std::string& library) {
+std::string how_to_compile(const std::string& library) {
   return fmt::format(
-      "compile the C files of its folder 'sources' that the model description lists to '{}' "
-      "(cc -shared -fPIC{}), or let the tool that made it export binaries for Linux",
-      library, is_fmi2 ? " -DFMI2_OVERRIDE_FUNCTION_PREFIX" : "");
+      "'stride build FILE.fmu -o BUILT.fmu' compiles its folder 'sources' to '{}', in a copy; or "
+      "let "
+      "the tool that made it export binaries for Linux",
+      library);
 }
 
 /// Likewise about one whose libraries are all for other platforms.
@@ -109,11 +110,10 @@ std::optional<fs::path> find_misnamed(const std::vector<fs::path>& libraries,
         how_to_export(others));
   }
   const bool has_sources = core::is_folder(fmu_folder / "sources");
-  core::fail_input(
-      context,
-      fmt::format("the FMU has no binaries for {}; it has {}", name,
-                  has_sources ? "its source code only" : "none at all"),
-      has_sources ? how_to_compile(is_fmi2, expected) : "export the unit for this platform");
+  core::fail_input(context,
+                   fmt::format("the FMU has no binaries for {}; it has {}", name,
+                               has_sources ? "its source code only" : "none at all"),
+                   has_sources ? how_to_compile(expected) : "export the unit for this platform");
 }
 
 }  // namespace

@@ -187,6 +187,14 @@ IdleNumber read_idle_number(const xml::Element& element, double (*parse)(std::st
   return {element.required("variable"), parse_attribute(element, "value", parse), element.where()};
 }
 
+void read_terminal_connection(const xml::Element& element, ScenarioAnnotation& annotation) {
+  element.allow_attributes({"startElement", "startTerminal", "endElement", "endTerminal"});
+  element.allow_children({});
+  annotation.terminals.push_back({element.required("startElement"),
+                                  element.required("startTerminal"), element.required("endElement"),
+                                  element.required("endTerminal"), element.where()});
+}
+
 void check_file_name(const xml::Element& element, const char* attribute, const std::string& name) {
   if (!recorders::is_plain_file_name(name)) {
     element.fail(fmt::format("{}=\"{}\" is not a plain file name", attribute, name),
@@ -242,6 +250,7 @@ constexpr ScenarioElement kElements[] = {
      [](const auto& element, auto& to) {
        to.idle.tolerances.push_back(read_idle_number(element, core::parse_above_zero));
      }},
+    {"TerminalConnection", true, read_terminal_connection},
 };
 
 template <std::size_t... i>

@@ -11,6 +11,7 @@
 #include "master/scenario/check_declaration.h"
 #include "master/scenario/component_selection.h"
 #include "master/scenario/run_settings.h"
+#include "master/scenario/terminal_connections.h"
 #include "master/util/error.h"
 #include "master/util/xml/element.h"
 
@@ -46,6 +47,7 @@ struct ScenarioAnnotation {
   std::vector<PermissionRule> state_saving;   ///< by their own functions; without one: allowed
   HostRules hosts;
   IdleSettings idle;
+  std::vector<TerminalConnection> terminals;
 };
 
 /// Reads the <stride:Scenario> of a <ssd:SystemStructureDescription>, which is in the root's

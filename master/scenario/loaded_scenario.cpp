@@ -115,6 +115,7 @@ LoadedScenario::LoadedScenario(const ScenarioRequest& request)
   }
   load_units();
   if (!request.film.empty()) switch_film_on(scenario_.system, request.film);
+  connect_terminals();
   choose_early_returns();
   choose_state_saving();
   system_.emplace(scenario_.system);
@@ -161,6 +162,20 @@ void LoadedScenario::load_units() {
     for (const std::string& warning : fmus_[i]->description()->warnings) {
       if (known.insert(warning).second) scenario_.warnings.push_back(warning);
     }
+  }
+}
+
+/// Those that `stride complete` has written are there already.
+void LoadedScenario::connect_terminals() {
+  auto& connections = scenario_.system.connections;
+  for (auto& made : scenario::connect_terminals(scenario_.annotation.terminals,
+                                                scenario_.system.components, fmus_)) {
+    const bool is_there = std::ranges::any_of(connections, [&](const auto& other) {
+      return other.from_component == made.from_component &&
+             other.from_connector == made.from_connector &&
+             other.to_component == made.to_component && other.to_connector == made.to_connector;
+    });
+    if (!is_there) connections.push_back(std::move(made));
   }
 }
 

@@ -70,6 +70,7 @@ class LoadedScenario {
   core::Context of_file() const;
   void swap(const std::string& text);
   void load_units();
+  void connect_terminals();
   void choose_early_returns();
   void choose_state_saving();
   std::vector<bool> permissions(std::span<const PermissionRule> rules) const;

@@ -1,5 +1,6 @@
 #include "master/ssp/complete.h"
 
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <set>
@@ -59,9 +60,10 @@ class Completion {
     for (const auto& [name, items] : definitions.enumerations) enumerations_.insert(name);
   }
 
-  std::string result() {
+  std::string result(std::span<const core::ConnectionDeclaration> connections) {
     const xml::Element system = *root_.child({kSsd, "System"});
     complete_elements(system, system.index(), "");
+    add_connections(system, connections);
     add_list("Enumerations", new_enumerations_);
     add_list("Units", new_units_);
     return editor_.result();
@@ -223,6 +225,42 @@ class Completion {
     return text;
   }
 
+  void add_connections(const xml::Element& system,
+                       std::span<const core::ConnectionDeclaration> connections) {
+    const auto elements = system.child({kSsd, "Elements"});
+    const auto list = system.child({kSsd, "Connections"});
+    std::vector<std::string> added;
+    for (const core::ConnectionDeclaration& connection : connections) {
+      const bool is_outermost = connection.from_component.find('.') == std::string::npos &&
+                                connection.to_component.find('.') == std::string::npos;
+      if (is_outermost && !(list && holds(*list, connection))) {
+        added.push_back(connection_text(connection));
+      }
+    }
+    if (added.empty() || !elements) return;
+    if (list) return editor_.append_children(list->index(), added);
+    std::string text = fmt::format("<{}Connections>", ssd_);
+    for (const std::string& piece : added) text += "\n\t" + piece;
+    editor_.insert_behind(elements->index(), text + fmt::format("\n</{}Connections>", ssd_));
+  }
+
+  static bool holds(const xml::Element& list, const core::ConnectionDeclaration& wanted) {
+    return std::ranges::any_of(list.children(), [&](const xml::Element& connection) {
+      return connection.attribute_or("startElement") == wanted.from_component &&
+             connection.attribute_or("startConnector") == wanted.from_connector &&
+             connection.attribute_or("endElement") == wanted.to_component &&
+             connection.attribute_or("endConnector") == wanted.to_connector;
+    });
+  }
+
+  std::string connection_text(const core::ConnectionDeclaration& connection) const {
+    return fmt::format(
+        "<{}Connection startElement=\"{}\" startConnector=\"{}\" endElement=\"{}\" "
+        "endConnector=\"{}\"/>",
+        ssd_, xml_escaped(connection.from_component), xml_escaped(connection.from_connector),
+        xml_escaped(connection.to_component), xml_escaped(connection.to_connector));
+  }
+
   /// Adds to a list below the root element, or makes it: behind <System>, and <Units> behind
   /// <Enumerations>, as the schema requires.
   void add_list(const char* list, const std::vector<std::string>& pieces) {
@@ -256,12 +294,13 @@ class Completion {
 }  // namespace
 
 std::string complete(const std::filesystem::path& path, const Descriptions& descriptions,
-                     const std::string& shown_as) {
+                     const std::string& shown_as,
+                     std::span<const core::ConnectionDeclaration> connections) {
   const xml::Document document(path, shown_as);
   const xml::Element root = document.root();
   check_system_description(root);
   if (!root.child({kSsd, "System"})) root.fail(fmt::format("{} holds no <System>", root.tag()));
-  return Completion(document, descriptions).result();
+  return Completion(document, descriptions).result(connections);
 }
 
 }  // namespace stride::ssp

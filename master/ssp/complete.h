@@ -5,9 +5,11 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <span>
 #include <string>
 
 #include "master/model/description.h"
+#include "master/model/system_declaration.h"
 
 namespace stride::ssp {
 
@@ -20,12 +22,14 @@ using Descriptions = std::map<std::string, std::shared_ptr<const core::UnitDescr
 ///
 /// Added are, for each variable without a connector: the connector with its type, dimensions and
 /// clocks, the definition of its unit (where the description gives its meaning) and of its
-/// enumeration. Everything else stays as it is, byte for byte where the file
-/// is in UTF-8, which the text always is; completing twice changes nothing. In
-/// a file of SSP 1.0 the types are those of 1.0. The file is one that read_scenario() reads. Throws
-/// core::Error (Input) for a clock in a file of SSP 1.0, which has none.
+/// enumeration. Added are further `connections`, as far as they connect components of the outermost
+/// system and are not there: those that only stride knows how to make. Everything else stays as it
+/// is, byte for byte where the file is in UTF-8, which the text always is; completing twice changes
+/// nothing. In a file of SSP 1.0 the types are those of 1.0. The file is one that read_scenario()
+/// reads. Throws core::Error (Input) for a clock in a file of SSP 1.0, which has none.
 std::string complete(const std::filesystem::path& path, const Descriptions& descriptions,
-                     const std::string& shown_as = "");
+                     const std::string& shown_as = "",
+                     std::span<const core::ConnectionDeclaration> connections = {});
 
 }  // namespace stride::ssp
 

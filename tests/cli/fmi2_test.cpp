@@ -105,7 +105,7 @@ TEST_CASE("units that cannot be loaded say what to do") {
   write_other(workspace, "", "");
   workspace.scratch().write("other/sources/relaxation.c", "");
   CHECK_THAT(input_error_of(workspace.run()),
-             Contains("it has its source code only") && Contains("hint: compile the C files"));
+             Contains("it has its source code only") && Contains("hint: 'stride build FILE.fmu"));
   workspace.scratch().write("other/binaries/win64/fmi2_relaxation.dll", "");
   CHECK_THAT(input_error_of(workspace.run()),
              Contains("it has win64") && Contains("a Windows library cannot be loaded on Linux"));

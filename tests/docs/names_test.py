@@ -40,9 +40,9 @@ SHOWN = {
     "AlgebraicLoop": "collect fail has_converged have_held_values_converged hint inputs put sweep values_text",
     "InputExtrapolator": "sample set_targets signal_of undo_step within_step",
     "StepPolicy": "",
-    "EventHandler": "had_event count description activate activate_announced update_announced notify_observers receive "
-                    "report content_of described_by fail_nan fail_ticking fail_sample_loop takes_part "
-                    "find_discontinuities",
+    "EventHandler": "had_event has_announced count description activate activate_announced update_announced "
+                    "notify_observers receive report content_of described_by fail_nan fail_ticking fail_sample_loop "
+                    "takes_part find_discontinuities",
 }
 
 

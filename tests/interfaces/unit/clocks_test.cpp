@@ -225,3 +225,17 @@ TEST_CASE("a saved state holds what is counted down, and what the importer knows
   f.unit.fmi.FreeFMUState(f.unit.handle, &news);
   f.unit.fmi.FreeFMUState(f.unit.handle, &told);
 }
+
+TEST_CASE("a clock has ticked when its event is over") {
+  Fixture f;
+  f.start();
+  REQUIRE(f.unit.set_clock("triggered", true) == fmi3OK);
+  REQUIRE(f.unit.update() == fmi3OK);
+  std::int32_t ticks = 0, late = -1;
+  const fmi3ValueReference references[] = {f.unit.reference("triggered.ticks"),
+                                           f.unit.reference("late_ticks")};
+  REQUIRE(f.library.GetInt32(f.unit.handle, &references[0], 1, &ticks, 1) == fmi3OK);
+  REQUIRE(f.library.GetInt32(f.unit.handle, &references[1], 1, &late, 1) == fmi3OK);
+  CHECK(ticks == 1);
+  CHECK(late == 0);
+}

@@ -15,24 +15,31 @@ namespace {
 constexpr double kEver = std::numeric_limits<double>::infinity();
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-InstanceChoices choices() {
+/// Of the parameter "promise".
+constexpr std::int64_t kRejects = 3, kPromisesEver = 6;
+
+InstanceChoices choices(bool event_mode = true) {
   InstanceChoices choices;
   choices.early_return = true;
+  choices.event_mode = event_mode;
   return choices;
 }
 
 /// An idler in Step Mode at 0 s, which may skip for max_skip seconds.
 struct Idler {
   explicit Idler(double max_skip = kEver, double rate = 0, double period = 0,
-                 bool announces = false) {
+                 bool announces = false, std::int64_t promise = 0, bool event_mode = true)
+      : unit(library, choices(event_mode)) {
     REQUIRE(unit.fmi.EnableIdleSkipping(unit.handle, max_skip) == fmi3OK);
     REQUIRE(unit.set_real("rate", rate) == fmi3OK);
     REQUIRE(unit.set_real("period", period) == fmi3OK);
     REQUIRE(unit.set_boolean("announces", announces) == fmi3OK);
-    REQUIRE(unit.start_steps() == fmi3OK);
+    const fmi3ValueReference reference = unit.reference("promise");
+    REQUIRE(unit.fmi.SetInt64(unit.handle, &reference, 1, &promise, 1) == fmi3OK);
+    REQUIRE((event_mode ? unit.start_steps() : unit.initialize()) == fmi3OK);
   }
   UnitLibrary library{unit_library("idler")};
-  UnitInstance unit{library, choices()};
+  UnitInstance unit;
 };
 
 struct State {
@@ -79,6 +86,33 @@ TEST_CASE("a promise is cut off at the event that the unit has announced") {
   REQUIRE(idler.unit.update() == fmi3OK);
   REQUIRE(idler.unit.fmi.EnterStepMode(idler.unit.handle) == fmi3OK);
   CHECK(idler.unit.idle_until() == 6);
+}
+
+TEST_CASE("a promise without an end is cut off at the event that the unit has announced") {
+  Idler idler(kEver, 0, 3, true, kPromisesEver);
+  CHECK(idler.unit.idle_until() == 3);
+  REQUIRE(idler.unit.step(0, 1) == fmi3OK);
+  CHECK(idler.unit.idle_until() == 3);
+}
+
+TEST_CASE("a unit that promises something while it requests an event has promised nothing") {
+  Idler idler(kEver, 0, 0.125, false, kPromisesEver);
+  CHECK(idler.unit.idle_until() == kEver);
+  REQUIRE(idler.unit.step(0, 1) == fmi3OK);
+  REQUIRE(idler.unit.last.event);
+  CHECK(idler.unit.idle_until() == 0.125);
+}
+
+TEST_CASE(
+    "without Event Mode a discrete input that was set ends a promise, also where a step fails") {
+  Idler idler(kEver, 0, 0, false, kRejects, false);
+  CHECK(idler.unit.idle_until() == kEver);
+  REQUIRE(idler.unit.set_boolean("mark", true) == fmi3OK);
+  CHECK(idler.unit.idle_until() == 0);
+  REQUIRE(idler.unit.step(0, 1) == fmi3Discard);
+  CHECK(idler.unit.idle_until() == 0);
+  REQUIRE(idler.unit.step(0, 0.001) == fmi3OK);
+  CHECK(idler.unit.idle_until() == kEver);
 }
 
 TEST_CASE("a promise is cut off where one step cannot reach") {

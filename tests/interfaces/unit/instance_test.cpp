@@ -756,3 +756,29 @@ TEST_CASE("NULL in the place of a state or too small a buffer is a misuse, not a
   CHECK(library.FreeFMUState(unit.handle, &nothing) == fmi3OK);
   CHECK(library.FreeFMUState(unit.handle, nullptr) == fmi3OK);
 }
+
+TEST_CASE("a state has all elements of the arrays") {
+  const UnitLibrary library(unit_library("types"));
+  UnitInstance unit(library);
+  REQUIRE(unit.start_steps() == fmi3OK);
+  const fmi3ValueReference matrix = unit.reference("matrix");
+  const fmi3ValueReference words = unit.reference("words");
+  const auto set = [&](std::array<double, 6> numbers, std::array<const char*, 2> texts) {
+    REQUIRE(library.SetFloat64(unit.handle, &matrix, 1, numbers.data(), 6) == fmi3OK);
+    REQUIRE(library.EnterEventMode(unit.handle) == fmi3OK);
+    REQUIRE(library.SetString(unit.handle, &words, 1, texts.data(), 2) == fmi3OK);
+    REQUIRE(unit.update() == fmi3OK);
+    REQUIRE(library.EnterStepMode(unit.handle) == fmi3OK);
+  };
+  set({6, 5, 4, 3, 2, 1}, {"one", "two"});
+  SavedState saved(unit);
+  set({0, 0, 0, 0, 0, 0}, {"", ""});
+  REQUIRE(library.SetFMUState(unit.handle, saved.state) == fmi3OK);
+  std::array<double, 6> numbers{};
+  std::array<const char*, 2> texts{};
+  REQUIRE(library.GetFloat64(unit.handle, &matrix, 1, numbers.data(), 6) == fmi3OK);
+  REQUIRE(library.GetString(unit.handle, &words, 1, texts.data(), 2) == fmi3OK);
+  CHECK(numbers == std::array<double, 6>{6, 5, 4, 3, 2, 1});
+  CHECK(std::string(texts[0]) == "one");
+  CHECK(std::string(texts[1]) == "two");
+}

@@ -69,6 +69,15 @@ TEST_CASE("the end of the process during the instantiation is an error") {
   CHECK(Belongings() == before);
 }
 
+TEST_CASE("an instantiation that takes longer than the limit ends, before there is a time") {
+  const Belongings before;
+  CHECK_THAT(
+      run_error([] { Fixture("faulty", true, {.call_limit = 300ms}, {}, "dozes_at_birth"); }),
+      Contains("unit 'dozes_at_birth': it took longer than 0.3 s in "
+               "fmi3InstantiateCoSimulation, so its process was ended"));
+  CHECK(Belongings() == before);
+}
+
 TEST_CASE("a call that takes longer than its limit ends") {
   const std::string fault = GENERATE("loop", "stop");
   CAPTURE(fault);

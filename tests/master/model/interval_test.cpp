@@ -40,6 +40,9 @@ TEST_CASE("shift and interval are added before they are rounded") {
   CHECK(tick(sixth, 1, third) == 1);
   CHECK(tick(sixth, 6, third) == 1);
   CHECK(tick(sixth, 7, third) == 2);
+  CHECK(tick(sixth, 2, third) == 1);  // two thirds
+  CHECK(tick(third, 2) == 1);
+  CHECK(tick(third, 1) == 0);
   const Interval odd = Interval::from_fraction(1, 7'000'000'000'001);
   CHECK(tick(odd, 7'000'000'000'001, third) == 1'000'000'000'000);
 }

@@ -48,6 +48,8 @@ TEST_CASE("All elements and attributes of the annotation") {
                                    "<stride:Record signals='reader.*'/>"
                                    "<stride:Plot title='Both' signals='a.x  b.*'/>"
                                    "<stride:Plot title='One' signals='a.y'/>"
+                                   "<stride:TerminalConnection startElement='a' "
+                                   "startTerminal='P' endElement='b' endTerminal='Q.R'/>"
                                    "<stride:Results signals='s.csv' events='none' "
                                    "report='none'/>"
                                    "<stride:MainThread components='plant legacy.*'/>"
@@ -75,6 +77,12 @@ TEST_CASE("All elements and attributes of the annotation") {
   CHECK(annotation.plots[0].signals[1].text == "b.*");
   CHECK(annotation.plots[0].signals[1].where.line == 5);
   CHECK(annotation.plots[1].title == "One");
+  REQUIRE(annotation.terminals.size() == 1);
+  CHECK(annotation.terminals[0].start_element == "a");
+  CHECK(annotation.terminals[0].start_terminal == "P");
+  CHECK(annotation.terminals[0].end_element == "b");
+  CHECK(annotation.terminals[0].end_terminal == "Q.R");
+  CHECK(annotation.terminals[0].where.line == 5);
   REQUIRE(annotation.main_thread.size() == 2);
   CHECK(annotation.main_thread[0].text == "plant");
   CHECK(annotation.main_thread[1].text == "legacy.*");

@@ -182,3 +182,23 @@ TEST_CASE("Completion keeps each line of the original") {
 TEST_CASE("A broken file is refused as by the reader") {
   CHECK_THROWS_WITH(completed(ssd("")), Contains("holds no <System>"));
 }
+
+TEST_CASE("further connections are added where they are missing, in the outermost system") {
+  const TemporaryFolder folder;
+  std::vector<ConnectionDeclaration> connections(2);
+  connections[0].from_component = "a";
+  connections[0].from_connector = "distance";
+  connections[0].to_component = "b";
+  connections[0].to_connector = "a \"limit\"";
+  connections[1] = connections[0];
+  connections[1].from_component = "cell.a";
+  const auto add = [&](const std::string& text) {
+    return complete(folder.write("x.ssd", text), descriptions(), "", connections);
+  };
+  const std::string text = add(kText);
+  CHECK_THAT(text, Contains("    </ssd:Elements>\n    <ssd:Connections>\n      <ssd:Connection "
+                            "startElement=\"a\" startConnector=\"distance\" endElement=\"b\" "
+                            "endConnector=\"a &quot;limit&quot;\"/>\n    </ssd:Connections>\n"));
+  CHECK_THAT(text, !Contains("cell.a"));
+  CHECK(add(text) == text);
+}

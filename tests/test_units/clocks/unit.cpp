@@ -2,6 +2,7 @@
 #include <chrono>
 #include <cstdint>
 #include <string>
+#include <utility>
 
 #include <stride/unit.h>
 
@@ -36,6 +37,7 @@ class Clocks : public stride::Unit {
         .description("the changing clock ticks so often again at one instant");
     input("start", start_).description("its change counts 4 ms down");
     output("instants", instants_).exact().depends_on({}).description("events handled");
+    local("late_ticks", late_ticks_).discrete().description("clocks that tick behind their event");
     state(echoed_, started_);
   }
 
@@ -51,8 +53,13 @@ class Clocks : public stride::Unit {
 
   void step(stride::Step&) override {}
 
+  void update_outputs() override {
+    if (std::exchange(has_handled_, false) && triggered_.clock.ticked()) ++late_ticks_;
+  }
+
   void event(stride::Event& event) override {
     ++instants_;
+    has_handled_ = true;
     tunable_by_unit_.clock.set_interval(interval());
     if (changing_.clock.ticked()) count_changing();
     for (Counter* counter : {&constant_, &fixed_, &fixed_by_unit_, &tunable_, &tunable_by_unit_,
@@ -93,6 +100,8 @@ class Clocks : public stride::Unit {
   bool start_ = false;
   bool started_ = false;
   std::int32_t instants_ = 0;
+  bool has_handled_ = false;  ///< an event, since the last update of the outputs
+  std::int32_t late_ticks_ = 0;
 };
 
 }  // namespace

@@ -17,6 +17,7 @@ enum class Promise : std::int64_t {
   Rejects,
   LeavesItsTangent,
   LosesTime,  ///< a step that skips has its next report come late
+  Ever,       ///< without an end, whatever comes
 };
 
 class Idler : public stride::Unit {
@@ -29,6 +30,7 @@ class Idler : public stride::Unit {
 #endif
     input("inflow", inflow_).deadband(kDeadband);
     input("ask", ask_).description("a report is wanted");
+    input("mark", mark_).description("has no effect");
     output("level", level_).derivative(slope_).tolerance(1e-3).depends_on({});
     output("reports", reports_).depends_on({}).description("how many there were");
     output("report", report_);
@@ -42,7 +44,8 @@ class Idler : public stride::Unit {
                 {"returns_early", 2},
                 {"rejects", 3},
                 {"drifts", 4},
-                {"loses_time", 5}});
+                {"loses_time", 5},
+                {"ever", 6}});
     state(start_, slope_, time_);
   }
 
@@ -85,6 +88,7 @@ class Idler : public stride::Unit {
   }
 
   stride::Time idle_until(stride::Time now) const override {
+    if (promise_ == Promise::Ever) return stride::Time::max();
     if (slope_ != rate_ * (inflow_ - level_)) return now;  // the inflow is another since the step
     const double tolerance = tolerance_of(level_);
     const double curvature = rate_ * std::abs(slope_);
@@ -114,6 +118,7 @@ class Idler : public stride::Unit {
 
   double inflow_ = 1;
   stride::Clock ask_;
+  bool mark_ = false;
   double level_ = 0;
   double slope_ = 0;
   std::int64_t reports_ = 0;

@@ -14,6 +14,9 @@ using namespace std::chrono_literals;
 
 namespace {
 
+const BaseUnitOfMeasure kKelvin{{0, 0, 0, 0, 1, 0, 0, 0}, 1, 0};
+const BaseUnitOfMeasure kCelsius{{0, 0, 0, 0, 1, 0, 0, 0}, 1, 273.15};
+
 struct RecordedRows : Observer {
   std::vector<Signal> signals;
   std::vector<Time> times;
@@ -226,4 +229,81 @@ TEST_CASE("at instants without an event only outputs are read") {
   const int at_start = a.gets;
   CHECK(at_start < 1000 + 10);
   CHECK(f.simulation->statistics().event_iterations == 1);
+}
+
+TEST_CASE("a jump is converted on its way, with the offset, and is one if the value changes") {
+  EventSystem f;
+  f.add("source",
+        Describe("source").output("y", "degC").unit("degC", kCelsius).event_mode().done());
+  ScriptedUnit& source = *f.instances[0];
+  source.on_step = [&f](ScriptedUnit&, Time, Time to) {
+    f.now = to;
+    return reached(to);
+  };
+  source.on_event = [&f](ScriptedUnit& self) {
+    EventResult result;
+    if (f.now < time_from_seconds(kJump)) {
+      result.next_event_time = time_from_seconds(kJump);
+    } else {
+      self.number(0) = 10;
+    }
+    return result;
+  };
+  const bool follows = GENERATE(false, true);
+  Describe reader("reader");
+  reader.input("u", "K").unit("K", kKelvin).output("y").event_mode();
+  reader.depends_on(follows ? std::vector<ValueReference>{0} : std::vector<ValueReference>{});
+  ScriptedUnit& unit = f.add("reader", reader.done());
+  std::vector<double> at_events;
+  unit.on_event = [&](ScriptedUnit& self) {
+    at_events.push_back(self.number(0));
+    return EventResult{};
+  };
+  f.wire("source", "y", "reader", "u");
+  f.build(0.004, 1ms).run();
+  CHECK(at_events.front() == Approx(273.15));
+  REQUIRE(at_events.size() == 2);  // the start and the jump
+  CHECK(at_events.back() == Approx(283.15));
+}
+
+TEST_CASE("at one instant messages are in the order of the units, and of their clocks") {
+  struct Sent : Observer {
+    std::vector<std::string> names;
+    const System* system = nullptr;
+    void on_message(const Message& message) override {
+      names.push_back(system->full_name(message.id));
+    }
+  };
+  EventSystem f;
+  for (const char* name : {"second", "first"}) {
+    ScriptedUnit& unit = f.add(name, Describe("sender")
+                                         .add("z", ValueType::Clock, Causality::Output)
+                                         .add("a", ValueType::Clock, Causality::Output)
+                                         .event_mode()
+                                         .done());
+    unit.on_event = [](ScriptedUnit& self) {
+      self.clock(0) = self.clock(1) = false;
+      return EventResult{};
+    };
+    unit.on_initialize = [](ScriptedUnit& self) { self.clock(0) = self.clock(1) = true; };
+  }
+  Sent sent;
+  f.build(0.001, 1ms).add_observer(sent);
+  sent.system = f.system.get();
+  f.simulation->run();
+  CHECK(sent.names == std::vector<std::string>{"second.z", "second.a", "first.z", "first.a"});
+}
+
+TEST_CASE("a thousand event iterations at one instant are allowed, one more is not") {
+  const int last = GENERATE(1000, 1001);
+  EventSystem f;
+  ScriptedUnit& unit = f.add("unit", Describe("unit").output("y").event_mode().done());
+  int iterations = 0;
+  unit.on_event = [&](ScriptedUnit&) {
+    EventResult result;
+    result.discrete_states_need_update = ++iterations < last;
+    return result;
+  };
+  const std::string error = failure(f.build(0.001, 1ms));
+  CHECK((error == "none") == (last == 1000));
 }

@@ -239,6 +239,27 @@ TEST_CASE("when all units are suspended the run makes one step, to a point of th
   CHECK(points.times == std::vector<Time>{at(0), at(2), at(3), at(5), at(6), at(7), at(8), at(9)});
 }
 
+TEST_CASE("when all units are suspended no step is longer than the maximum") {
+  IdleSystem f;
+  f.integrator("a");
+  Points points;
+  f.options.idle.max_skip.assign(1, 10s);
+  f.options.step.maximum = 2500ms;
+  f.build(6, 1s).add_observer(points);
+  f.simulation->run();
+  CHECK(points.times == std::vector<Time>{at(0), at(2), at(4), at(6)});
+}
+
+TEST_CASE("a unit is suspended for one step, and not for less") {
+  const bool is_enough = GENERATE(false, true);
+  IdleSystem f;
+  auto& a = f.integrator("a");
+  a.until = is_enough ? Time(1s) : Time(1s) - Duration(1);
+  f.options.idle.least = 1s;
+  f.run(2, 1s);
+  CHECK(f.statistics(0).suspensions == (is_enough ? 1 : 0));
+}
+
 TEST_CASE("an event of another unit ends no suspension, a message does") {
   IdleSystem f;
   const auto clocked = [](Causality causality) {

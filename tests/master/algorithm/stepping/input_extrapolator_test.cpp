@@ -17,6 +17,9 @@ using namespace std::chrono_literals;
 
 namespace {
 
+const BaseUnitOfMeasure kKelvins{{0, 0, 0, 0, 1, 0, 0, 0}, 1, 0};
+const BaseUnitOfMeasure kDegrees{{0, 0, 0, 0, 1, 0, 0, 0}, 1, 273.15};
+
 double deviation(Coupling coupling, Extrapolation extrapolation, Duration step) {
   ScriptedSystem system;
   TwoMasses masses(system);
@@ -198,4 +201,85 @@ TEST_CASE("two communication points close to each other do not make a slope of a
   system.options.extrapolation = extrapolation;
   system.build(1, 1ms).run();
   CHECK(largest < 1e-3);  // held inputs would be off by half a step
+}
+
+TEST_CASE("steps that are rejected leave nothing behind of what was seen at their ends") {
+  // from 3 ms the steps to 4, 3.5 and 3.25 ms are rejected, or 3.125 ms is where another unit has
+  // an event: the accepted steps are the same
+  std::vector<std::vector<double>> inputs;
+  for (const bool rejects : {true, false}) {
+    ScriptedSystem system;
+    auto& cubic = system.add("cubic", Describe("cubic").output("y").can_save_state().done());
+    cubic.on_step = [](ScriptedUnit& self, Time, Time to) {
+      self.number(0) = std::pow(1e3 * to_seconds(to), 3);
+      return reached(to);
+    };
+    auto& reader = system.add("reader", Describe("reader").input("u").can_save_state().done());
+    std::vector<double> seen;
+    reader.on_step = [&](ScriptedUnit& self, Time from, Time to) {
+      StepResult result = reached(to);
+      result.rejected = rejects && from == Time(3ms) && to > Time(3125us);
+      if (!result.rejected) seen.push_back(self.number(0));
+      return result;
+    };
+    auto& clock = system.add("clock", Describe("clock").event_mode().done());
+    clock.on_event = [rejects, first = true](ScriptedUnit&) mutable {
+      EventResult result;
+      if (!rejects && std::exchange(first, false)) result.next_event_time = Time(3125us);
+      return result;
+    };
+    system.wire("cubic", "y", "reader", "u");
+    system.options.coupling = Coupling::GaussSeidel;
+    system.options.extrapolation = Extrapolation::Quadratic;
+    system.build(0.005, 1ms).run();
+    CHECK(system.simulation->statistics().units[1].rejections == (rejects ? 3 : 0));
+    inputs.push_back(seen);
+  }
+  CHECK(inputs[0] == inputs[1]);
+}
+
+TEST_CASE("an output that is another one after a step without a length counts as it is then") {
+  const auto coupling = GENERATE(Coupling::Jacobi, Coupling::GaussSeidel);
+  ScriptedSystem system;
+  auto& source = system.add("source", Describe("source").output("y").may_return_early().done());
+  source.on_step = [has_jumped = false](ScriptedUnit& self, Time from, Time to) mutable {
+    const bool jumps = from == Time(2ms) && !std::exchange(has_jumped, from == Time(2ms));
+    StepResult result = reached(jumps ? from : to);
+    result.early_return = jumps;
+    self.number(0) = jumps || from >= Time(2ms) ? 100 : 0;
+    return result;
+  };
+  auto& reader = system.add("reader", Describe("reader").input("u").can_save_state().done());
+  std::map<Time, double> seen;
+  reader.on_step = [&](ScriptedUnit& self, Time from, Time to) {
+    seen[from] = self.number(0);
+    return reached(to);
+  };
+  system.wire("source", "y", "reader", "u");
+  system.options.coupling = coupling;
+  system.options.extrapolation = Extrapolation::Linear;
+  system.build(0.005, 1ms).run();
+  CHECK(seen.at(Time(3ms)) == Approx(100));
+  CHECK(seen.at(Time(4ms)) == Approx(100));
+}
+
+TEST_CASE("extrapolated inputs are converted, with the offset") {
+  ScriptedSystem system;
+  auto& source =
+      system.add("source", Describe("source").output("y", "degC").unit("degC", kDegrees).done());
+  source.on_step = [](ScriptedUnit& self, Time, Time to) {
+    self.number(0) = 1e3 * to_seconds(to);
+    return reached(to);
+  };
+  auto& reader =
+      system.add("reader", Describe("reader").input("u", "K").unit("K", kKelvins).done());
+  std::vector<double> seen;
+  reader.on_step = [&](ScriptedUnit& self, Time, Time to) {
+    seen.push_back(self.number(0));
+    return reached(to);
+  };
+  system.wire("source", "y", "reader", "u");
+  system.options.extrapolation = Extrapolation::Linear;
+  system.build(0.003, 1ms).run();
+  check_near(seen, {273.15, 274.65, 275.65});
 }

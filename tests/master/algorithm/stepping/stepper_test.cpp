@@ -331,3 +331,16 @@ TEST_CASE("super-dense instants are counted on while the time stays the same") {
   f.simulation->run();
   CHECK(indices.at_stop == std::vector<std::uint32_t>{0, 1, 2});
 }
+
+TEST_CASE("after a rejection a step as long as the minimum is tried, and none that is shorter") {
+  const bool is_enough = GENERATE(false, true);
+  ScriptedSystem f;
+  auto& unit = f.add("unit", may_reject().done());
+  unit.on_step = [](ScriptedUnit&, Time from, Time to) {
+    StepResult result = reached(to);
+    result.rejected = to - from > Duration(500us);
+    return result;
+  };
+  f.options.step.minimum = is_enough ? Duration(500us) : Duration(500us) + Duration(1);
+  CHECK((failure(f.build(0.001, 1ms)) == "none") == is_enough);
+}
