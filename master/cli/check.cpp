@@ -55,18 +55,24 @@ std::string host_table(const scenario::LoadedScenario& loaded) {
   return table.size() == 0 ? "" : "\nProcesses of their own\n" + table.text();
 }
 
+std::string entries(const core::NumberMap& map) {
+  std::vector<std::string> entries;
+  for (const auto& [source, target] : map)
+    entries.push_back(fmt::format("{} → {}", source, target));
+  return fmt::format("{}", fmt::join(entries, ", "));
+}
+
+/// What is done to a value, one after the other.
 std::string conversion(const core::Conversion& conversion) {
   const auto& [factor, offset] = conversion.linear;
-  if (!conversion.map.empty()) {
-    std::vector<std::string> entries;
-    for (const auto& [source, target] : conversion.map) {
-      entries.push_back(fmt::format("{} → {}", source, target));
-    }
-    return fmt::format("{}", fmt::join(entries, ", "));
+  std::vector<std::string> parts;
+  if (!conversion.map.empty()) parts.push_back(entries(conversion.map));
+  if (!conversion.truth.empty()) parts.push_back("Boolean " + entries(conversion.truth));
+  if (!conversion.linear.is_identity()) {
+    parts.push_back(offset == 0 ? fmt::format("× {}", factor)
+                                : fmt::format("× {} + {}", factor, offset));
   }
-  if (conversion.linear.is_identity()) return "";
-  if (offset == 0) return fmt::format("× {}", factor);
-  return fmt::format("× {} + {}", factor, offset);
+  return fmt::format("{}", fmt::join(parts, "; "));
 }
 
 std::string connection_table(const core::System& system) {

@@ -179,7 +179,7 @@ void run(const RunArguments& arguments, Records& records, CrashGuard& guard) {
   capture::Capture capture(loaded.system(), loaded.scenario().name, options, captures(arguments));
   const recorders::UnitFolders unit_folders(folder, components);
   const EndOfUnits end{loaded.process()};
-  auto units = loaded.instantiate(folder);
+  auto units = loaded.instantiate(folder, &Interruption::flag());
   capture.wrap(units);
   const RunDisplay display{progress_style(arguments), arguments.quiet, arguments.open};
   Recorders recorders(loaded.system(), *records.results);

@@ -99,10 +99,20 @@ std::optional<fs::path> find_misnamed(const std::vector<fs::path>& libraries,
   return libraries.size() == 1 ? std::optional(libraries.front()) : std::nullopt;
 }
 
+/// In the FMU's folder: at its top, or else in the only folder there that has one.
+fs::path find_binaries(const fs::path& fmu_folder) {
+  const fs::path usual = "binaries";
+  if (core::is_folder(fmu_folder / usual)) return usual;
+  std::vector<std::string> others = folder_names(fmu_folder);
+  std::erase_if(
+      others, [&](const std::string& name) { return !core::is_folder(fmu_folder / name / usual); });
+  return others.size() == 1 ? fs::path(others.front()) / usual : usual;
+}
+
 [[noreturn]] void fail_without_library(const fs::path& fmu_folder, bool is_fmi2,
                                        const std::string& expected, const core::Context& context) {
   const char* const name = is_fmi2 ? fmi2_platform() : platform();
-  const auto others = folder_names(fmu_folder / "binaries");
+  const auto others = folder_names(fmu_folder / find_binaries(fmu_folder));
   if (!others.empty()) {
     core::fail_input(
         context,
@@ -122,16 +132,18 @@ const char* platform() { return STRIDE_PLATFORM; }
 const char* fmi2_platform() { return STRIDE_FMI2_PLATFORM; }
 
 FoundLibrary find_library(const fs::path& fmu_folder, const std::string& fmi_version,
-                          const std::string& model_identifier, const core::Location& where) {
+                          const std::string& model_identifier, const core::Context& user) {
   const bool is_before_fmi3 = !fmi_version.starts_with("3.");
   const std::vector<std::string> names =
       is_before_fmi3 ? std::vector<std::string>{fmi2_platform(), platform()}
                      : std::vector<std::string>{platform(), fmi2_platform()};
   const std::string expected = fmt::format("binaries/{}/{}.so", names.front(), model_identifier);
   if (core::is_file(fmu_folder / expected)) return {fmu_folder / expected, ""};
-  const core::Context context{.where = where, .unit = model_identifier};
+  core::Context context = user;
+  if (context.unit.empty()) context.unit = model_identifier;
+  const fs::path binaries = find_binaries(fmu_folder);
   for (const std::string& name : names) {
-    const fs::path folder = fs::path("binaries") / platform_folder(fmu_folder / "binaries", name);
+    const fs::path folder = binaries / platform_folder(fmu_folder / binaries, name);
     const std::vector<fs::path> libraries = libraries_in(fmu_folder / folder);
     if (libraries.empty()) continue;
     const auto other = find_misnamed(libraries, model_identifier);

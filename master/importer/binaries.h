@@ -23,10 +23,11 @@ struct FoundLibrary {
 /// The library in an unpacked FMU of this version, "1.0", "2.0" or "3.0". It is the one of this
 /// name in the folder of this platform; if there is none, the one of the name in another case, or
 /// the only one, there or in the folder that has the platform's name of the other version. The case
-/// of the folders' names does not count. Throws core::Error of the kind Input that lists the
+/// of the folders' names does not count, and the folder `binaries` may be in another one, if it is
+/// not at the top. Throws core::Error of the kind Input, at `user` or at the name, that lists the
 /// platforms that there are, if it is not built for this one, and states how to get such a library.
 FoundLibrary find_library(const std::filesystem::path& fmu_folder, const std::string& fmi_version,
-                          const std::string& model_identifier, const core::Location& where = {});
+                          const std::string& model_identifier, const core::Context& user = {});
 
 }  // namespace stride::importer
 

@@ -103,9 +103,11 @@ xml::Element find_co_simulation(const xml::Element& root) {
 
 void read_capabilities(const xml::Element& co_simulation, core::UnitDescription& unit) {
   unit.model_identifier = read_model_identifier(co_simulation);
-  unit.can_vary_step = co_simulation.flag("canHandleVariableCommunicationStepSize");
-  unit.single_instance = co_simulation.flag("canBeInstantiatedOnlyOncePerProcess");
-  unit.needs_execution_tool = co_simulation.flag("needsExecutionTool");
+  unit.can_vary_step =
+      co_simulation.lenient_flag("canHandleVariableCommunicationStepSize", unit.warnings);
+  unit.single_instance =
+      co_simulation.lenient_flag("canBeInstantiatedOnlyOncePerProcess", unit.warnings);
+  unit.needs_execution_tool = co_simulation.lenient_flag("needsExecutionTool", unit.warnings);
   unit.max_output_derivative_order =
       co_simulation.number<unsigned>("maxOutputDerivativeOrder").value_or(0);
 }

@@ -93,7 +93,7 @@ Fmu::Fmu(fs::path path, core::Location where, fs::path shown_as)
     : path_(std::move(path)), shown_as_(std::move(shown_as)), where_(std::move(where)) {}
 
 void Fmu::read_folder() {
-  unpacked_.emplace(path_, where_);
+  unpacked_.emplace(path_, where_, shown_as_);
   resources_ = unpacked_->folder() / "resources";
   const std::string shown_as = (shown_as_ / "modelDescription.xml").string();
   auto description = std::make_shared<ModelDescription>(
@@ -125,7 +125,7 @@ void Fmu::load_once(std::shared_ptr<const Library>& library,
   if (library) return;
   const core::Context user{.where = where_, .unit = first_component_};
   const FoundLibrary found = find_library(unpacked_->folder(), description_->fmi_version,
-                                          description_->model_identifier, where_);
+                                          description_->model_identifier, user);
   library_warning_ = found.warning;
   const fs::path shown_as = shown_as_ / found.path.lexically_relative(unpacked_->folder());
   library = std::make_shared<Library>(found.path, model_identifier..., user, shown_as);

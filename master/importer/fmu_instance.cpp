@@ -5,6 +5,7 @@
 #include <functional>
 #include <limits>
 #include <stdexcept>
+#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
@@ -14,6 +15,7 @@
 
 #include "master/importer/state_hint.h"
 #include "master/util/readable_text.h"
+#include "master/util/time_text.h"
 
 namespace stride::importer {
 namespace {
@@ -105,16 +107,19 @@ void FmuInstance::fail_not_callable(const char* name) const {
 
 void FmuInstance::fail_call(const char* function, Status status) {
   failed_in_ = function;
-  const bool is_fatal = status == Status::Fatal;
-  if (is_fatal) mark_unusable();
+  if (status == Status::Fatal) mark_unusable();
   rethrow_callback_failure();  // it is the cause of what the unit answered
-  std::string hint;
-  if (is_fatal) {
-    hint = "the unit may have damaged this process; save what you need and end it";
-  } else {
-    hint = was_restored_ ? state_hint(name_) : state_hint(function, name_);
-  }
+  const std::string hint = hint_for(function, status);
   fail(failure_of(function, status), hint);
+}
+
+std::string FmuInstance::hint_for(const char* function, Status status) const {
+  if (status == Status::Fatal) {
+    return "the unit may have damaged this process; save what you need and end it";
+  }
+  if (was_restored_) return state_hint(name_);
+  if (std::string_view(function).ends_with("DoStep")) return short_step_hint();
+  return state_hint(function, name_);
 }
 
 // ---- States ----
@@ -293,6 +298,27 @@ void FmuInstance::warn(const std::string& message) const {
 }
 
 // ---- Times ----
+
+double FmuInstance::set_stop(Time start, std::optional<Time> stop) {
+  stop_ = stop;
+  stop_seconds_ = std::numeric_limits<double>::infinity();
+  if (!stop) return 0;
+  stop_seconds_ = to_seconds(*stop);
+  const Duration step = options_.step.value_or(Duration{});
+  if (step > Duration{} && *stop > start && (*stop - start) % step == Duration{}) {
+    stop_seconds_ = std::max(stop_seconds_, to_seconds(*stop - step) + to_seconds(step));
+  }
+  return stop_seconds_;
+}
+
+std::string FmuInstance::short_step_hint() const {
+  const Duration size = present_step_.to - present_step_.from;
+  if (!options_.step || size >= *options_.step || present_step_.to != stop_) return "";
+  return fmt::format(
+      "this step is one of {} s, since the run ends there, and the others are of {} s: if the unit "
+      "makes whole steps only, stop at a multiple of its step (--stop {})",
+      core::to_text(size), core::to_text(*options_.step), core::to_text(present_step_.from));
+}
 
 Time FmuInstance::checked_time(double seconds, const char* what) const {
   try {

@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <csignal>
 #include <cstddef>
 #include <cstdint>
 #include <exception>
@@ -42,6 +43,10 @@ struct InstanceOptions {
   /// drop what it would need for that.
   bool may_go_back = false;
   bool debug_logging = false;  ///< everything that the unit can log, not only warnings and errors
+  /// The size of the regular steps, if it is known.
+  std::optional<Duration> step{};
+  /// What is set to another value than 0 to end the wait for an asynchronous step; null = nothing.
+  const volatile std::sig_atomic_t* interrupted = nullptr;
   /// A warning is logged when an asynchronous step (FMI 2.0, fmi2Pending) takes longer.
   std::chrono::milliseconds warn_after = std::chrono::seconds(10);
   LogSink log{};
@@ -231,17 +236,22 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics, public Call
   std::string take_messages(const std::string& function);
   /// The same of a rejected step; empty if the unit gave none.
   void take_rejection_reason(const char* function);
+  /// What helps where the unit does not accept its present step since it is shorter than the
+  /// others; empty if it is not.
+  std::string short_step_hint() const;
   /// Logs a warning of the importer itself.
   void warn(const std::string& message) const;
 
   Time checked_time(double seconds, const char* what) const;
-  /// To be called before the initialization: the end of the run, if it is known.
-  void set_stop(std::optional<Time> stop) {
-    stop_seconds_ = stop ? to_seconds(*stop) : std::numeric_limits<double>::infinity();
-  }
+  /// To be called before the initialization, with the end of the run, if it is known. Returns the
+  /// stop time as the unit gets it, or else 0. It is not before the sum of the last regular step,
+  /// which may be rounded to a time above it: some units refuse a step beyond their stop time, and
+  /// some one of another size.
+  double set_stop(Time start, std::optional<Time> stop);
   /// The size of a step as the unit gets it. One whose sum with the beginning is rounded to a time
-  /// above the stop time, which units refuse, is the difference of the ends.
-  double size_of(const core::StepInterval& interval) const {
+  /// above the stop time of the unit is the difference of the ends.
+  double size_of(const core::StepInterval& interval) {
+    present_step_ = interval;
     const double sum = interval.begin_seconds + interval.size_seconds;
     const bool is_beyond = sum > stop_seconds_ && interval.end_seconds <= stop_seconds_;
     return is_beyond ? interval.end_seconds - interval.begin_seconds : interval.size_seconds;
@@ -264,6 +274,7 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics, public Call
   const core::FloatingPointMode mode_ = core::FloatingPointMode::present();
   std::optional<Time> time_;
   double stop_seconds_ = std::numeric_limits<double>::infinity();
+  core::StepInterval present_step_{Time{}, Time{}};
   const std::atomic<bool>& is_unusable_;  ///< the library
   std::atomic<bool> has_messages_ = false;
   std::exception_ptr callback_failure_;
@@ -290,10 +301,12 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics, public Call
   char major_version() const { return prefix_[3] != '\0' ? prefix_[3] : '1'; }
   bool may_be_pending() const { return major_version() != '3'; }
 
+  std::string hint_for(const char* function, Status status) const;
   void give_up_saving(std::string failure);
   void warn_of_null_state(const char* saved_by);
 
   const char* prefix_;
+  std::optional<Time> stop_;
   std::string save_failure_;  ///< why the state cannot be saved
   std::shared_ptr<const SharedLibrary> library_;
   std::mutex messages_mutex_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <exception>
+#include <list>
 #include <map>
 #include <mutex>
 #include <utility>
@@ -11,6 +12,7 @@
 #include <unistd.h>
 
 #include "master/importer/binaries.h"
+#include "master/importer/companion.h"
 #include "master/importer/library_file.h"
 #include "master/importer/python_library.h"
 #include "master/util/input_file.h"
@@ -79,36 +81,21 @@ std::string missing_library(const std::string& reason, const std::string& opened
   return missing == opened ? "" : missing;
 }
 
-/// Where an FMU may have a library that its own needs, beside it or in the resources; empty if
-/// there is none.
-fs::path find_companion(const fs::path& library, const std::string& name) {
-  const fs::path folder = library.parent_path();
-  const fs::path binaries = folder.parent_path();
-  std::vector<fs::path> folders{folder};
-  if (binaries.filename() == "binaries") {
-    const fs::path resources = binaries.parent_path() / "resources";
-    folders.insert(folders.end(), {binaries, resources, resources / folder.filename()});
-  }
-  for (const fs::path& candidate : folders) {
-    if (core::is_file(candidate / name)) return candidate / name;
-  }
-  return {};
-}
-
-/// It is there, and cannot be loaded for the unit, since the loader would not know it again.
-[[noreturn]] void fail_by_name(const SharedLibrary& library, const std::string& head,
-                               const std::string& missing, const fs::path& found) {
+/// It is there, and the loader takes it for no library, or not for the one that is needed.
+[[noreturn]] void fail_with_companion(const SharedLibrary& library, const std::string& head,
+                                      const std::string& missing, const fs::path& found) {
   const fs::path from_unit = found.lexically_relative(library.path().parent_path());
   const fs::path shown = fs::path(library.shown_as()).parent_path() / from_unit;
+  const std::string damage = find_damage(found);
   core::fail_input(
       library.user(),
-      fmt::format("{}it needs the shared library '{}', which is there, as '{}', where the loader "
-                  "does not look for it",
-                  head, missing, shown.lexically_normal().string()),
-      fmt::format("give it the name by which it is needed (patchelf --set-soname {}), let the "
-                  "unit's library name its folder (patchelf --set-rpath '$ORIGIN'), or name a "
-                  "folder that has it in LD_LIBRARY_PATH",
-                  missing));
+      fmt::format("{}it needs the shared library '{}', which is there, as '{}', {}", head, missing,
+                  shown.lexically_normal().string(),
+                  damage.empty() ? "and the loader does not take it" : "and damaged: " + damage),
+      damage.empty()
+          ? "let the unit's library name its folder (patchelf --set-rpath '$ORIGIN'), or name a "
+            "folder that has it in LD_LIBRARY_PATH"
+          : "get another copy of the unit, or export it again");
 }
 
 /// Turns the loader's message (glibc's dlerror) into what is missing and how to get it.
@@ -118,7 +105,7 @@ fs::path find_companion(const fs::path& library, const std::string& name) {
   const std::string head = fmt::format("the library '{}' cannot be loaded: ", library.shown_as());
   if (const std::string missing = missing_library(reason, path); !missing.empty()) {
     const fs::path found = find_companion(library.path(), missing);
-    if (!found.empty()) fail_by_name(library, head, missing, found);
+    if (!found.empty()) fail_with_companion(library, head, missing, found);
     core::fail_input(
         context,
         fmt::format("{}it needs the shared library '{}', which was not found", head, missing),
@@ -195,25 +182,31 @@ std::string SharedLibrary::load() {
 /// Likewise. Libraries that it needs, and they in turn, are opened before it where they are missing
 /// and in the FMU: the loader takes one of the name that is loaded already as if it had found it.
 std::string SharedLibrary::open() {
-  for (std::vector<fs::path> wanted{path_}; true;) {
-    Handle handle(::dlopen(wanted.back().c_str(), RTLD_NOW | RTLD_LOCAL));
+  struct Wanted {
+    fs::path path;
+    std::string name;  ///< by which it is needed
+  };
+  std::list<LoaderName> names;
+  for (std::vector<Wanted> wanted{{path_, path_}}; true;) {
+    Handle handle(::dlopen(wanted.back().path.c_str(), RTLD_NOW | RTLD_LOCAL));
     if (!handle) {
       std::string reason = ::dlerror();
-      const std::string missing = missing_library(reason, wanted.back());
+      const std::string missing = missing_library(reason, wanted.back().path);
       const fs::path found = missing.empty() ? fs::path() : find_companion(path_, missing);
-      const bool is_tried =
-          std::ranges::count(wanted, found) + std::ranges::count(companions_, found);
+      const bool is_tried = std::ranges::count(wanted, found, &Wanted::path) > 0 ||
+                            std::ranges::count(companions_, found) > 0;
       if (found.empty() || is_tried || !find_damage(found).empty()) return reason;
-      wanted.push_back(found);
+      wanted.push_back({found, missing});
       continue;
     }
-    const fs::path opened = wanted.back();
+    const Wanted opened = wanted.back();
     wanted.pop_back();
     if (wanted.empty()) {
       handle_ = std::move(handle);
       return "";
     }
-    companions_.push_back(opened);
+    companions_.push_back(opened.path);
+    names.emplace_back(handle.get(), opened.name);
     companion_handles_.push_back(std::move(handle));
   }
 }

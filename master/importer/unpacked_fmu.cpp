@@ -23,12 +23,14 @@ std::string missing_description_hint(const fs::path& folder) {
 
 }  // namespace
 
-UnpackedFmu::UnpackedFmu(const fs::path& path, const core::Location& where)
+UnpackedFmu::UnpackedFmu(const fs::path& path, const core::Location& where,
+                         const fs::path& shown_as)
     : archive_(path, "an FMU: a .fmu archive (zip), or the folder that such an archive unpacks to",
-               where) {
+               where, {}, shown_as.string()) {
   if (core::path_exists(folder() / "modelDescription.xml")) return;  // reading it checks the rest
   core::fail_input({.where = where},
-                   fmt::format("'{}' has no modelDescription.xml at its top", path.string()),
+                   fmt::format("'{}' has no modelDescription.xml at its top",
+                               (shown_as.empty() ? path : shown_as).string()),
                    missing_description_hint(folder()));
 }
 

@@ -13,8 +13,9 @@ class UnpackedFmu {
  public:
   /// Throws core::Error of the kind Input, located at `where` (the line that names the FMU), for
   /// what is no archive, as UnpackedArchive does, and for one without a modelDescription.xml at its
-  /// top.
-  explicit UnpackedFmu(const std::filesystem::path& path, const core::Location& where = {});
+  /// top. `shown_as` is its path in messages, if that is another one.
+  explicit UnpackedFmu(const std::filesystem::path& path, const core::Location& where = {},
+                       const std::filesystem::path& shown_as = {});
 
   const std::filesystem::path& folder() const { return archive_.folder(); }
 

@@ -96,11 +96,33 @@ void HostClient::await_reply(std::optional<Time> time) {
                        call),
            time);
     }
+    if (is_interrupted_for_long()) fail_interrupted(time);
     if (!limit && waited > spec_.options.warn_after) warn_of_slow_call();
     doorbell.sleep(
         rings, limit ? std::min<std::chrono::nanoseconds>(kProcessCheckInterval, *limit - waited)
                      : kProcessCheckInterval);
   }
+}
+
+/// The end of the run waits a little for the call, whose results would be lost.
+bool HostClient::is_interrupted_for_long() {
+  using namespace std::chrono_literals;
+  constexpr auto kPatience = 1s;
+  const volatile std::sig_atomic_t* const interrupted = spec_.options.interrupted;
+  if (interrupted == nullptr || *interrupted == 0) return false;
+  if (!interrupted_at_) interrupted_at_ = Clock::now();
+  return Clock::now() - *interrupted_at_ > kPatience;
+}
+
+void HostClient::fail_interrupted(std::optional<Time> time) {
+  const std::string call = present_call();
+  process_.kill();
+  take_lines();
+  fail(
+      fmt::format("the run was interrupted, and this was not done after a second{}, so its process "
+                  "was ended; the results up to there are complete",
+                  call),
+      time);
 }
 
 void HostClient::warn_of_slow_call() {

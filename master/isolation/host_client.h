@@ -57,6 +57,8 @@ class HostClient {
   void take_last_line();
   void log_printed(std::string_view line);
   void warn_of_slow_call();
+  bool is_interrupted_for_long();
+  [[noreturn]] void fail_interrupted(std::optional<Time> time);
   [[noreturn]] void fail(const std::string& what, std::optional<Time> time);
   std::string present_call() const;
   core::Context context(std::optional<Time> time) const;
@@ -70,6 +72,7 @@ class HostClient {
   PrintedLines printed_;
   OutputTail output_tail_;
   bool has_slow_call_warning_ = false;
+  std::optional<std::chrono::steady_clock::time_point> interrupted_at_;  ///< seen in a call
   std::string failure_;  ///< why nothing can be sent any longer
 };
 

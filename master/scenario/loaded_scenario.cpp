@@ -296,11 +296,11 @@ void LoadedScenario::choose_hosts(const HostRequest& request) {
   if (is_changed) system_.emplace(scenario_.system);
 }
 
-void LoadedScenario::check_steps() const {
+void LoadedScenario::check_steps() {
   core::check_step_policy(*system_, options_);
   if (core::has_unlimited_steps(*system_, options_)) warn_of_unlimited_steps();
   if (!options_.step.policy->has_grid) return;
-  check_fixed_steps();
+  end_with_whole_steps();
   warn_of_internal_steps();
 }
 
@@ -331,19 +331,30 @@ void LoadedScenario::choose_signals(const ScenarioRequest& request) {
                             : remaining_plots(*system_, options_.recorded, chosen.plots);
 }
 
-void LoadedScenario::check_fixed_steps() const {
+/// A run with units that take steps of one size only ends with the last whole one.
+void LoadedScenario::end_with_whole_steps() {
   const Duration rest = (options_.stop - options_.start) % options_.step.size;
   if (rest == Duration{}) return;
-  for (std::size_t i = 0; i < fmus_.size(); ++i) {
-    if (fmus_[i]->description()->can_vary_step) continue;
-    const auto& component = scenario_.system.components[i];
-    core::fail_input(
-        {component.where, component.name, {}, {}},
-        fmt::format("the unit takes steps of one size only, and the run is not a whole "
-                    "number of steps of {} s",
-                    core::to_text(options_.step.size)),
-        fmt::format("stop at {} s", core::to_text(options_.stop - rest)));
+  const auto rigid = std::ranges::find_if(
+      fmus_, [](const auto& fmu) { return !fmu->description()->can_vary_step; });
+  if (rigid == fmus_.end()) return;
+  const auto& component =
+      scenario_.system.components[static_cast<std::size_t>(rigid - fmus_.begin())];
+  const core::Context context{component.where, component.name, {}, {}};
+  const std::string reason = fmt::format(
+      "the unit takes steps of one size only, and the run to {} s is not a whole number of steps "
+      "of {} s",
+      core::to_text(options_.stop), core::to_text(options_.step.size));
+  if (options_.stop - rest == options_.start) {
+    core::fail_input(context, reason,
+                     fmt::format("stop at a multiple of them, at {} s or later",
+                                 core::to_text(options_.start + options_.step.size)));
   }
+  options_.stop -= rest;
+  spdlog::warn("{}", core::message_text(core::to_text(context) + reason +
+                                        fmt::format(": the run ends at {} s, with the last whole "
+                                                    "one",
+                                                    core::to_text(options_.stop))));
 }
 
 void LoadedScenario::warn_of_internal_steps() const {
@@ -374,7 +385,8 @@ void LoadedScenario::warn_of_unlimited_steps() const {
 }
 
 importer::InstanceOptions LoadedScenario::instance_options(
-    std::size_t component, const std::filesystem::path& results) const {
+    std::size_t component, const std::filesystem::path& results,
+    const volatile std::sig_atomic_t* interrupted) const {
   const core::ComponentDeclaration& declared = scenario_.system.components[component];
   importer::InstanceOptions options;
   options.log = [log = log_](const auto&... message) { log->write(message...); };
@@ -382,13 +394,15 @@ importer::InstanceOptions LoadedScenario::instance_options(
   options.early_return_allowed = declared.early_return_allowed;
   options.intermediate_update = options_.sets_inputs_in_steps();
   options.where = declared.where;
+  if (options_.step.policy->has_grid) options.step = options_.step.size;
+  options.interrupted = interrupted;
   if (!results.empty()) options.results = recorders::unit_folder(results, declared.name);
   options.description = system_->components()[component].description;
   return options;
 }
 
 std::vector<std::unique_ptr<core::Unit>> LoadedScenario::instantiate(
-    const std::filesystem::path& results) const {
+    const std::filesystem::path& results, const volatile std::sig_atomic_t* interrupted) const {
   const auto& components = system_->components();
   // a unit may change the working folder
   const std::filesystem::path folder =
@@ -398,14 +412,14 @@ std::vector<std::unique_ptr<core::Unit>> LoadedScenario::instantiate(
   for (std::size_t i = 0; i < units.size(); ++i) {
     if (!hostings_[i]) continue;
     isolation::HostOptions host = hostings_[i]->options;
-    importer::InstanceOptions options = instance_options(i, folder);
+    importer::InstanceOptions options = instance_options(i, folder, interrupted);
     if (!folder.empty()) host.writable.push_back(options.results);
     units[i] =
         isolation::instantiate(fmus_[i], components[i].name, std::move(options), std::move(host));
   }
   for (std::size_t i = 0; i < units.size(); ++i) {
     if (units[i]) continue;
-    importer::InstanceOptions options = instance_options(i, folder);
+    importer::InstanceOptions options = instance_options(i, folder, interrupted);
     options.process = process_;
     units[i] = fmus_[i]->instantiate(components[i].name, std::move(options));
   }

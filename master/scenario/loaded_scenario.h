@@ -2,6 +2,7 @@
 #ifndef STRIDE_MASTER_SCENARIO_LOADED_SCENARIO_H
 #define STRIDE_MASTER_SCENARIO_LOADED_SCENARIO_H
 
+#include <csignal>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -61,9 +62,11 @@ class LoadedScenario {
 
   /// Fresh instances in the order of system().components(). Their messages go to the log. The units
   /// write their files to their folders in `results`, which exist (recorders::UnitFolders), and
-  /// hosted ones nowhere else; if it is empty, there are none.
+  /// hosted ones nowhere else; if it is empty, there are none. `interrupted` is set to another
+  /// value than 0 to end a wait for a unit; null = nothing is.
   std::vector<std::unique_ptr<core::Unit>> instantiate(
-      const std::filesystem::path& results = {}) const;
+      const std::filesystem::path& results = {},
+      const volatile std::sig_atomic_t* interrupted = nullptr) const;
 
  private:
   /// For mistakes that concern the scenario as a whole.
@@ -78,14 +81,15 @@ class LoadedScenario {
   void choose_steps(const StepSettings& request);
   void choose_checks(const ScenarioRequest& request);
   void choose_hosts(const HostRequest& request);
-  void check_steps() const;
+  void check_steps();
   void choose_idle_skips(const ScenarioRequest& request);
   void choose_signals(const ScenarioRequest& request);
-  void check_fixed_steps() const;
+  void end_with_whole_steps();
   void warn_of_internal_steps() const;
   void warn_of_unlimited_steps() const;
   importer::InstanceOptions instance_options(std::size_t component,
-                                             const std::filesystem::path& results) const;
+                                             const std::filesystem::path& results,
+                                             const volatile std::sig_atomic_t* interrupted) const;
 
   std::shared_ptr<UnitLog> log_ = std::make_shared<UnitLog>();
   std::shared_ptr<const core::ProcessState> process_ = std::make_shared<core::ProcessState>();

@@ -85,6 +85,23 @@ TEST_CASE("where all files fail, the first failure is reported") {
   CHECK_THAT(outcome.err, Contains("stride: error: out/signals.csv: at 1 s: "));
 }
 
+TEST_CASE("the first signal ends a run whose unit never ends its step") {
+  const Workspace workspace = beside_a_filter("sleeper", "fmi2_sleeper.fmu");
+  const auto hosting = GENERATE(as<std::string>(), "--no-report", "--isolate");
+  Process process(
+      stride_command(Workspace::run_arguments({"--set", "sleeper.how=2", "--quiet", hosting})),
+      workspace.scratch().path());
+  using namespace std::chrono_literals;
+  while (process.is_running() && !fs::exists(workspace / "out/signals.csv")) {
+    std::this_thread::sleep_for(1ms);
+  }
+  std::this_thread::sleep_for(300ms);  // until it waits in its first step
+  process.send(SIGTERM);
+  const Outcome outcome = process.wait();
+  CHECK(outcome.exit_code == 1);
+  CHECK_THAT(outcome.err, Contains("unit 'sleeper', at 0 s: the run was interrupted"));
+}
+
 TEST_CASE("an interrupted run keeps what it has recorded") {
   const Workspace workspace(two_filters());
   const int signal = GENERATE(SIGINT, SIGTERM, SIGHUP);

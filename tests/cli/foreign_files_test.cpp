@@ -174,6 +174,27 @@ TEST_CASE("a source whose name differs by case or composition from one file's me
   }
 }
 
+TEST_CASE(
+    "a mapping applies to the end of a connection whose type it is for, and check prints it") {
+  const auto inverted = [](std::string connection) {
+    connection.replace(connection.rfind("/>"), 2,
+                       "><ssc:BooleanMappingTransformation><ssc:MapEntry source=\"true\" "
+                       "target=\"false\"/><ssc:MapEntry source=\"false\" target=\"true\"/>"
+                       "</ssc:BooleanMappingTransformation></ssd:Connection>");
+    return connection;
+  };
+  const Workspace workspace(
+      Parts{component("valve", "fmi2_types.fmu") + component("other", "fmi2_types.fmu"),
+            inverted(connection("valve.boolean.echo", "other.integer")) +
+                inverted(connection("valve.integer.echo", "other.boolean"))});
+  const Outcome outcome = workspace.run({"--quiet", "--stop", "0.1"});
+  INFO(outcome.err);
+  REQUIRE(outcome.exit_code == 0);
+  CHECK(workspace.signals().numbers("other.integer.echo").back() == 1);
+  const std::string checked = workspace.stride({"check", "test.ssd"}).out;
+  CHECK_THAT(checked, Contains("  0 → 1, 1 → 0") && Contains("Boolean 0 → 1, 1 → 0"));
+}
+
 TEST_CASE("a value is converted between a Boolean and a number, as on a connection") {
   const auto value = [](const std::string& name, const std::string& text) {
     return "<ssv:Parameter name=\"" + name + "\">" + text + "</ssv:Parameter>";

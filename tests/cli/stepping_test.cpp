@@ -167,3 +167,37 @@ TEST_CASE("what a policy cannot do is an error before the run") {
                                            "0", "--absolute-tolerance", "0"})),
              Contains("both tolerances are 0"));
 }
+
+TEST_CASE("a unit that compares with its step and with its stop time gets what fits both") {
+  const Workspace workspace(Parts{component("unit", "fmi2_stickler.fmu")});
+  const auto stop = GENERATE(as<std::string>(), "0.3", "0.7", "1");  // 0.2 + 0.1 is above 0.3
+  const auto hosting = GENERATE(as<std::string>(), "--no-report", "--isolate");
+  const Outcome outcome = workspace.run({"--quiet", "--stop", stop, hosting});
+  INFO(outcome.err);
+  CHECK(outcome.exit_code == 0);
+  CHECK(workspace.signals().numbers("unit.n").back() == Approx(10 * std::stod(stop)));
+}
+
+TEST_CASE("the error of a unit that does not take the shortened last step has the way out") {
+  const Workspace workspace(Parts{component("unit", "fmi2_stickler.fmu")});
+  const Outcome outcome = workspace.run({"--quiet", "--stop", "0.66"});
+  CHECK(outcome.exit_code == 1);
+  CHECK_THAT(outcome.err, Contains("this step is one of 0.06 s, since the run ends there, and the "
+                                   "others are of 0.1 s") &&
+                              Contains("--stop 0.6"));
+}
+
+TEST_CASE("a run with a unit of one step size ends with its last whole step") {
+  const Workspace workspace(Parts{component("unit", "fmi2_rigid_stickler.fmu") +
+                                  component("other", "fmi2_relaxation.fmu")});
+  const Outcome outcome = workspace.run({"--quiet", "--stop", "0.66", "--step", "0.1"});
+  INFO(outcome.err);
+  REQUIRE(outcome.exit_code == 0);
+  CHECK_THAT(outcome.err, Contains("unit 'unit': the unit takes steps of one size only") &&
+                              Contains("the run ends at 0.6 s"));
+  CHECK(workspace.signals().numbers("time").back() == 0.6);
+  CHECK(workspace.signals().numbers("unit.n").back() == 6);
+  CHECK(workspace.run({"--quiet", "--stop", "0.6", "--step", "0.1"}).err == "");
+  CHECK_THAT(input_error_of(workspace.run({"--stop", "0.06", "--step", "0.1"})),
+             Contains("stop at a multiple of them, at 0.1 s or later"));
+}

@@ -36,6 +36,8 @@ Stepper::Stepper(RunContext& context, InputExtrapolator* inputs, IdleScheduler* 
       inputs_(inputs),
       idle_(idle),
       regular_(context.options.step.size),
+      has_grid_(context.options.step.policy->has_grid),
+      stop_(context.options.stop),
       minimum_(context.options.step.minimum),
       order_(step_order(system_, *context.options.step.policy, context.options.coupling)),
       index_of_(unit_count_),
@@ -84,6 +86,7 @@ Time Stepper::advance(Time from, Time target) {
   ++communication_step_;
   early_stop_ = {};
   has_requests_ = false;
+  is_short_end_ = target == stop_ && has_grid_ && target - from < regular_;
   if (balancer_.is_deciding()) return make_timed_passes(from, target);
   const Time reached = make_passes(from, target);
   balancer_.end_step();
@@ -323,7 +326,11 @@ void Stepper::check_minimum(const StepInterval& interval, Time reached) const {
                        "{} s, would be shorter than the minimum of {} s{}",
                        to_text(interval.to), times(early_stop_.by->rejections), to_text(reached),
                        to_text(minimum_), reason(early_stop_)),
-           "look at what the unit received before this instant");
+           is_short_end_ ? fmt::format("the last step is shorter than the others, {} s, since the "
+                                       "run ends at {} s: if the unit makes whole steps only, stop "
+                                       "at a multiple of its step (--stop {})",
+                                       to_text(regular_), to_text(stop_), to_text(interval.from))
+                         : "look at what the unit received before this instant");
 }
 
 /// The unit's reason for the rejection.

@@ -142,6 +142,8 @@ class Stepper {
   InputExtrapolator* inputs_;
   IdleScheduler* idle_;
   Duration regular_;  ///< the step size of units that cannot vary theirs
+  bool has_grid_;     ///< whether other units' regular steps have it, too
+  Time stop_;         ///< of the run
   Duration minimum_;  ///< no shorter step is tried after a rejection
   std::vector<StepOrderEntry> order_;
   std::vector<UnitStep> unit_steps_;             ///< in that order
@@ -154,6 +156,8 @@ class Stepper {
   double last_end_seconds_ = 0;
   EarlyStop early_stop_;
   bool has_requests_ = false;
+  bool is_short_end_ =
+      false;  ///< whether the present step is the last one, and shorter than others
   LoadBalancer balancer_;
   std::optional<ThreadPool> pool_;  ///< started when it is first needed
   bool was_parallel_ = false;

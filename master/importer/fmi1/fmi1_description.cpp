@@ -50,9 +50,11 @@ void read_fmi1_capabilities(const xml::Element& stand_alone, core::UnitDescripti
   unit.may_reject = false;
   const auto capabilities = stand_alone.child("Capabilities");
   if (!capabilities) return;
-  unit.can_vary_step = capabilities->flag("canHandleVariableCommunicationStepSize");
-  unit.single_instance = capabilities->flag("canBeInstantiatedOnlyOncePerProcess");
-  unit.may_reject = capabilities->flag("canRejectSteps");
+  unit.can_vary_step =
+      capabilities->lenient_flag("canHandleVariableCommunicationStepSize", unit.warnings);
+  unit.single_instance =
+      capabilities->lenient_flag("canBeInstantiatedOnlyOncePerProcess", unit.warnings);
+  unit.may_reject = capabilities->lenient_flag("canRejectSteps", unit.warnings);
 }
 
 /// Reads <ModelVariables>.

@@ -18,11 +18,14 @@ constexpr std::string_view kFmi1Optional[] = {"ResetSlave", "GetRealStatus", "Ge
 Fmi1Library::Fmi1Library(const std::filesystem::path& path, const std::string& model_identifier,
                          core::Context user, const std::filesystem::path& shown_as)
     : SharedLibrary(path, std::move(user), shown_as) {
+  // a library that is called otherwise than the model description has it is taken, too
+  const std::string own_name = path.stem().string();
+  const std::string& prefix = has(own_name + "_fmiDoStep") ? own_name : model_identifier;
   std::vector<std::string> missing;
 #define STRIDE_FIND(name)                                              \
-  find(functions_.name, model_identifier + "_fmi" #name);              \
+  find(functions_.name, prefix + "_fmi" #name);                        \
   if (functions_.name == nullptr && !contains(kFmi1Optional, #name)) { \
-    missing.push_back(model_identifier + "_fmi" #name);                \
+    missing.push_back(prefix + "_fmi" #name);                          \
   }
   FMI1_FUNCTIONS(STRIDE_FIND)
 #undef STRIDE_FIND

@@ -46,9 +46,9 @@ core::Capability* Fmi1Unit::find_capability(core::CapabilityId id) {
 
 void Fmi1Unit::enter_initialization(Time start, std::optional<Time> stop) {
   time_ = start;
-  set_stop(stop);
+  const double stop_seconds = set_stop(start, stop);
   call_and_restore("fmiInitializeSlave", fmi_.InitializeSlave, to_seconds(start),
-                   static_cast<fmi1Boolean>(stop.has_value()), to_seconds(stop.value_or(Time{})));
+                   static_cast<fmi1Boolean>(stop.has_value()), stop_seconds);
 }
 
 void Fmi1Unit::terminate() {
@@ -107,12 +107,13 @@ core::StepResult Fmi1Unit::handle_discard(const core::StepInterval& interval) {
     is_new_step_ = false;
     return {.rejected = true, .reached = interval.from};
   }
+  const std::string hint = short_step_hint();
   fail(
       fmt::format("fmiDoStep returned fmiDiscard in the step to {} s, and the unit does not report "
                   "how far it came (fmiLastSuccessfulTime){}{}",
                   core::to_text(interval.to),
                   rejection_reason_.empty() ? "" : "; message of the unit: ", rejection_reason_),
-      "try a smaller step");
+      hint.empty() ? "try a smaller step" : hint);
 }
 
 /// Nothing if it is not known, or not in the step.

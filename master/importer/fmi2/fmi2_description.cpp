@@ -20,10 +20,11 @@ using core::Variability;
 
 void read_fmi2_co_simulation(const xml::Element& element, core::UnitDescription& unit) {
   read_capabilities(element, unit);
-  unit.can_save_state = element.flag("canGetAndSetFMUstate");
-  unit.can_serialize_state = element.flag("canSerializeFMUstate");
-  unit.provides_intermediate_update = element.flag("canInterpolateInputs");
-  unit.provides_directional_derivatives = element.flag("providesDirectionalDerivative");
+  unit.can_save_state = element.lenient_flag("canGetAndSetFMUstate", unit.warnings);
+  unit.can_serialize_state = element.lenient_flag("canSerializeFMUstate", unit.warnings);
+  unit.provides_intermediate_update = element.lenient_flag("canInterpolateInputs", unit.warnings);
+  unit.provides_directional_derivatives =
+      element.lenient_flag("providesDirectionalDerivative", unit.warnings);
 }
 
 /// The five elements that give a variable or a declared type its type.
@@ -177,7 +178,7 @@ Fmi2Attributes read_fmi2_description(const xml::Element& root, core::UnitDescrip
   read_fmi2_co_simulation(co_simulation, unit);
   Fmi2Attributes attributes;
   attributes.can_run_asynchronously =
-      co_simulation.flag("canRunAsynchronuously");  // as it is spelt there
+      co_simulation.lenient_flag("canRunAsynchronuously", unit.warnings);  // as it is spelt there
   attributes.references = Variables(root, unit).references();
   const auto structure = root.child("ModelStructure");
   if (!structure) root.fail("<ModelStructure> is missing");

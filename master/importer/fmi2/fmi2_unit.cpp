@@ -49,11 +49,11 @@ core::Capability* Fmi2Unit::find_capability(core::CapabilityId id) {
 /// Start values come after fmi2SetupExperiment, as in other importers: some units reset them there.
 void Fmi2Unit::enter_initialization(Time start, std::optional<Time> stop) {
   time_ = start;
-  set_stop(stop);
+  const double stop_seconds = set_stop(start, stop);
   const auto tolerance = parts_.description->default_tolerance;
   call_and_restore("fmi2SetupExperiment", fmi_.SetupExperiment, tolerance ? fmi2True : fmi2False,
                    tolerance.value_or(0), to_seconds(start), stop ? fmi2True : fmi2False,
-                   to_seconds(stop.value_or(Time{})));
+                   stop_seconds);
   is_instantiated_only_ = false;
   for (const auto& [references, values] : std::exchange(kept_parameters_, {})) {
     set(references, values);

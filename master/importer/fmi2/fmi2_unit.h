@@ -115,6 +115,7 @@ class Fmi2Unit final
 
   Status do_step(const core::StepInterval& interval, double size);
   Status wait_for_step();
+  [[noreturn]] void cancel_step();
   Status poll_step();
   std::string pending_text();
   core::StepResult handle_discard(const core::StepInterval& interval);

@@ -32,6 +32,7 @@ Status Fmi2Unit::wait_for_step() {
   const Clock::time_point began = Clock::now();
   Status status = Status::Pending;
   for (auto pause = 20us; status == Status::Pending; pause = std::min(pause * 2, kLongestPause)) {
+    if (options_.interrupted != nullptr && *options_.interrupted != 0) cancel_step();
     write_note("fmi2DoStep");  // whose work goes on
     status = asynchronous_.wait(pause).value_or(Status::Pending);
     if (status == Status::Pending) status = poll_step();
@@ -45,6 +46,21 @@ Status Fmi2Unit::wait_for_step() {
   }
   end_call();
   return check_status("fmi2DoStep", status);
+}
+
+/// A step may never end, so it ends with the run. No other function but the one that frees the unit
+/// is called then.
+void Fmi2Unit::cancel_step() {
+  if (fmi_.CancelStep != nullptr) {
+    write_note("fmi2CancelStep");
+    static_cast<void>(fmi_.CancelStep(instance_));
+  }
+  end_call();
+  failed_in_ = "fmi2DoStep";
+  fail(
+      fmt::format("the run was interrupted before the unit had finished its step from {} s "
+                  "(fmi2Pending); the results up to there are complete",
+                  core::to_text(*time_)));
 }
 
 /// The unit's messages are those of the step, so this call's own status is not checked.
@@ -111,13 +127,14 @@ core::StepResult Fmi2Unit::accept_termination(const core::StepInterval& interval
 core::StepResult Fmi2Unit::accept_partial_step(const core::StepInterval& interval,
                                                std::optional<Time> reached) {
   if (!reached || *reached == interval.from) {
+    const std::string hint = short_step_hint();
     fail(fmt::format("fmi2DoStep returned fmi2Discard in the step to {} s, the unit {}, and its "
                      "state was not saved, since it cannot be (canGetAndSetFMUstate){}{}",
                      core::to_text(interval.to),
                      reached ? "reports that it came no further than where the step began"
                              : "does not report how far it came (fmi2LastSuccessfulTime)",
                      rejection_reason_.empty() ? "" : "; message of the unit: ", rejection_reason_),
-         "try a smaller step, or use a unit that can save its state");
+         hint.empty() ? "try a smaller step, or use a unit that can save its state" : hint);
   }
   if (!std::exchange(has_discard_warning_, true)) {
     warn(

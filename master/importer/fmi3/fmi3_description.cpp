@@ -205,12 +205,14 @@ VariableIndex read_variables(const xml::Element& root, core::UnitDescription& un
 
 void read_co_simulation(const xml::Element& element, core::UnitDescription& unit) {
   read_capabilities(element, unit);
-  unit.has_event_mode = element.flag("hasEventMode");
-  unit.can_save_state = element.flag("canGetAndSetFMUState");
-  unit.can_serialize_state = element.flag("canSerializeFMUState");
-  unit.may_return_early = element.flag("mightReturnEarlyFromDoStep");
-  unit.provides_intermediate_update = element.flag("providesIntermediateUpdate");
-  unit.provides_directional_derivatives = element.flag("providesDirectionalDerivatives");
+  unit.has_event_mode = element.lenient_flag("hasEventMode", unit.warnings);
+  unit.can_save_state = element.lenient_flag("canGetAndSetFMUState", unit.warnings);
+  unit.can_serialize_state = element.lenient_flag("canSerializeFMUState", unit.warnings);
+  unit.may_return_early = element.lenient_flag("mightReturnEarlyFromDoStep", unit.warnings);
+  unit.provides_intermediate_update =
+      element.lenient_flag("providesIntermediateUpdate", unit.warnings);
+  unit.provides_directional_derivatives =
+      element.lenient_flag("providesDirectionalDerivatives", unit.warnings);
   unit.fixed_internal_step = read_step_size(element, "fixedInternalStepSize");
 }
 

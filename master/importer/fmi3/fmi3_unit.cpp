@@ -89,11 +89,11 @@ void Fmi3Unit::exit_configuration_mode() {
 
 void Fmi3Unit::enter_initialization(Time start, std::optional<Time> stop) {
   time_ = start;
-  set_stop(stop);
+  const double stop_seconds = set_stop(start, stop);
   const auto tolerance = parts_.description->default_tolerance;
   call_and_restore("fmi3EnterInitializationMode", fmi_.EnterInitializationMode,
                    tolerance.has_value(), tolerance.value_or(0), to_seconds(start),
-                   stop.has_value(), to_seconds(stop.value_or(Time{})));
+                   stop.has_value(), stop_seconds);
 }
 
 void Fmi3Unit::exit_initialization() {

@@ -12,7 +12,7 @@ namespace {
 
 std::string find_error(const Scratch& scratch, const std::string& version) {
   return input_error([&] {
-    importer::find_library(scratch.path(), version, "tank", {"system.ssd", 4});
+    importer::find_library(scratch.path(), version, "tank", {.where = {"system.ssd", 4}});
   });
 }
 
@@ -101,4 +101,22 @@ TEST_CASE("the folder of this platform may be written in another case") {
   const importer::FoundLibrary found = importer::find_library(scratch.path(), "2.0", "tank");
   CHECK(found.path == scratch / path);
   CHECK_THAT(found.warning, Contains("its library is '" + path + "'"));
+}
+
+TEST_CASE("the folder of the libraries may be in another one, with a warning") {
+  const Scratch scratch;
+  const std::string path = std::string("x/binaries/") + importer::platform() + "/tank.so";
+  scratch.write(path, "");
+  const importer::FoundLibrary found = importer::find_library(scratch.path(), "3.0", "tank");
+  CHECK(found.path == scratch / path);
+  CHECK_THAT(found.warning, Contains("its library is '" + path + "'"));
+}
+
+TEST_CASE("the error of a missing library names the component, or else the model") {
+  const Scratch scratch;
+  const auto error = [&](const core::Context& user) {
+    return input_error([&] { importer::find_library(scratch.path(), "3.0", "tank", user); });
+  };
+  CHECK_THAT(error({.unit = "left"}), Contains("unit 'left': "));
+  CHECK_THAT(error({}), Contains("unit 'tank': "));
 }

@@ -37,7 +37,7 @@ TEST_CASE("an FMU without binaries for this platform can still be inspected") {
   const auto fmu = Fmu::load(scratch / "unit", {"system.ssd", 12});
   CHECK(fmu->description()->model_identifier == "tank");
   CHECK_THAT(input_error([&] { fmu->instantiate("unit"); }),
-             Contains("system.ssd:12: unit 'tank': ") && Contains("it has x86_64-windows"));
+             Contains("system.ssd:12: unit 'unit': ") && Contains("it has x86_64-windows"));
 }
 
 TEST_CASE("an instance keeps the FMU and its unpacked files alive") {

@@ -22,6 +22,9 @@ TEST_CASE("an FMU has a description at its top") {
              Contains("no modelDescription.xml"));
   CHECK_THAT(unpack_error(make_zip(scratch / "nested.fmu", {{"top/modelDescription.xml", "x"}})),
              Contains("it is in the folder 'top'"));
+  const fs::path shown = "p.ssp/unit.fmu";
+  CHECK_THAT(input_error([&] { importer::UnpackedFmu(scratch / "other.fmu", {}, shown); }),
+             Contains("'p.ssp/unit.fmu' has no modelDescription.xml"));
   const std::string text =
       unpack_error(scratch.write("text.fmu", "This is not an archive at all."));
   CHECK_THAT(text, Contains("system.ssd:7: ") && Contains("hint: expected an FMU"));

@@ -92,6 +92,7 @@ EXPORT double fmi2_step_begin = 0;
 EXPORT double fmi2_step_size = 0;
 EXPORT fmi2Boolean fmi2_no_restore = fmi2False;
 EXPORT double fmi2_tolerance = 0;
+EXPORT double fmi2_stop_time = 0;
 EXPORT fmi2CallbackFunctions fmi2_callbacks; /* of the last instance */
 
 #define LOG(unit, status, ...)                                                              \
@@ -156,12 +157,12 @@ EXPORT void fmi2FreeInstance(fmi2Component c) {
 EXPORT fmi2Status fmi2SetupExperiment(fmi2Component c, fmi2Boolean tolerance_defined,
                                       fmi2Real tolerance, fmi2Real start, fmi2Boolean stop_defined,
                                       fmi2Real stop) {
-  (void)stop_defined, (void)stop;
   ALLOW("fmi2SetupExperiment", unit->mode == kInstantiated)
   memset(&unit->model, 0, sizeof unit->model);
   unit_start(unit); /* as the units of some tools do: what was set before is lost */
   unit->model.time = start;
   fmi2_tolerance = tolerance_defined ? tolerance : 0;
+  fmi2_stop_time = stop_defined ? stop : 1e300;
   return fmi2OK;
 }
 EXPORT fmi2Status fmi2EnterInitializationMode(fmi2Component c) {

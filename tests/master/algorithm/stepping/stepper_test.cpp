@@ -276,6 +276,16 @@ TEST_CASE("a unit of one step size that rejects is blamed itself") {
                                            Contains("one size only"));
 }
 
+TEST_CASE("the error of a unit that rejects the shortened last step has the way out") {
+  ScriptedSystem f;
+  auto& whole = f.add("whole", integrator().can_save_state().done());
+  whole.on_step = [](ScriptedUnit&, Time from, Time to) {
+    return to - from < Duration(1ms) ? StepResult{.rejected = true, .reached = from} : reached(to);
+  };
+  CHECK_THAT(failure(f.build(0.0035, 1ms)),
+             Contains("unit 'whole', at 0.003 s") && Contains("(--stop 0.003)"));
+}
+
 TEST_CASE("a rejection that a unit of one step size cannot follow is an error") {
   ScriptedSystem f;
   f.add("rigid", Describe("rigid").fixed_step().can_save_state().done());

@@ -3,6 +3,7 @@
 #include <dlfcn.h>
 
 #include "master/importer/fmu.h"
+#include "master/importer/unpacked_fmu.h"
 #include "tests/at.h"
 #include "tests/master/importer/support.h"
 
@@ -184,4 +185,21 @@ TEST_CASE("an FMI 1.0 unit that is reset is as new") {
   CHECK(tank.level() == 0);
   CHECK(tank->step({{}, at(0.25)}).reached == at(0.25));
   CHECK(tank.level() == 0.25);
+}
+
+TEST_CASE("functions of FMI 1.0 are named by the library, if its description differs") {
+  const Scratch scratch;
+  fs::copy(importer::UnpackedFmu(test_fmu("fmi1_tank")).folder(), scratch / "unit",
+           fs::copy_options::recursive);
+  std::string text = read(scratch / "unit/modelDescription.xml");
+  const std::string own = "modelIdentifier=\"fmi1_tank\"";
+  REQUIRE(text.find(own) != text.npos);
+  text.replace(text.find(own), own.size(), "modelIdentifier=\"FMI1_Tank\"");
+  scratch.write("unit/modelDescription.xml", text);
+  std::vector<std::string> messages;
+  importer::InstanceOptions options;
+  options.log = [&](const auto&, auto, const auto&, const auto& text) { messages.push_back(text); };
+  CHECK(make_unit(importer::Fmu::load(scratch / "unit"), "tank", std::move(options)) != nullptr);
+  REQUIRE(messages.size() == 1);
+  CHECK_THAT(messages[0], Contains("its library is") && Contains("expected"));
 }

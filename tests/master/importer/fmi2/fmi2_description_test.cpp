@@ -246,8 +246,8 @@ TEST_CASE("a start value of FMI 2.0 is of the variable's type") {
       {"start=\"0.5\"", "start=\"abc\"",
        "'inflow[1]': 'abc' is not a value for it, expected a Float64"},
       {"start=\"0.5\"", "start=\"1 2\"", "'inflow[1]' has 2 elements, the variable has 1"},
-      {"start=\"true\"", "start=\"yes\"",
-       "'on': 'yes' is not a value for it, expected true or false"},
+      {"start=\"true\"", "start=\"2.5\"",
+       "'on': '2.5' is not a value for it, expected true or false"},
       {"start=\"7\"", "start=\"on\"", "'mode': 'on' is not a value for it"},
       {"<Integer/>", "<Integer start=\"99999999999\"/>", "'count': "},
   }));

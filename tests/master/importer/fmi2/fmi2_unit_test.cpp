@@ -1,6 +1,7 @@
 #include "master/importer/fmi2/fmi2_unit.h"
 
 #include <cmath>
+#include <csignal>
 
 #include <dlfcn.h>
 
@@ -445,6 +446,16 @@ TEST_CASE("a step that takes long is logged once, with the unit's own text", "[h
   CHECK_THAT(told[0],
              Contains("has not finished its step from 0 s yet (fmi2Pending); message of the unit: "
                       "asleep; stride waits for it"));
+}
+
+TEST_CASE("a step that is pending ends when the run is interrupted", "[here]") {
+  volatile std::sig_atomic_t interrupted = 0;
+  Fmi2Fixture unit("fmi2_sleeper", {.interrupted = &interrupted, .warn_after = 0ms, .log = {}});
+  unit.set_number("how", 2);
+  unit.start();
+  interrupted = 1;
+  CHECK_THAT(run_error([&] { unit.step({}, Time(1s)); }),
+             Contains("interrupted before the unit had finished its step from 0 s"));
 }
 
 // ---- Inputs within a step ----
