@@ -368,6 +368,7 @@ TEST_CASE("a run that is killed with what watches it is not taken for one that h
   const Workspace workspace = workspace_for({3, false}, kStep);
   REQUIRE(workspace.run({"--quiet", "--step", "0.125"}).exit_code == 0);
   REQUIRE(run_json(workspace)["outcome"] == "completed");
+  fs::remove(workspace / "out/signals.csv");
   Process process(stride_command(Workspace::run_arguments({"--stop", "1e6", "--no-trace"})),
                   workspace.scratch().path());
   await_first_results(process, workspace);

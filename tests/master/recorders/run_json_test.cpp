@@ -94,13 +94,13 @@ TEST_CASE("run.json has what was run and how far the run came") {
     }
   ],
   "checks": [],
+  "threads": 4,
+  "recorded_signals": 2,
   "reached": 14.2,
   "communication_steps": 14200,
   "undone_steps": 0,
   "event_iterations": 3,
-  "threads": 4,
   "parallel_steps": 14000,
-  "recorded_signals": 2,
   "wall_time": 0.25,
   "phases": {
     "initialization": 0.01,
