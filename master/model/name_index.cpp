@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "master/util/composed_letters.h"
+
 namespace stride::core {
 namespace {
 
@@ -33,8 +35,10 @@ std::optional<std::size_t> NameIndex::component(const std::string& name) const {
 }
 
 std::optional<std::size_t> NameIndex::variable(std::size_t component, std::string_view name) const {
-  const auto found = variables_[component]->find(name);
-  if (found == variables_[component]->end()) return std::nullopt;
+  const Variables& variables = *variables_[component];
+  auto found = variables.find(name);
+  if (found == variables.end()) found = variables.find(composed(name));
+  if (found == variables.end()) return std::nullopt;
   return found->second;
 }
 

@@ -24,7 +24,8 @@ class NameIndex {
   /// The number of the component, counted from 0.
   std::optional<std::size_t> component(const std::string& name) const;
   /// The index of the component's variable with this name or alias, as UnitDescription::find() has
-  /// it.
+  /// it. A name with marks behind its letters is also that with letters that have marks: see
+  /// composed().
   std::optional<std::size_t> variable(std::size_t component, std::string_view name) const;
 
  private:

@@ -53,3 +53,10 @@ TEST_CASE("a copy of the index is independent of it") {
   }
   CHECK(copy.variable(0, "x") == 0);
 }
+
+TEST_CASE("a name is found in another form of its letters, too") {
+  NameIndex names;
+  names.add("a", described({variable("Gr\u00F6\u00DFe")}));
+  CHECK(names.variable(0, "Gro\u0308\u00DFe") == 0);
+  CHECK_FALSE(names.variable(0, "Gra\u0308\u00DFe"));
+}

@@ -84,6 +84,27 @@ TEST_CASE("a valid system is built, with conversions") {
   CHECK(element_text(system.start_values()[0].value, 0) == "3.5");
 }
 
+TEST_CASE("a connector of SSP 1.0 for a variable of another kind is a warning") {
+  const auto warnings = [](const std::string& name, ValueType kin) {
+    SystemDeclaration declared = declaration();
+    ConnectorDeclaration connector;
+    connector.name = name;
+    connector.where = {"s.ssd", 5};
+    connector.kin = kin;
+    declared.components[0].connectors = {connector};
+    return System(declared).warnings();
+  };
+  CHECK(warnings("y", ValueType::Float64).empty());
+  CHECK(warnings("short", ValueType::Float64).empty());
+  CHECK(warnings("n", ValueType::Int32).empty());
+  for (const auto& [name, kin] : {std::pair("y", ValueType::Int32), {"n", ValueType::Float64}}) {
+    REQUIRE(warnings(name, kin).size() == 1);
+    CHECK_THAT(warnings(name, kin)[0], Contains("s.ssd:5: unit 'alpha'") &&
+                                           Contains("the connector has") &&
+                                           Contains("the unit has"));
+  }
+}
+
 TEST_CASE("names that do not exist are named with the nearest that does") {
   CHECK_THAT(
       reason({{"alpa", "y", "beta", "u", false, {"s.ssd", 9}}}),

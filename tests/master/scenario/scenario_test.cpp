@@ -108,7 +108,10 @@ TEST_CASE("In SSP 1.0, Real and Integer have no width") {
   CHECK(connectors[0].type == std::nullopt);
   CHECK(connectors[0].unit.name == "m");
   CHECK(connectors[1].type == std::nullopt);
+  CHECK(connectors[0].kin == ValueType::Float64);
+  CHECK(connectors[1].kin == ValueType::Int32);
   CHECK(connectors[2].type == ValueType::Boolean);
+  CHECK(connectors[2].kin == std::nullopt);
 }
 
 TEST_CASE("The prefixes of namespaces are free") {

@@ -257,6 +257,17 @@ TEST_CASE("a start value of FMI 2.0 is of the variable's type") {
              Contains("unit.xml:") && Contains("the start value of " + message));
 }
 
+TEST_CASE("a capability that is True, as some tools write, is taken with a warning") {
+  std::string text = kTank;
+  const std::string own = "canHandleVariableCommunicationStepSize=\"true\"";
+  REQUIRE(text.find(own) != std::string::npos);
+  text.replace(text.find(own), own.size(), "canHandleVariableCommunicationStepSize=\"True\"");
+  const auto unit = importer::parse_model_description(text, "unit.xml");
+  CHECK(unit.can_vary_step);
+  REQUIRE(unit.warnings.size() == 1);
+  CHECK_THAT(unit.warnings[0], Contains("unit.xml:") && Contains("is taken for true"));
+}
+
 TEST_CASE("start values as other tools write them are taken, with a warning") {
   std::string text = kTank;
   const std::string switched = "<Boolean declaredType=\"Switch\" start=\"true\"/>";
