@@ -92,8 +92,7 @@ Renderer::~Renderer() {
   }
 }
 
-const Picture& Renderer::draw(const mjModel& model, mjData& data,
-                              const std::vector<int>& shining) {
+const Picture& Renderer::draw(const mjModel& model, mjData& data, const std::vector<int>& shining) {
   guarded([&] {
     mjv_updateScene(&model, &data, &options_, nullptr, &camera_, mjCAT_ALL, &scene_);
     light_up(shining);

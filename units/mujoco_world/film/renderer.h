@@ -36,9 +36,9 @@ class Renderer {
   Renderer(const Renderer&) = delete;
   Renderer& operator=(const Renderer&) = delete;
 
-  /// `data` has the poses of all that is to be seen (World::drawn()), `shining` the ids of the geoms
-  /// that emit light of their own colour (World::shining()); the picture is valid until the next
-  /// call. Throws std::runtime_error if OpenGL fails.
+  /// `data` has the poses of all that is to be seen (World::drawn()), `shining` the ids of the
+  /// geoms that emit light of their own colour (World::shining()); the picture is valid until the
+  /// next call. Throws std::runtime_error if OpenGL fails.
   const Picture& draw(const mjModel& model, mjData& data, const std::vector<int>& shining = {});
 
  private:
