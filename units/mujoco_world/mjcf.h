@@ -28,7 +28,7 @@ using ModelPointer = std::unique_ptr<mjModel, DeleteModel>;
 /// Robotics and Automation 12(3), 1996).
 struct DriveRipple {
   double amplitude;  ///< [rad] or [m]
-  double cycles;     ///< in a unit of the joint's position times 2 pi
+  double cycles;     ///< in 2 pi of the joint's position: in a turn of a hinge
   int position;      ///< of the joint, index into qpos
 };
 

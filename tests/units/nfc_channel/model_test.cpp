@@ -114,6 +114,30 @@ TEST_CASE(
   CHECK_FALSE(pass_down(channel, request()).has_value());
 }
 
+TEST_CASE("The README's figures are those of the default tag") {
+  Channel channel;
+  const auto field_with = [&](double voltage) {
+    double distance = 0.01;
+    do {
+      approach(channel, distance += 1e-5);
+    } while (channel.link().tag_voltage > voltage);
+    return channel.link().field_strength;
+  };
+  CHECK(field_with(53.0) == Approx(4.5).epsilon(0.01));
+  CHECK(field_with(3.6) == Approx(0.28).epsilon(0.01));  // 3 V behind a rectifier that takes 0.6 V
+  CHECK(field_with(5.6) == Approx(0.44).epsilon(0.01));  // 5 V
+
+  const Parameters p;
+  const Circuit circuit(ReaderAntenna(p.reader.coil, 0.0), p.tags[0].coil, p.tags[0].chip);
+  const auto in_chip = [&](double distance) {
+    const double mutual =
+        mutual_inductance(p.reader.coil, Pose{}, p.tags[0].coil, facing(distance));
+    return circuit.in_chip(circuit.operate(mutual, 0.5));
+  };
+  CHECK(in_chip(0.0292) == Approx(7.5e-3).epsilon(0.01));  // 4.5 A/m
+  CHECK(in_chip(0.02) == Approx(12e-3).epsilon(0.03));
+}
+
 TEST_CASE("The antenna's voltage is that of its flux, raised by its quality") {
   // U0 = omega mu0 N A H Q: Finkenzeller, sect. 4.1.7
   Channel channel;

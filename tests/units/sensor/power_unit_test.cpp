@@ -183,6 +183,34 @@ TEST_CASE("a field power that is no power is an error") {
   CHECK_THROWS_WITH(bench.run(ms(1)), Catch::Matchers::Contains("field_power"));
 }
 
+TEST_CASE("the README's figures are those of the default sensor") {
+  Bench empty{SensorParameters()};
+  empty.field(5e-3);
+  empty.run(ms(490));
+  CHECK_FALSE(empty.powered());
+  empty.run(ms(540));
+  CHECK(empty.powered());
+  empty.run(ms(900));
+  CHECK(empty.voltage() > 4.9);
+
+  SensorParameters full;
+  full.power.initial_voltage = 5.0;
+  Bench sleeping(full);
+  sleeping.field(0);
+  sleeping.run(ms(110'000));
+  CHECK(sleeping.powered());
+  sleeping.run(ms(140'000));
+  CHECK_FALSE(sleeping.powered());
+
+  Bench lit(full);
+  lit.ask({0x03, 1}, ms(5));
+  CHECK(lit.led());
+  lit.run(ms(250));
+  CHECK(lit.led());
+  lit.run(ms(350));
+  CHECK_FALSE(lit.led());
+}
+
 TEST_CASE("the rates are the slopes") {
   for (const double field : {0.0, 0.19e-3, 0.5e-3, 8e-3, 80e-3}) {
     SensorParameters parameters;
