@@ -28,7 +28,7 @@ STATES = {"carrier": ("carrier", "reader.carrier_power [W]"), "powered": ("senso
 FATES = {"received": ("received", "#2f855a"), "rejected": ("with wrong bits", "#c53030"),
          "no power": ("no power to receive it", "#dd6b20"), "not heard": ("not heard", "#a0aec0")}
 # instants of the table: from, to
-MARKS = [(6.1, 9.0), (14.2, 14.2), (15.05, 15.05), (20.9, 21.16), (24.0, 24.1), (25.0, 30.0)]
+MARKS = [(6.1, 9.0), (14.2, 14.2), (15.05, 15.05), (20.9, 21.5), (24.0, 24.1), (25.0, 30.0)]
 
 
 def read(folder):

@@ -84,7 +84,7 @@ TEST_CASE("six messages are sent, five are received, one of them wrongly, three 
 
 TEST_CASE("the arm approaches, waits near the sensor, and withdraws") {
   CHECK(at("0", "channel.distance [m]") == Approx(0.4).margin(0.001));
-  CHECK(at("6", "channel.distance [m]") == Approx(0.2).margin(0.001));
+  CHECK(at("6", "channel.distance [m]") == Approx(0.124).margin(0.001));
   CHECK(at("17", "channel.distance [m]") == Approx(0.05).margin(0.001));
   const Extremes near = between("21", "25", "channel.distance [m]");
   CHECK(near.least > 0.0245);
@@ -94,8 +94,9 @@ TEST_CASE("the arm approaches, waits near the sensor, and withdraws") {
 
 TEST_CASE("the first two messages find the sensor too far away, though it is powered") {
   CHECK(between("6.2", "8.9", "reader.carrier_power [W]").least > 0);
-  CHECK(between("6.2", "8.9", "channel.distance [m]").least > 0.12);
-  CHECK(between("6.2", "8.9", "channel.tag_power [W]").most < 1e-5);
+  CHECK(between("6.2", "8.9", "channel.distance [m]").least > 0.08);
+  CHECK(at("6.5", "channel.tag_voltage [V]") < 3.6);  // for the demodulator
+  CHECK(at("8", "channel.tag_voltage [V]") > 3.6);
   CHECK(between("6.2", "8.9", "sensor.mcu.powered").least == 1);
   CHECK(at("7.9", "sensor.frames.rejected") == 0);
   CHECK(at("8.1", "sensor.frames.rejected") == 1);
@@ -106,37 +107,38 @@ TEST_CASE("the first two messages find the sensor too far away, though it is pow
 TEST_CASE("the LED empties the capacitor, so the fourth message is not answered") {
   CHECK(at("14.2", "sensor.led") == 0);
   CHECK(at("14.201", "sensor.led") == 1);
-  CHECK(at("14.201", "sensor.energy.load [W]") > 10 * at("14.201", "sensor.energy.intake [W]"));
+  CHECK(at("14.201", "sensor.energy.load [W]") > 3 * at("14.201", "sensor.energy.intake [W]"));
   CHECK(at("14.2", "sensor.capacitor.voltage [V]") > 3);
   CHECK(at("14.2", "sensor.mcu.powered") == 1);
   CHECK(between("14.2", "15.05", "sensor.capacitor.voltage [V]").least < 2);
   CHECK(at("15.05", "sensor.mcu.powered") == 0);
   CHECK(at("15.05", "sensor.led") == 0);
-  CHECK(between("14.5", "20.8", "sensor.mcu.powered").most == 0);
+  CHECK(between("14.9", "20.8", "sensor.mcu.powered").most == 0);
 }
 
 TEST_CASE(
     "in the field the supply jumps to its maximum, if the field gives more than the sensor takes") {
   const std::string supply = "sensor.supply.voltage [V]";
-  CHECK(at("13.899", supply) < 3);
+  CHECK(at("13.899", supply) < 3.3);
   CHECK(at("13.9", supply) == 5);
   CHECK(at("15.499", supply) == 5);
   CHECK(at("15.5", supply) < 2.6);
   CHECK(at("20.9", supply) == 5);
   CHECK(between("21.2", "27", supply).least > 4.9);
-  // a microwatt does not do
-  CHECK(between("6.1", "9", "sensor.energy.intake [W]").most <
-        between("6.1", "9", "sensor.energy.load [W]").least);
-  CHECK(between("6.1", "9", supply).most < 3.2);
+  // too little voltage feeds the sensor, and charges nothing
+  CHECK(between("6.1", "9", supply).most < 5);
+  CHECK(between("6.1", "9", "sensor.energy.intake [W]").most ==
+        Approx(between("6.1", "9", "sensor.energy.load [W]").most));
 }
 
 TEST_CASE("the charge rises in such a field, and falls slowly elsewhere") {
   const std::string charge = "sensor.capacitor.charge [C]";
   CHECK(at("14.1", charge) > 1.02 * at("13.9", charge));
-  CHECK(at("15.4", charge) > 1.2 * at("14.4", charge));
-  CHECK(at("21.1", charge) > 1.7 * at("20.9", charge));
-  for (const auto& [from, to] : {std::pair("0.1", "6"), std::pair("9", "13.8"),
-                                 std::pair("15.6", "20.8"), std::pair("28", "30")}) {
+  CHECK(at("15.4", charge) > 1.15 * at("14.9", charge));
+  CHECK(at("21.3", charge) > 1.7 * at("20.9", charge));
+  for (const auto& [from, to] :
+       {std::pair("0.1", "6"), std::pair("6.1", "9"), std::pair("9", "13.8"),
+        std::pair("15.6", "20.8"), std::pair("28", "30")}) {
     INFO(from << " to " << to << " s");
     CHECK(at(to, charge) < at(from, charge));
     CHECK(at(to, charge) > 0.95 * at(from, charge));
@@ -145,13 +147,27 @@ TEST_CASE("the charge rises in such a field, and falls slowly elsewhere") {
 
 TEST_CASE("at 21 s there is more energy than ever before") {
   const std::string intake = "sensor.energy.intake [W]";
-  CHECK(between("20.94", "21.1", intake).least > 10 * between("0", "20.8", intake).most);
+  CHECK(between("21", "21.1", intake).least > 5 * between("0", "20.8", intake).most);
+}
+
+TEST_CASE("the intake fluctuates while the arm approaches, for the arm trembles") {
+  const Csv& signals = run().signals();
+  const std::vector<double> times = signals.numbers("time");
+  const std::vector<double> intake = signals.numbers("sensor.energy.intake [W]");
+  int turns = 0;
+  for (std::size_t i = 20; i < times.size(); i += 10) {
+    if (times[i] < 8 || times[i] > 9) continue;
+    const double before = intake[i - 10] - intake[i - 20];
+    const double after = intake[i] - intake[i - 10];
+    turns += static_cast<int>(before * after < 0);
+  }
+  CHECK(turns > 8);
 }
 
 TEST_CASE("near the reader the capacitor charges, and two messages are answered") {
   CHECK(at("20.8", "sensor.mcu.powered") == 0);
   CHECK(at("21", "sensor.mcu.powered") == 1);
-  CHECK(at("21.1", "sensor.capacitor.voltage [V]") >
+  CHECK(at("21.2", "sensor.capacitor.voltage [V]") >
         at("21", "sensor.capacitor.voltage [V]") + 0.5);
   CHECK(between("22", "25", "sensor.capacitor.voltage [V]").least > 4.9);
   CHECK(at("24.002", "reader.messages.answered") == 2);

@@ -82,7 +82,7 @@ TEST_CASE(
 
 TEST_CASE("with a carrier of its own the NFC sensor answers over a packet radio") {
   const ScenarioRun run("nfc_far", {"--no-trace", "--no-checks", "--swap", "channel=rf_channel.fmu",
-                                    "--set", "sensor.transceiver.carrier_threshold=0"});
+                                    "--set", "sensor.transceiver.carrier_voltage=0"});
   CHECK(run.at("10", "reader.messages.answered") == 3);
   CHECK(run.at("10", "reader.messages.retries") == 0);
 }

@@ -18,8 +18,8 @@ struct Link {
   double distance = 0.0;        ///< between the antennas' centres [m]
   double coupling = 0.0;        ///< 0 to 1; the technology defines it
   double field_strength = 0.0;  ///< magnetic, of the reader at the tag, effective [A/m]
-  double tag_voltage = 0.0;     ///< amplitude at the tag [V]
-  double tag_power = 0.0;       ///< delivered to the tag's load [W]
+  double tag_voltage = 0.0;     ///< amplitude at the tag, without load [V]
+  double tag_power = 0.0;       ///< that the tag's antenna can deliver at most [W]
   Signals signals;
   double snr_down = 0.0;  ///< linear
   double snr_up = 0.0;

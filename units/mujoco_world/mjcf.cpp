@@ -101,6 +101,24 @@ std::optional<std::pair<double, double>> control_range(const mjModel& model, int
   return std::pair(range[0], range[1]);
 }
 
+/// Of an actuator on a hinge or slide joint, the index of its position in qpos.
+std::optional<int> driven_position(const mjModel& model, int actuator) {
+  if (model.actuator_trntype[actuator] != mjTRN_JOINT) return std::nullopt;
+  const int joint = model.actuator_trnid[2 * actuator];
+  const int type = model.jnt_type[joint];
+  if (type != mjJNT_HINGE && type != mjJNT_SLIDE) return std::nullopt;
+  return model.jnt_qposadr[joint];
+}
+
+std::optional<DriveRipple> drive_ripple(const mjModel& model, int actuator) {
+  const std::string name = kDriveRipple + name_of(model, mjOBJ_ACTUATOR, actuator);
+  const int id = mj_name2id(&model, mjOBJ_NUMERIC, name.c_str());
+  const auto position = driven_position(model, actuator);
+  if (id < 0 || !position || model.numeric_size[id] != 2) return std::nullopt;
+  const double* data = model.numeric_data + model.numeric_adr[id];
+  return DriveRipple{data[0], data[1], *position};
+}
+
 std::vector<Actuator> list_actuators(const mjModel& model) {
   std::vector<Actuator> list;
   for (int i = 0; i < api::actuator_count(&model); ++i) {
@@ -109,8 +127,9 @@ std::vector<Actuator> list_actuators(const mjModel& model) {
     const int count = api::control_count(&model, i);
     const std::string unit = count == 1 ? control_unit(model, i) : "";
     for (int k = 0; k < count; ++k) {
-      list.push_back(
-          {name, unit, i, first + k, count == 1 ? 0 : k + 1, control_range(model, first + k)});
+      list.push_back({name, unit, i, first + k, count == 1 ? 0 : k + 1,
+                      control_range(model, first + k),
+                      count == 1 ? drive_ripple(model, i) : std::nullopt});
     }
   }
   return list;
@@ -173,6 +192,20 @@ void check_lamps(const mjModel& model, const fs::path& file) {
     if (mj_name2id(&model, mjOBJ_GEOM, name.c_str()) >= 0) continue;
     throw std::runtime_error("'" + file.string() + "' has no geom '" + name +
                              "', which its <text name=\"" + kLamps + "\"> lists");
+  }
+}
+
+void check_drive_ripples(const mjModel& model, const fs::path& file) {
+  const std::string prefix = kDriveRipple;
+  for (int i = 0; i < model.nnumeric; ++i) {
+    const std::string name = name_of(model, mjOBJ_NUMERIC, i);
+    if (name.rfind(prefix, 0) != 0) continue;
+    const int actuator = mj_name2id(&model, mjOBJ_ACTUATOR, name.substr(prefix.size()).c_str());
+    if (actuator >= 0 && drive_ripple(model, actuator)) continue;
+    throw std::runtime_error(
+        "'" + file.string() + "': <numeric name=\"" + name +
+        "\">: expected an amplitude and a number of cycles, and the name of an "
+        "actuator on a hinge or slide joint after the point");
   }
 }
 
@@ -255,6 +288,7 @@ ModelPointer load_model(const fs::path& file) {
   switch_off_irreproducible(*model, file);
   check_required_sites(*model, file);
   check_lamps(*model, file);
+  check_drive_ripples(*model, file);
   return model;
 }
 

@@ -18,6 +18,20 @@ struct DeleteModel {
 };
 using ModelPointer = std::unique_ptr<mjModel, DeleteModel>;
 
+/// A drive does not pull evenly: `amplitude` sin(`cycles` q) is added to its command, q the joint's
+/// angle. For a position servo of the stiffness kp this is a torque of kp times the amplitude. The
+/// cogging torque of a motor has as many periods in a turn as the least common multiple of its
+/// slots and poles (Zhu, Howe, "Influence of design parameters on cogging torque in permanent
+/// magnet machines", IEEE Trans. Energy Conversion 15(4), 2000), times the gear's ratio in one of
+/// the joint; a harmonic drive's transmission error has two in a turn of its wave generator
+/// (Tuttle, Seering, "A nonlinear model of a harmonic drive gear transmission", IEEE Trans.
+/// Robotics and Automation 12(3), 1996).
+struct DriveRipple {
+  double amplitude;  ///< [rad] or [m]
+  double cycles;     ///< in 2 pi of the joint's position: in a turn of a hinge
+  int position;      ///< of the joint, index into qpos
+};
+
 /// One scalar control. An actuator with several controls (MuJoCo 3 only) is listed once for each.
 struct Actuator {
   std::string name;
@@ -26,6 +40,7 @@ struct Actuator {
   int control;       ///< index into ctrl
   int element;       ///< 1, 2 ... if the actuator has several controls, else 0
   std::optional<std::pair<double, double>> range;  ///< to which MuJoCo clamps the control
+  std::optional<DriveRipple> ripple;               ///< that is added to the control
 };
 
 /// A hinge or slide joint.
@@ -76,10 +91,15 @@ inline constexpr const char* kRequiredSites = "required_sites";
 /// The geoms that can shine, in a <custom><text name="lamps" data="..."/>, likewise.
 inline constexpr const char* kLamps = "lamps";
 
+/// The ripple of the actuator NAME: <custom><numeric name="drive_ripple.NAME"
+/// data="amplitude cycles"/></custom>. It has a single control and a hinge or slide joint.
+inline constexpr const char* kDriveRipple = "drive_ripple.";
+
 /// Compiles an MJCF file. Throws std::runtime_error with the file and MuJoCo's message, or with the
-/// site that is required and missing, and those that there are, or with the lamp that is no geom.
-/// Features that would make the world irreproducible are switched off: noise on sensors (MuJoCo 2),
-/// sleeping bodies (MuJoCo 3). A warning reports that (hooks.h).
+/// site that is required and missing, and those that there are, or with the lamp that is no geom,
+/// or the transmission error that has no such actuator or not two numbers. Features that would make
+/// the world irreproducible are switched off: noise on sensors (MuJoCo 2), sleeping bodies (MuJoCo
+/// 3). A warning reports that (hooks.h).
 ModelPointer load_model(const std::filesystem::path& file);
 
 Catalogue list(const mjModel& model);

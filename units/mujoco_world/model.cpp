@@ -81,6 +81,7 @@ World::World(const std::filesystem::path& folder)
   grid_data_ = make_data();
   instant_data_ = make_data();
   inputs_.resize(catalogue_.actuators.size());
+  taken_.resize(inputs_.size());
   lamps_.resize(catalogue_.lamps.size());
   scratch_.resize(api::state_size(model_.get(), grid_data_.get()));
   reset(Time{});
@@ -103,6 +104,7 @@ void World::reset(Time start) {
   for (std::size_t i = 0; i < inputs_.size(); ++i) {
     inputs_[i] = data->ctrl[catalogue_.actuators[i].control];
   }
+  taken_ = inputs_;
   std::fill(lamps_.begin(), lamps_.end(), 0.0);
   failed_ = false;
   resting_ = false;
@@ -147,7 +149,12 @@ void World::advance(Time to) {
 
 void World::take_inputs() {
   for (std::size_t i = 0; i < inputs_.size(); ++i) {
-    grid_data_->ctrl[catalogue_.actuators[i].control] = inputs_[i];
+    const Actuator& actuator = catalogue_.actuators[i];
+    double& control = grid_data_->ctrl[actuator.control];
+    control = taken_[i] = inputs_[i];
+    if (const auto& ripple = actuator.ripple) {
+      control += ripple->amplitude * std::sin(ripple->cycles * grid_data_->qpos[ripple->position]);
+    }
   }
 }
 
@@ -276,12 +283,13 @@ double World::sensor(std::size_t sensor, int element) const {
 
 std::size_t World::state_size() const {
   const std::size_t rest = rest_settings_ ? kRest + rest_detector_.state_size() : 0;
-  return scratch_.size() + inputs_.size() + lamps_.size() + kTimes + rest;
+  return scratch_.size() + 2 * inputs_.size() + lamps_.size() + kTimes + rest;
 }
 
 void World::save(double* block) const {
   api::get_state(model_.get(), grid_data_.get(), block);
   block = std::copy(inputs_.begin(), inputs_.end(), block + scratch_.size());
+  block = std::copy(taken_.begin(), taken_.end(), block);
   block = std::copy(lamps_.begin(), lamps_.end(), block);
   put_time(block++, grid_);
   put_time(block++, now_);
@@ -298,6 +306,8 @@ void World::restore(const double* block) {
   block += scratch_.size();
   std::copy_n(block, inputs_.size(), inputs_.begin());
   block += inputs_.size();
+  std::copy_n(block, taken_.size(), taken_.begin());
+  block += taken_.size();
   std::copy_n(block, lamps_.size(), lamps_.begin());
   block += lamps_.size();
   const double* times = block;

@@ -38,6 +38,9 @@ struct RestSettings {
 /// one: pose along the velocity, velocity held. So outputs depend on the instant and on past inputs
 /// alone, and an input never shows in an output of the same instant.
 ///
+/// A drive's ripple (DriveRipple) is added to an actuator's input where it is taken, by the joint's
+/// position there.
+///
 /// The model's timestep is rounded to whole picoseconds. If the MJCF has a keyframe called `start`,
 /// the world begins there (its ctrl are the inputs' start values), else in the model's reference
 /// pose.
@@ -138,6 +141,7 @@ class World {
   DataPointer grid_data_;     // the state at the grid point grid_
   DataPointer instant_data_;  // scratch: what is seen at now_
   std::vector<double> inputs_;
+  std::vector<double> taken_;  // of these, at the last grid point
   std::vector<double> lamps_;  // 1 for one that shines
   stride::Time grid_{};
   stride::Time now_{};

@@ -50,12 +50,7 @@ void World::forbid_rest() {
   rest_settings_.reset();
 }
 
-bool World::keeps_inputs() const {
-  for (std::size_t i = 0; i < inputs_.size(); ++i) {
-    if (inputs_[i] != grid_data_->ctrl[catalogue_.actuators[i].control]) return false;
-  }
-  return true;
-}
+bool World::keeps_inputs() const { return inputs_ == taken_; }
 
 /// At a grid point that was just integrated to. The accelerations, the sensors and the contacts are
 /// those of the grid point before it.

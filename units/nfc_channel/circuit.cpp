@@ -11,13 +11,13 @@ constexpr double kOmega = kCarrierAngularFrequency;
 constexpr Complex kJ{0.0, 1.0};
 
 // What the tag's coil looks like from the chip: a current source with an inner admittance.
-struct Source {
+struct CurrentSource {
   Complex current;
   Complex admittance;
 };
 
-Source seen_from_chip(double mutual, Complex reader_impedance, Complex coil_impedance,
-                      Complex source_voltage) {
+CurrentSource seen_from_chip(double mutual, Complex reader_impedance, Complex coil_impedance,
+                             Complex source_voltage) {
   const Complex reactance = kJ * kOmega * mutual;
   const Complex impedance = coil_impedance - reactance * reactance / reader_impedance;
   return {reactance * source_voltage / (reader_impedance * impedance), 1.0 / impedance};
@@ -37,15 +37,15 @@ Circuit::Circuit(const ReaderAntenna& reader, const Coil& tag_coil, const TagChi
       tag_susceptance_(chip.capacitance > 0.0 ? kOmega * chip.capacitance : 1.0 / tag_reactance_),
       chip_(chip) {}
 
-Operation Circuit::solve(double mutual, Complex source_voltage, double limiter_conductance,
-                         double conductance) const {
+Operation Circuit::solve(double mutual, Complex source_voltage, double chip_conductance,
+                         double modulation_conductance) const {
   const Complex reader_impedance{2.0 * reader_.resistance, reader_.reactance};
-  const Source source =
+  const CurrentSource source =
       seen_from_chip(mutual, reader_impedance, {tag_resistance_, tag_reactance_}, source_voltage);
-  const Complex chip{conductance + limiter_conductance, tag_susceptance_};
+  const Complex chip{chip_conductance + modulation_conductance, tag_susceptance_};
   Operation operation;
   operation.source_voltage = source_voltage;
-  operation.limiter_conductance = limiter_conductance;
+  operation.chip_conductance = chip_conductance;
   operation.tag_voltage = source.current / (source.admittance + chip);
   operation.tag_current = chip * operation.tag_voltage;
   operation.reader_current =
@@ -53,25 +53,38 @@ Operation Circuit::solve(double mutual, Complex source_voltage, double limiter_c
   return operation;
 }
 
-Operation Circuit::operate(double mutual, double carrier_power, bool limited) const {
-  const Complex source_voltage = std::sqrt(8.0 * reader_.resistance * carrier_power);
-  const double load = 1.0 / chip_.load_resistance;
-  const Operation free = solve(mutual, source_voltage, 0.0, load);
-  if (!limited || std::abs(free.tag_voltage) <= chip_.voltage_limit) return free;
-
-  // |I| = limit |Y + Gs|, solved for Gs
+Circuit::Norton Circuit::antenna(double mutual, double carrier_power) const {
   const Complex reader_impedance{2.0 * reader_.resistance, reader_.reactance};
-  const Source source =
-      seen_from_chip(mutual, reader_impedance, {tag_resistance_, tag_reactance_}, source_voltage);
-  const Complex rest = source.admittance + Complex{load, tag_susceptance_};
-  const double needed = std::abs(source.current) / chip_.voltage_limit;
-  const double shunt = std::sqrt((needed - rest.imag()) * (needed + rest.imag())) - rest.real();
-  return solve(mutual, source_voltage, shunt, load);
+  const CurrentSource source = seen_from_chip(
+      mutual, reader_impedance, {tag_resistance_, tag_reactance_}, source_voltage(carrier_power));
+  return {std::abs(source.current), source.admittance + Complex{0.0, tag_susceptance_}};
+}
+
+double Circuit::source_voltage(double carrier_power) const {
+  return std::sqrt(8.0 * reader_.resistance * carrier_power);
+}
+
+Source Circuit::source(double mutual, double carrier_power) const {
+  const Norton antenna = this->antenna(mutual, carrier_power);
+  const double admittance = std::abs(antenna.admittance);
+  return {antenna.current / admittance,
+          antenna.current * antenna.current / (4.0 * (admittance + antenna.admittance.real()))};
+}
+
+Operation Circuit::operate(double mutual, double carrier_power) const {
+  const Norton antenna = this->antenna(mutual, carrier_power);
+  const Complex rest = antenna.admittance;
+  const double needed = antenna.current / chip_.voltage_limit;
+  double conductance = 0.0;
+  if (needed > std::abs(rest)) {  // |I| = limit |Y + Gs|, solved for Gs
+    conductance = std::sqrt((needed - rest.imag()) * (needed + rest.imag())) - rest.real();
+  }
+  return solve(mutual, source_voltage(carrier_power), conductance, 0.0);
 }
 
 Operation Circuit::modulate(double mutual, const Operation& unmodulated) const {
-  const double conductance = 1.0 / chip_.load_resistance + 1.0 / chip_.modulation_resistance;
-  return solve(mutual, unmodulated.source_voltage, unmodulated.limiter_conductance, conductance);
+  return solve(mutual, unmodulated.source_voltage, unmodulated.chip_conductance,
+               1.0 / chip_.modulation_resistance);
 }
 
 double Circuit::into_antenna(const Operation& operation) const {
@@ -87,16 +100,18 @@ double Circuit::in_tag_coil(const Operation& operation) const {
   return 0.5 * std::norm(operation.tag_current) * tag_resistance_;
 }
 
-double Circuit::in_load(const Operation& operation) const {
-  return 0.5 * std::norm(operation.tag_voltage) / chip_.load_resistance;
+double Circuit::in_chip(const Operation& operation) const {
+  return 0.5 * std::norm(operation.tag_voltage) * operation.chip_conductance;
 }
 
-double Circuit::in_limiter(const Operation& operation) const {
-  return 0.5 * std::norm(operation.tag_voltage) * operation.limiter_conductance;
+double Circuit::tag_resistance() const {
+  return tag_resistance_ + tag_reactance_ * tag_reactance_ / tag_resistance_;
 }
 
-double Circuit::tag_quality() const {
-  return 1.0 / (tag_resistance_ / tag_reactance_ + tag_reactance_ / chip_.load_resistance);
+double Circuit::tag_quality() const { return tag_reactance_ / tag_resistance_; }
+
+double Circuit::modulated_quality() const {
+  return 1.0 / (1.0 / tag_quality() + 0.5 * tag_reactance_ / chip_.modulation_resistance);
 }
 
 }  // namespace nfc_channel

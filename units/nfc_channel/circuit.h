@@ -13,9 +13,8 @@ inline constexpr double kCarrierAngularFrequency = 2.0 * M_PI * 13.56e6;
 
 /// What a tag's chip does to its antenna's terminals.
 struct TagChip {
-  double capacitance;            ///< parallel to the coil [F]; 0 tunes the coil to the carrier
-  double load_resistance;        ///< rectifier and all behind it, as a parallel resistance [Ohm]
-  double voltage_limit;          ///< amplitude at which the limiter begins to shunt [V]
+  double capacitance;    ///< parallel to the coil [F]; 0 tunes the coil to the carrier
+  double voltage_limit;  ///< the greatest amplitude [V]; rectifier and limiter hold it there
   double modulation_resistance;  ///< switched in parallel by the load modulator [Ohm]
 };
 
@@ -37,47 +36,72 @@ struct Operation {
   std::complex<double> reader_current;  ///< [A]
   std::complex<double> tag_current;     ///< in the tag's coil [A]
   std::complex<double> tag_voltage;     ///< at the chip [V]
-  double limiter_conductance;           ///< [S]
+  double chip_conductance;              ///< of rectifier and limiter [S]
+};
+
+/// What a tag's antenna is to its chip: a source behind a resistance.
+struct Source {
+  double voltage;          ///< amplitude without load [V]
+  double available_power;  ///< what the best resistive load gets [W]
 };
 
 /// One reader's antenna and one tag, coupled by the mutual inductance M:
 ///
 ///     V = (R + R1 + jX1) I1 - j omega M I2        transmitter and reader's coil, R = R1
 ///     j omega M I1 = (R2 + j omega L2) I2 + U     tag's coil
-///     I2 = (j omega C2 + 1/RL + Gs) U             chip: capacitor, load, limiter
+///     I2 = (j omega C2 + Gs) U                    chip: capacitor, rectifier and limiter
 ///
 /// (Finkenzeller, "RFID Handbook", 3rd ed., sect. 4.1.6 to 4.1.10.) The carrier power P is what the
 /// transmitter can give at most, V^2 = 8 R P, and what it does give where no tag changes the
 /// match; a tag's reflected impedance (omega M)^2 / Z2 lets it give less. So no power is made:
-/// load, limiter and both coils together get what goes into the antenna, which is at most P.
+/// chip and both coils together get what goes into the antenna, which is at most P.
 ///
-/// Seen from the chip all but the limiter is linear, so that the shunt conductance Gs which holds
-/// the voltage at its limit has a closed form.
+/// A rectifier takes nothing below the voltage of its rail and all it can above it. At the limit
+/// all that the antenna can give goes into the chip, what its loads do not take into the limiter,
+/// so the chip's sum does not depend on the loads; below it the chip is taken for one that only
+/// listens. Seen from the chip all else is linear, so that the conductance Gs which holds the
+/// voltage at its limit has a closed form, and the antenna is a source.
 class Circuit {
  public:
   Circuit(const ReaderAntenna& reader, const Coil& tag_coil, const TagChip& chip);
 
-  /// `limited` = false: as though the limiter were not there.
-  Operation operate(double mutual_inductance, double carrier_power, bool limited = true) const;
+  Operation operate(double mutual_inductance, double carrier_power) const;
 
-  /// The same with the load modulator switched on. The limiter is too slow to follow it, and keeps
-  /// the conductance that it has in `unmodulated`.
+  /// What the chip's rectifier has before it: the antenna with its tuned capacitor. A resistive
+  /// load RL = 1 / Gs gets U^2 / (2 RL), most with Gs = |Y|, Y the admittance of antenna and
+  /// capacitor: |I|^2 / (4 (|Y| + Re Y)), I the source's current.
+  Source source(double mutual_inductance, double carrier_power) const;
+
+  /// As operate(), with the load modulator switched on. Rectifier and limiter are too slow to
+  /// follow it, and keep the conductance that they have in `unmodulated`.
   Operation modulate(double mutual_inductance, const Operation& unmodulated) const;
 
   // Where the power goes [W].
   double into_antenna(const Operation& operation) const;  ///< all that leaves the transmitter
   double in_reader_coil(const Operation& operation) const;
   double in_tag_coil(const Operation& operation) const;
-  double in_load(const Operation& operation) const;
-  double in_limiter(const Operation& operation) const;
+  double in_chip(const Operation& operation) const;
 
-  /// The quality factor of the tag's circuit with its load, without limiter.
+  /// Of the tuned tag's circuit alone, the resistance parallel to it [Ohm]: Q omega L (1 + 1 /
+  /// Q^2).
+  double tag_resistance() const;
+  /// The quality factor of the tag's circuit while nothing conducts in its chip: that of its coil.
   double tag_quality() const;
+  /// Of a tag that modulates its load with the subcarrier: with the mean of its conductances with
+  /// and without modulation resistance, rectifier and limiter left out.
+  double modulated_quality() const;
   const ReaderAntenna& reader() const { return reader_; }
 
  private:
+  // A current [A] and the admittance parallel to it [S].
+  struct Norton {
+    double current;
+    std::complex<double> admittance;
+  };
+  Norton antenna(double mutual_inductance, double carrier_power) const;
+  double source_voltage(double carrier_power) const;
   Operation solve(double mutual_inductance, std::complex<double> source_voltage,
-                  double limiter_conductance, double conductance) const;
+                  double chip_conductance, double modulation_conductance) const;
 
   ReaderAntenna reader_;
   double tag_reactance_;    // of the coil

@@ -24,6 +24,11 @@ const Parameters& checked(const Parameters& parameters) {
   return parameters;
 }
 
+/// What a tag's circuit, uncoupled, makes available with this amplitude [W].
+double signal_of(const Circuit& circuit, double voltage) {
+  return voltage * voltage / (8.0 * circuit.tag_resistance());
+}
+
 channel::Rules rules(const Parameters& parameters) {
   channel::Rules rules;
   rules.capture_ratio = channel::from_decibels(parameters.reader.capture_ratio);
@@ -39,10 +44,15 @@ Channel::Channel(const Parameters& parameters)
   const ReaderAntenna reader(parameters.reader.coil, parameters.reader.capacitance);
   for (const TagParameters& tag : parameters.tags) {
     const Circuit circuit(reader, tag.coil, tag.chip);
-    Tag added{tag, circuit, {}, {}, nfc_channel::noise_density(tag.noise)};
+    Tag added{tag,
+              circuit,
+              {},
+              {},
+              nfc_channel::noise_density(tag.noise),
+              signal_of(circuit, tag.demodulator_voltage + tag.rectifier_drop)};
     for (std::size_t i = 0; i < kBitRates.size(); ++i) {
       added.down[i] = down_signal(kBitRates[i], reader.quality, circuit.tag_quality());
-      added.up[i] = up_signal(kBitRates[i], reader.quality, circuit.tag_quality());
+      added.up[i] = up_signal(kBitRates[i], reader.quality, circuit.modulated_quality());
     }
     tags_.push_back(added);
   }
@@ -60,8 +70,9 @@ void Channel::move_tag(std::size_t index, const Pose& reader_coil, const Pose& t
   const double flux = std::abs(link.mutual * operation.reader_current) / coil.turns;
   link.field_strength =
       flux / (kVacuumPermeability * M_PI * coil.radius * coil.radius) / std::sqrt(2.0);
-  link.tag_voltage = std::abs(operation.tag_voltage);
-  link.tag_power = tag.circuit.in_load(operation);
+  const Source source = tag.circuit.source(link.mutual, carrier_power());
+  link.tag_voltage = source.voltage;
+  link.tag_power = source.available_power;
 
   link.signals = signals_at(index, carrier_power());
   const std::size_t rate = index_of(parameters_.bit_rate);
@@ -80,13 +91,12 @@ Signals Channel::signals(std::size_t tag, double carrier_power) const {
 Signals Channel::signals_at(std::size_t index, double carrier_power) const {
   const Circuit& circuit = tags_[index].circuit;
   const double mutual = link(index).mutual;
-  return {circuit.in_load(circuit.operate(mutual, carrier_power, false)),
+  return {signal_of(circuit, circuit.source(mutual, carrier_power).voltage),
           sideband_power(circuit, mutual, circuit.operate(mutual, carrier_power))};
 }
 
 double Channel::least_signal(Direction direction, std::size_t tag) const {
-  return direction == Direction::Up ? parameters_.reader.sensitivity
-                                    : tags_[tag].parameters.power_threshold;
+  return direction == Direction::Up ? parameters_.reader.sensitivity : tags_[tag].least_signal;
 }
 
 double Channel::bit_error_probability(Direction direction, std::size_t index,

@@ -16,14 +16,16 @@
 namespace nfc_channel {
 
 /// The coupling is the coils' coupling factor k; the field strength is along the tag's axis, the
-/// mean over its coil; the tag's voltage is that at its chip. Signals: down what the tag's load
-/// would get without the limiter, up both sidebands of the load modulation. The ratios are Eb/N0;
-/// they and the probabilities are those of Parameters::bit_rate.
+/// mean over its coil; the tag's voltage and power are those of its antenna as a source
+/// (Circuit::source()). Signals: down the power that goes with this voltage, U^2 / (8 Rp), Rp being
+/// the resistance of the tag's circuit alone; up both sidebands of the load modulation. The ratios
+/// are Eb/N0; they and the probabilities are those of Parameters::bit_rate.
 struct Link : channel::Link {
   double mutual = 0.0;  ///< mutual inductance [H]
 };
 
-/// What a receiver needs: a tag its power threshold, the reader its sensitivity.
+/// What a receiver needs: a tag the rectified voltage of its demodulator, the reader its
+/// sensitivity.
 class Channel : public channel::Model<Link> {
  public:
   /// Throws std::invalid_argument, naming the parameter, if one is out of its range.
@@ -43,6 +45,7 @@ class Channel : public channel::Model<Link> {
     Circuit circuit;
     std::array<BitSignal, 4> down, up;  // of each bit rate
     double noise_density;
+    double least_signal;  // [W]
   };
 
   channel::Signals signals_at(std::size_t tag, double carrier_power) const;

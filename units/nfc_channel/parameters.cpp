@@ -39,10 +39,10 @@ void check(const TagParameters& tag) {
   const std::string name = tag.name.prefix();
   check(tag.name.coil(), tag.coil);
   require_not_negative(name + ".capacitance", tag.chip.capacitance);
-  require_positive(name + ".load_resistance", tag.chip.load_resistance);
   require_positive(name + ".voltage_limit", tag.chip.voltage_limit);
   require_positive(name + ".modulation_resistance", tag.chip.modulation_resistance);
-  require_not_negative(name + ".power_threshold", tag.power_threshold);
+  require_not_negative(name + ".rectifier_drop", tag.rectifier_drop);
+  require_not_negative(name + ".demodulator_voltage", tag.demodulator_voltage);
   check(name, tag.noise);
 }
 

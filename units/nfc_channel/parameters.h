@@ -23,8 +23,9 @@ struct ReaderParameters {
 struct TagParameters {
   channel::TagName name;
   Coil coil{0.008, 12, 0.1e-3, 0.0, 35.0};
-  TagChip chip{0.0, 1500.0, 5.5, 500.0};
-  double power_threshold = 1e-6;  ///< a tag with less does not demodulate [W]
+  TagChip chip{0.0, 5.6, 500.0};
+  double rectifier_drop = 0.6;       ///< of the rectifier's two conducting diodes [V]
+  double demodulator_voltage = 3.0;  ///< rectified, that the demodulator needs [V]
   Noise noise{290.0, 3e-7};
 };
 

@@ -30,8 +30,8 @@ class NfcChannel : public channel::ModelUnit<Channel, nfc_channel::Parameters> {
         "distance between the coils' centres",
         "coupling factor k",
         "magnetic field of the reader at the tag, mean over the tag's coil, effective value",
-        "amplitude at the tag's chip",
-        "power that the tag's antenna delivers",
+        "amplitude at the tag's antenna without its chip",
+        "power that the tag's antenna can deliver at most",
         "Eb/N0",
         ", at bit_rate"};
     list_outputs(meanings);
@@ -68,14 +68,14 @@ class NfcChannel : public channel::ModelUnit<Channel, nfc_channel::Parameters> {
     const std::string name = tag.name.prefix();
     list_positive(name + ".capacitance", tag.chip.capacitance, "F",
                   "parallel to the coil; 0 tunes it to the carrier");
-    list_positive(name + ".load_resistance", tag.chip.load_resistance, "Ohm",
-                  "rectifier and all behind it");
     list_positive(name + ".voltage_limit", tag.chip.voltage_limit, "V",
-                  "amplitude at which the limiter begins to shunt");
+                  "amplitude at which rectifier and limiter hold the antenna");
     list_positive(name + ".modulation_resistance", tag.chip.modulation_resistance, "Ohm",
                   "switched in parallel by the load modulator");
-    list_positive(name + ".power_threshold", tag.power_threshold, "W",
-                  "a tag with less power receives nothing");
+    list_positive(name + ".rectifier_drop", tag.rectifier_drop, "V",
+                  "of the rectifier's two conducting diodes");
+    list_positive(name + ".demodulator_voltage", tag.demodulator_voltage, "V",
+                  "rectified; a tag with less receives nothing");
     list_noise(name, tag.noise);
   }
 

@@ -9,8 +9,8 @@ namespace sensor {
 struct TransceiverParameters {
   std::int32_t fifo_depth = 4;       ///< commands that can wait for the control unit
   double transmit_current = 1.0e-3;  ///< of the load modulator while it transmits [A]
-  double carrier_threshold = 1e-6;   ///< field power from which on there is a carrier [W]; 0: it
-                                     ///< has one of its own
+  double carrier_voltage = 3.0;      ///< rectified, from which on there is a carrier [V]; 0: it has
+                                     ///< one of its own
   bool always_selected = true;       ///< answers all commands without having been selected
 };
 
@@ -38,17 +38,18 @@ struct AdcParameters {
 };
 
 struct PowerParameters {
-  double rectifier_efficiency = 0.5;
-  double capacitance = 100e-6;       ///< [F]
-  double series_resistance = 100;    ///< of the capacitor [Ohm]
-  double leakage_resistance = 10e6;  ///< parallel to the capacitance [Ohm]
-  double initial_voltage = 0.0;      ///< [V]
-  double maximum_voltage = 5.0;      ///< of limiter, supply rail and capacitor [V]
-  double charging_current = 10e-3;   ///< the most that the charger gives [A]
-  double power_on_voltage = 3.0;     ///< [V]
-  double start_up_delay = 1e-3;      ///< from power_on_voltage until the loads are switched on [s]
-  double brown_out_voltage = 1.9;    ///< [V]
-  double supply_voltage = 1.8;       ///< that the regulator gives to the loads [V]
+  double antenna_resistance = 19.26e3;  ///< of the antenna's parallel resonance [Ohm]
+  double rectifier_drop = 0.6;          ///< of the two diodes that conduct [V]
+  double capacitance = 100e-6;          ///< [F]
+  double series_resistance = 100;       ///< of the capacitor [Ohm]
+  double leakage_resistance = 10e6;     ///< parallel to the capacitance [Ohm]
+  double initial_voltage = 0.0;         ///< [V]
+  double maximum_voltage = 5.0;         ///< of limiter, supply rail and capacitor [V]
+  double charging_current = 10e-3;      ///< the most that the charger gives [A]
+  double power_on_voltage = 3.0;        ///< [V]
+  double start_up_delay = 1e-3;    ///< from power_on_voltage until the loads are switched on [s]
+  double brown_out_voltage = 1.9;  ///< [V]
+  double supply_voltage = 1.8;     ///< that the regulator gives to the loads [V]
 };
 
 struct SensorParameters {
@@ -76,8 +77,9 @@ void add_transceiver(Part& transceiver, const Add& add) {
       "commands that can wait for the control unit");
   add(transceiver.transmit_current, "transceiver.transmit_current", "A", 0, 1,
       "current of the load modulator while it transmits");
-  add(transceiver.carrier_threshold, "transceiver.carrier_threshold", "W", 0, 1,
-      "field power from which on there is a carrier to answer with; 0 if it has its own");
+  add(transceiver.carrier_voltage, "transceiver.carrier_voltage", "V", 0, 100,
+      "rectified voltage without load from which on there is a carrier to answer with; 0 if it has "
+      "its own");
   add(transceiver.always_selected, "transceiver.always_selected", "", 0, 1,
       "whether all commands are answered without a selection");
 }
@@ -121,8 +123,10 @@ void add_adc(Part& adc, const Add& add) {
 
 template <class Part, class Add>
 void add_power(Part& power, const Add& add) {
-  add(power.rectifier_efficiency, "power.rectifier_efficiency", "1", 0, 1,
-      "share of the antenna's power that is left after the rectifier");
+  add(power.antenna_resistance, "power.antenna_resistance", "Ohm", 1, 1e9,
+      "resistance of the antenna's parallel resonance, its losses and the chip's");
+  add(power.rectifier_drop, "power.rectifier_drop", "V", 0, 10,
+      "voltage that the rectifier's two conducting diodes take");
   add(power.capacitance, "power.capacitance", "F", 1e-9, 100, "capacitance of the supercapacitor");
   add(power.series_resistance, "power.series_resistance", "Ohm", 1e-3, 1e6,
       "resistance in series with the supercapacitor");

@@ -37,6 +37,7 @@ double PowerUnit::terminal_voltage_now() const { return supply_.terminal(flow_, 
 
 double PowerUnit::rail_voltage_now() const { return supply_.rail(flow_, voltage_now()); }
 
+double PowerUnit::drawn_now() const { return supply_.drawn(flow_, voltage_now()); }
 double PowerUnit::intake_now() const { return supply_.intake(flow_, voltage_now()); }
 double PowerUnit::load_now() const { return supply_.load(flow_, voltage_now()); }
 
@@ -53,7 +54,7 @@ EnergyBooks PowerUnit::books_now() const {
 }
 
 PowerReadings PowerUnit::readings_now() const {
-  return {charge_now(), terminal_voltage_now(), rail_voltage_now(), intake_now(),
+  return {charge_now(), terminal_voltage_now(), rail_voltage_now(), drawn_now(), intake_now(),
           load_now(),   stored_now(),           books_now()};
 }
 
@@ -94,10 +95,7 @@ void PowerUnit::take_currents() {
   Flow flow = supply_.flow(field_power.read(), currents(), voltage_);
   if (flow.same_currents(flow_)) {
     flow.mode = flow_.mode;
-    if (at_knee_) {
-      flow.mode =
-          flow_.mode == Mode::ConstantVoltage ? Mode::ConstantCurrent : Mode::ConstantVoltage;
-    }
+    if (at_knee_) flow.mode = Supply::after_knee(flow_.mode);
   }
   at_knee_ = false;
   flow_ = flow;
@@ -145,17 +143,12 @@ std::optional<PowerUnit::Crossing> PowerUnit::next_crossing() const {
     const stride::Duration wait(static_cast<std::int64_t>(std::ceil(seconds * 1e12)));
     if (!next || last_event_ + wait < next->instant) next = {threshold, last_event_ + wait};
   };
-  const double knee = supply_.knee(flow_);
-  switch (flow_.mode) {
-    case Mode::ConstantVoltage:
-      if (!rises && voltage_ > knee) consider(Threshold::Knee, knee);
-      return next;
-    case Mode::ConstantCurrent:
-      if (rises && voltage_ < knee) consider(Threshold::Knee, knee);
-      break;
-    case Mode::FromCapacitor:
-      break;
+  const bool ends_rising = flow_.mode == Mode::ConstantCurrent;
+  const std::optional<double> knee = supply_.knee(flow_);
+  if (knee && rises == ends_rising && (rises ? voltage_ < *knee : voltage_ > *knee)) {
+    consider(Threshold::Knee, *knee);
   }
+  if (flow_.mode == Mode::ConstantVoltage) return next;
   if (rises && !good_) {
     consider(Threshold::PowerGood,
              supply_.voltage_for_terminal(flow_, parameters_.power_on_voltage));

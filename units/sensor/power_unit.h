@@ -42,6 +42,7 @@ class PowerUnit : public sc_core::sc_module {
   double charge_now() const;            ///< [C]
   double terminal_voltage_now() const;  ///< of the capacitor [V]
   double rail_voltage_now() const;      ///< [V]
+  double drawn_now() const;             ///< [W]
   double intake_now() const;            ///< [W]
   double load_now() const;              ///< [W]
   double stored_now() const;           ///< energy that the capacitor has gained since the start [J]

@@ -8,12 +8,16 @@ const SensorParameters& checked(const SensorParameters& parameters) {
   return parameters;
 }
 
+double carrier_power(const SensorParameters& parameters) {
+  return Supply(parameters.power).field_power_for(parameters.transceiver.carrier_voltage);
+}
+
 }  // namespace
 
 Sensor::Sensor(sc_core::sc_module_name name, const SensorParameters& parameters)
     : sc_module(name),
       fifo(static_cast<std::size_t>(checked(parameters).transceiver.fifo_depth)),
-      transceiver("transceiver", parameters.transceiver, fifo),
+      transceiver("transceiver", parameters.transceiver, carrier_power(parameters), fifo),
       gated_clock("gated_clock", parameters.control_unit.clock_frequency,
                   parameters.control_unit.clock_gating),
       control_unit("control_unit", parameters, fifo),

@@ -25,8 +25,8 @@ stride::Time end_of(const nfc::Frame& frame) { return frame.start + nfc::air_tim
 }  // namespace
 
 Transceiver::Transceiver(sc_core::sc_module_name name, const TransceiverParameters& parameters,
-                         CommandFifo& fifo)
-    : sc_module(name), parameters_(parameters), fifo_(fifo) {
+                         double carrier_power, CommandFifo& fifo)
+    : sc_module(name), parameters_(parameters), carrier_power_(carrier_power), fifo_(fifo) {
   SC_HAS_PROCESS(Transceiver);
   SC_METHOD(detect_carrier);
   sensitive << field_power;
@@ -38,9 +38,7 @@ Transceiver::Transceiver(sc_core::sc_module_name name, const TransceiverParamete
 
 bool Transceiver::idle() const { return arriving_.empty() && !reception_ && !answer_ && !on_air_; }
 
-bool Transceiver::has_carrier() const {
-  return field_power.read() >= parameters_.carrier_threshold;
-}
+bool Transceiver::has_carrier() const { return field_power.read() >= carrier_power_; }
 
 void Transceiver::detect_carrier() { carrier.write(has_carrier()); }
 

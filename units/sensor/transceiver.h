@@ -48,15 +48,16 @@ struct FrameCounters {
 class Transceiver : public sc_core::sc_module, public TransmitInterface {
  public:
   sc_core::sc_in<bool> powered{"powered"};
-  sc_core::sc_in<double> field_power{"field_power"};  ///< at the antenna [W]
+  sc_core::sc_in<double> field_power{"field_power"};  ///< that the antenna can give [W]
   sc_core::sc_out<bool> carrier{"carrier"};           ///< whether there is one, powered or not
   sc_core::sc_out<sc_dt::uint64> received_data{
       "received_data"};                                       ///< its last eight bytes, or fewer
   sc_core::sc_out<sc_dt::uint64> answer_data{"answer_data"};  ///< likewise
   sc_core::sc_out<double> current{"current"};                 ///< [A]
 
+  /// `carrier_power`: field power from which on there is a carrier [W]; 0: it has one of its own.
   Transceiver(sc_core::sc_module_name name, const TransceiverParameters& parameters,
-              CommandFifo& fifo);
+              double carrier_power, CommandFifo& fifo);
 
   /// A frame from the air, at any instant from its start on: it is received at its end, or now if
   /// that is past. A frame with the start of one that is still being received takes its place.
@@ -95,6 +96,7 @@ class Transceiver : public sc_core::sc_module, public TransmitInterface {
   void stop_transmitter();
 
   TransceiverParameters parameters_;
+  double carrier_power_;
   CommandFifo& fifo_;
   FrameCounters counters_;
 

@@ -37,7 +37,10 @@ class SensorUnit : public stride::systemc::DeviceUnit<Sensor> {
 
  private:
   void list_inputs() {
-    input("field_power", field_power_).unit("W").min(0).description("at the tag's antenna");
+    input("field_power", field_power_)
+        .unit("W")
+        .min(0)
+        .description("what the tag's antenna can deliver at most");
     input("adc.temperature", temperature_)
         .unit("degC")
         .deadband(kAnyTemperature)
@@ -60,6 +63,8 @@ class SensorUnit : public stride::systemc::DeviceUnit<Sensor> {
         .description("in the supercapacitor");
     quantity("supply.voltage", now_.rail, rates_.rail, "V", 1e-3,
              "of the rail that feeds the regulator");
+    quantity("energy.field", now_.drawn, rates_.drawn, "W", 1e-7,
+             "taken from the antenna, by the limiter, too");
     quantity("energy.intake", now_.intake, rates_.intake, "W", 1e-7,
              "rectified, and not shunted by the limiter");
     quantity("energy.load", now_.load, rates_.load, "W", 1e-7,

@@ -38,6 +38,7 @@ class SensorProgram : public stride::process::Program {
     output("capacitor.voltage", power_.terminal);
     output("capacitor.charge", power_.charge);
     output("supply.voltage", power_.rail);
+    output("energy.field", power_.drawn);
     output("energy.intake", power_.intake);
     output("energy.load", power_.load);
     output("led", led_);

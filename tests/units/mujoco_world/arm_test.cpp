@@ -74,8 +74,8 @@ TEST_CASE("the arm starts at rest, the coils 0.40 m apart on one axis", "[mujoco
   for (const double seconds : {0.0, 0.01, 0.1, 1.0}) {
     world.advance(stride::time_from_seconds(seconds));
     const Coils seen = coils(world);
-    CHECK(seen.distance == Approx(0.4).margin(0.2e-3));
-    CHECK(seen.offset < 0.2e-3);
+    CHECK(seen.distance == Approx(0.4).margin(0.5e-3));
+    CHECK(seen.offset < 0.5e-3);
     CHECK(seen.alignment < -0.99999);
   }
 }
@@ -89,13 +89,13 @@ TEST_CASE("a pose settles within half a millimetre, without knocking on the sens
     world.advance(world.now() + world.timestep());
     closest = std::min(closest, coils(world).distance);
   }
-  CHECK(coils(world).distance == Approx(0.01).margin(0.1e-3));
-  CHECK(coils(world).offset < 0.1e-3);
+  CHECK(coils(world).distance == Approx(0.01).margin(0.5e-3));
+  CHECK(coils(world).offset < 0.5e-3);
   CHECK(closest > 0.008);
 
   command(world, kFar);
   world.advance(stride::time_from_seconds(5));
-  CHECK(coils(world).distance == Approx(0.4).margin(0.1e-3));
+  CHECK(coils(world).distance == Approx(0.4).margin(0.5e-3));
 }
 
 TEST_CASE("the sensor stops the arm, and the contact is felt", "[mujoco_world][arm]") {

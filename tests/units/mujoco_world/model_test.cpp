@@ -180,6 +180,71 @@ TEST_CASE("two worlds in two threads give the results that each gives alone", "[
   CHECK(same_bits(results[1], saved(alone)));
 }
 
+namespace {
+
+/// A servo of 100 N.m/rad on a hinge, 0.1 s and critically damped, in no gravity.
+std::string servo(const std::string& custom) {
+  return R"(<mujoco>
+  <compiler angle="radian"/>
+  <option timestep="0.001" gravity="0 0 0"/>
+  <custom>)" +
+         custom + R"(</custom>
+  <worldbody><body>
+    <joint name="axis" axis="0 0 1" damping="20"/>
+    <geom type="box" size="0.1 0.1 0.1" mass="150"/>
+  </body></worldbody>
+  <actuator><position name="drive" joint="axis" kp="100"/></actuator>
+</mujoco>)";
+}
+
+}  // namespace
+
+TEST_CASE("a drive's ripple is added to its command, by the joint's position", "[mujoco_world]") {
+  const worlds::Folder folder(servo(R"(<numeric name="drive_ripple.drive" data="0.01 20"/>)"));
+  World world(folder.path());
+  world.set_input(0, 0.3);
+  world.advance(at(20));
+  const double q = world.joint_position(0);
+  CHECK(q == Approx(0.3 + 0.01 * std::sin(20 * q)).epsilon(1e-9));
+  CHECK(std::abs(q - 0.3) > 1e-3);
+  CHECK(world.input(0) == 0.3);
+
+  // and is none of the state that a restored world needs
+  world.set_input(0, 0.5);
+  world.advance(at(20.05));
+  std::vector<double> block(world.state_size());
+  world.save(block.data());
+  world.advance(at(21));
+  const double expected = world.joint_position(0);
+  World other(folder.path());
+  other.restore(block.data());
+  other.advance(at(21));
+  CHECK(other.joint_position(0) == expected);
+}
+
+TEST_CASE("a world whose drives ripple rests all the same", "[mujoco_world]") {
+  const worlds::Folder folder(servo(R"(<numeric name="drive_ripple.drive" data="0.01 20"/>)"));
+  World world(folder.path());
+  mujoco_world::RestSettings settings;
+  settings.tolerances.joint_positions = {1e-4};
+  settings.tolerances.joint_velocities = {1e-3};
+  settings.tolerances.site_positions.clear();
+  settings.tolerances.site_axes.clear();
+  world.allow_rest(settings);
+  world.reset(Time{});
+  world.set_input(0, 0.3);
+  world.advance(at(20));
+  CHECK(world.rests_until() > world.now());
+}
+
+TEST_CASE("a ripple of something else than a drive is an error", "[mujoco_world]") {
+  for (const char* custom : {R"(<numeric name="drive_ripple.axis" data="0.01 20"/>)",
+                             R"(<numeric name="drive_ripple.drive" data="0.01"/>)"}) {
+    const worlds::Folder folder(servo(custom));
+    CHECK_THROWS_WITH(World(folder.path()), Catch::Contains("drive_ripple."));
+  }
+}
+
 TEST_CASE("a lamp is part of the state, and off at the start", "[mujoco_world]") {
   const worlds::Folder folder(worlds::kLamp);
   World world(folder.path());

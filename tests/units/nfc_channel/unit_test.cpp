@@ -182,13 +182,13 @@ TEST_CASE("Tags that channel.xml lists have variables of their own") {
   UnitInstance unit(library, resources.choices());
   REQUIRE(unit.set_real("door.coil.position.z", 0.02) == fmi3OK);
   REQUIRE(unit.set_real("window.coil.position.z", 0.03) == fmi3OK);
-  REQUIRE(unit.set_real("window.load_resistance", 3000) == fmi3OK);
+  REQUIRE(unit.set_real("window.coil.quality_factor", 20) == fmi3OK);
   REQUIRE(unit.set_real("carrier_power", 0.5) == fmi3OK);
   REQUIRE(unit.start_steps() == fmi3OK);
   CHECK(unit.real("door.distance") == Approx(0.02));
   CHECK(unit.real("window.distance") == Approx(0.03));
   CHECK(unit.real("door.power") > unit.real("window.power"));
-  CHECK(unit.real("door.voltage") == Approx(5.5));
+  CHECK(unit.real("door.voltage") > unit.real("window.voltage"));
   CHECK(unit.real("window.bit_error_rate.down") < 1e-9);
 
   REQUIRE(library.EnterEventMode(unit.handle) == fmi3OK);

@@ -36,8 +36,14 @@ inline SensorParameters charged() {
   return parameters;
 }
 
-/// A field that can be answered with, and that gives 0.2 uA, less than the sensor takes.
-constexpr double kCarrier = 2e-6;
+/// A field that can be answered with: 3.7 V at the antenna, too little to charge anything.
+constexpr double kCarrier = 90e-6;
+
+/// The field with which the rectifier gives this current [A] at this voltage of the rail.
+inline double field_for(const PowerParameters& power, double current, double rail = 5.0) {
+  const double amplitude = rail + power.rectifier_drop + 2 * power.antenna_resistance * current;
+  return amplitude * amplitude / (8 * power.antenna_resistance);
+}
 
 class Bench {
  public:

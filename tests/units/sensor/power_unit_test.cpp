@@ -10,6 +10,7 @@
 
 using sensor::Bench;
 using sensor::EnergyBooks;
+using sensor::field_for;
 using sensor::ms;
 using sensor::Sensor;
 using sensor::SensorParameters;
@@ -59,8 +60,8 @@ TEST_CASE("a discharged sensor starts in a good field when the closed form says 
   SensorParameters parameters = without_leakage();
   parameters.power.initial_voltage = 0;
   Bench bench(parameters);
-  bench.field(5e-3);
-  const double current = 0.5 * 5e-3 / 5.0;
+  const double current = 0.5e-3;
+  bench.field(field_for(parameters.power, current));
   const double drop = current * parameters.power.series_resistance;
   const double charged = parameters.power.capacitance * (3.0 - drop) / current;
   CHECK(charged < 1.0);
@@ -87,7 +88,7 @@ TEST_CASE("a capacitor with a large resistance may not get the device through it
   const double delay = GENERATE(2e-3, 5e-3);
   parameters.power.start_up_delay = delay;
   Bench bench(parameters);
-  bench.field(5e-3);
+  bench.field(field_for(parameters.power, 0.5e-3));
   bench.run(ms(1200));
   CHECK(bench.read([](Sensor& s) { return s.power_unit.books_now().parts[0]; }) > 1e-6);
   CHECK((bench.voltage() > 4) == (delay > 3e-3));
@@ -100,7 +101,7 @@ TEST_CASE("energy is conserved to rounding at every instant, whatever happens") 
   parameters.power.capacitance = 40e-6;
   Bench bench(parameters);
   std::mt19937 random(4);  // its sequence is part of the C++ standard
-  const double fields[] = {0.0, 0.2e-3, 3e-3, 6e-3, 9e-3, 15e-3, 150e-3};
+  const double fields[] = {0.0, 0.15e-3, 0.25e-3, 6e-3, 9e-3, 15e-3, 150e-3};
   int power_cycles = 0;
   bool was_powered = false;
   Time now;
@@ -168,7 +169,7 @@ TEST_CASE("a leak that takes more than the charger gives lets a full capacitor s
   parameters.power.initial_voltage = 5.0;
   parameters.power.leakage_resistance = 10e3;  // 0.5 mA at 5 V
   Bench bench(parameters);
-  bench.field(4e-3);  // 0.4 mA
+  bench.field(field_for(parameters.power, 0.4e-3));
   bench.run(ms(100));
   CHECK(bench.voltage() < 5.0);
   bench.run(ms(60'000));
@@ -182,8 +183,36 @@ TEST_CASE("a field power that is no power is an error") {
   CHECK_THROWS_WITH(bench.run(ms(1)), Catch::Matchers::Contains("field_power"));
 }
 
+TEST_CASE("the README's figures are those of the default sensor") {
+  Bench empty{SensorParameters()};
+  empty.field(5e-3);
+  empty.run(ms(490));
+  CHECK_FALSE(empty.powered());
+  empty.run(ms(540));
+  CHECK(empty.powered());
+  empty.run(ms(900));
+  CHECK(empty.voltage() > 4.9);
+
+  SensorParameters full;
+  full.power.initial_voltage = 5.0;
+  Bench sleeping(full);
+  sleeping.field(0);
+  sleeping.run(ms(110'000));
+  CHECK(sleeping.powered());
+  sleeping.run(ms(140'000));
+  CHECK_FALSE(sleeping.powered());
+
+  Bench lit(full);
+  lit.ask({0x03, 1}, ms(5));
+  CHECK(lit.led());
+  lit.run(ms(250));
+  CHECK(lit.led());
+  lit.run(ms(350));
+  CHECK_FALSE(lit.led());
+}
+
 TEST_CASE("the rates are the slopes") {
-  for (const double field : {0.0, 8e-3, 80e-3}) {
+  for (const double field : {0.0, 0.19e-3, 0.5e-3, 8e-3, 80e-3}) {
     SensorParameters parameters;
     parameters.power.initial_voltage = 4.0;
     Bench bench(parameters);

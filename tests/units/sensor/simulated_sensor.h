@@ -53,7 +53,7 @@ inline std::vector<std::uint64_t> outputs(UnitBench& bench) {
 const nfc::Bytes kCommands[] = {
     {0x01}, {0x02}, {0x03, 0x01}, {0x03, 0x00}, {0x05}, {0x06, 0x00, 0x01}, {0x06, 0x00, 0x02},
     {0x07}, {0x7F}};
-const double kFields[] = {0.0, kCarrier, 3e-3, 20e-3};
+const double kFields[] = {0.0, kCarrier, 0.19e-3, 20e-3};
 
 struct Record {
   std::vector<nfc::Frame> answers;

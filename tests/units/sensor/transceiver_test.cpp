@@ -11,9 +11,11 @@ using nfc::Bytes;
 using sensor::Bench;
 using sensor::data_of;
 using sensor::ms;
+using sensor::PowerParameters;
 using sensor::request;
 using sensor::Sensor;
 using sensor::SensorParameters;
+using sensor::Supply;
 using stride::Duration;
 using stride::Time;
 
@@ -299,7 +301,7 @@ TEST_CASE("an answer whose bits are all out is not cut off any more") {
 
 TEST_CASE("with a carrier of its own it answers without a field") {
   SensorParameters parameters = sensor::charged();
-  parameters.transceiver.carrier_threshold = 0;
+  parameters.transceiver.carrier_voltage = 0;
   Bench bench(parameters);
   bench.field(0);
   bench.send(kIdentifyBytes, ms(5));
@@ -314,12 +316,13 @@ TEST_CASE("without a carrier an answer is not started") {
   bench.send(kIdentifyBytes, ms(5));
   bench.run(ms(5.3));
   CHECK(bench.frames().received == 1);
-  bench.field(0.99e-6);  // below the threshold
+  const double least = Supply(PowerParameters()).field_power_for(3.0);
+  bench.field(0.99 * least);
   bench.run(ms(10));
   CHECK(bench.answers.empty());
   CHECK(bench.frames().sent == 0);
   CHECK(bench.frames().dropped == 1);
-  bench.field(1e-6);
+  bench.field(least);
   bench.send(kIdentifyBytes, ms(10));
   bench.run(ms(15));
   CHECK(bench.answers.size() == 1);

@@ -86,7 +86,7 @@ TEST_CASE("initialize starts from scratch each time") {
 
 TEST_CASE("the inputs count from the start") {
   UnitBench bench;
-  bench.value<double>("field_power") = 4e-3;
+  bench.value<double>("field_power") = sensor::field_for({}, 0.4e-3);
   bench.initialize(Time());
   CHECK(bench.value<double>("energy.intake") == Approx(2e-3));
   CHECK(bench.value<double>("supply.voltage") == 5.0);

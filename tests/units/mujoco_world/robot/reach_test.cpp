@@ -58,9 +58,10 @@ TEST_CASE("a world that is given the commands settles where they were found for"
     const Vector reader = world.site_position(site_index(world, "reader_coil"));
     const Vector tag = world.site_position(site_index(world, "tag_coil"));
     INFO(distances[k]);
-    CHECK(reader[0] == Approx(tag[0]).margin(1e-4));
-    CHECK(reader[1] == Approx(tag[1]).margin(1e-4));
-    CHECK(reader[2] - tag[2] == Approx(distances[k]).margin(1e-4));
+    // to what the drives' ripple of 0.5 mrad makes of it
+    CHECK(reader[0] == Approx(tag[0]).margin(5e-4));
+    CHECK(reader[1] == Approx(tag[1]).margin(5e-4));
+    CHECK(reader[2] - tag[2] == Approx(distances[k]).margin(5e-4));
     CHECK(world.site_axis(site_index(world, "reader_coil"))[2] < -0.99999);
     CHECK(poses[k].contacts.empty());
     CHECK(poses[k].overload.empty());
