@@ -13,7 +13,7 @@ enum class Wander { Still, WithinDeadbands };
 /// How far inputs jump: to the values of Stimulus, or far beyond them, where min and max allow it.
 enum class Jump { Near, Far };
 
-/// Inputs that jump at random points, and beyond their deadbands then. In between they stay what
+/// Inputs that jump at random points, and mostly beyond their deadbands. In between they stay what
 /// they are, or move at random such that two values are never further apart than the deadband.
 /// Event Mode is entered without a reason at random points, too. Like every stimulus a function of
 /// the seed and the point alone.

@@ -5,10 +5,12 @@
 #include <elf.h>
 #include <link.h>
 
+#include "master/importer/build_description.h"
 #include "master/importer/fmu.h"
 #include "master/importer/idle_manifest.h"
 #include "master/importer/library_file.h"
 #include "master/importer/model_description.h"
+#include "master/importer/terminals.h"
 #include "master/util/archive/zip.h"
 #include "tests/fuzz/core_errors.h"
 #include "tests/fuzz/parser.h"
@@ -35,6 +37,35 @@ void read_idle_manifest(const std::string& bytes) {
     for (const core::Variable& variable : read.variables) {
       ensure(variable.deadband >= 0, "a deadband is not negative");
       ensure(variable.tolerance.value_or(1) > 0, "a tolerance is above 0");
+    }
+  });
+}
+
+/// In a folder of an FMU, by this name.
+std::filesystem::path fmu_with(const std::string& name, const std::string& bytes) {
+  write_file("parts/" + name, bytes);
+  return working_path("parts");
+}
+
+void read_build_description(const std::string& bytes) {
+  core::UnitDescription unit;
+  unit.fmi_version = "3.0";
+  unit.model_identifier = "tank";
+  const auto folder = fmu_with("sources/buildDescription.xml", bytes);
+  refusing_input("", [&] {
+    for (const auto& set : importer::read_build_description(folder, unit).sets) {
+      for (const auto& file : set.files) {
+        ensure(file.is_relative() && *file.begin() != "..", "sources are within the FMU");
+      }
+    }
+  });
+}
+
+void read_terminals(const std::string& bytes) {
+  const auto folder = fmu_with("terminalsAndIcons/terminalsAndIcons.xml", bytes);
+  refusing_input("", [&] {
+    for (const auto& terminal : importer::read_terminals(folder, "x.fmu")) {
+      importer::match_terminals(terminal, terminal);
     }
   });
 }
@@ -87,23 +118,28 @@ void read_library_headers(const std::string& bytes) {
 }
 
 const Registration kImporterParsers(
-    "importer", {
-                    {.name = "model_description",
-                     .read = read_model_description,
-                     .seed_files = {"tests/fuzz/seeds/model_description",
-                                    "tests/test_units/resizable/modelDescription.xml"}},
-                    {.name = "idle_manifest",
-                     .read = read_idle_manifest,
-                     .seed_files = {"tests/fuzz/seeds/idle_manifest"}},
-                    {.name = "library_headers",
-                     .read = read_library_headers,
-                     .make_seed = library_bytes,
-                     .alphabet = std::string("\0\x01\x02\x06\x10\x38\x7f\xff", 8)},
-                    {.name = "fmu_archive",
-                     .read = read_fmu,
-                     .make_seed = fmu_bytes,
-                     .alphabet = std::string("PK\x01\x02\x03\x04\x05\x06/.\0\xff", 12)},
-                });
+    "importer",
+    {
+        {.name = "model_description",
+         .read = read_model_description,
+         .seed_files = {"tests/fuzz/seeds/model_description",
+                        "tests/test_units/resizable/modelDescription.xml"}},
+        {.name = "idle_manifest",
+         .read = read_idle_manifest,
+         .seed_files = {"tests/fuzz/seeds/idle_manifest"}},
+        {.name = "build_description",
+         .read = read_build_description,
+         .seed_files = {"tests/fuzz/seeds/build_description"}},
+        {.name = "terminals", .read = read_terminals, .seed_files = {"tests/fuzz/seeds/terminals"}},
+        {.name = "library_headers",
+         .read = read_library_headers,
+         .make_seed = library_bytes,
+         .alphabet = std::string("\0\x01\x02\x06\x10\x38\x7f\xff", 8)},
+        {.name = "fmu_archive",
+         .read = read_fmu,
+         .make_seed = fmu_bytes,
+         .alphabet = std::string("PK\x01\x02\x03\x04\x05\x06/.\0\xff", 12)},
+    });
 
 }  // namespace
 }  // namespace stride::tests

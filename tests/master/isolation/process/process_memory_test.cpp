@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "master/isolation/process/child.h"
+#include "tests/build.h"
 
 using namespace stride::isolation;
 
@@ -48,4 +49,20 @@ TEST_CASE("the memory of a process that does not exist is 0") {
   CHECK(most_memory(-1) == 0);
   CHECK(private_memory(-1) == 0);
   CHECK(data_memory(-1) == 0);
+}
+
+TEST_CASE("a limit leaves as much memory as it says, beside what is in use") {
+  if (stride::tests::kSanitized) return;  // AddressSanitizer needs memory of its own without end
+  constexpr std::size_t kMiB = std::size_t{1} << 20;
+  const auto can_map = [](std::size_t size) {
+    return run_in_child([size] {
+             limit_memory(64 * kMiB);
+             void* const block =
+                 ::mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+             return std::string(block == MAP_FAILED ? "no" : "yes");
+           })
+        .text;
+  };
+  CHECK(can_map(56 * kMiB) == "yes");
+  CHECK(can_map(72 * kMiB) == "no");
 }
