@@ -144,12 +144,11 @@ class Watch {
 
  private:
   void wait();
-  timespec patience() const;
   void look_at_program();
   void end_watched(const ProcessEnd& end);
   ProcessEnd end() const;
   bool is_ended_from_outside() const;
-  bool is_recorded() const;
+  bool is_in_run() const;
   void report(const core::Error& error) const;
 
   core::Descriptor image_;
@@ -180,18 +179,19 @@ void Watch::run() {
   end_by(WTERMSIG(status_));
 }
 
+/// The process itself waits less long for its end, and can say more about it.
 void Watch::wait() {
+  constexpr timespec kSecond{1, 0};
+  unsigned leaving = 0;  // [s]
   while (::waitpid(watched, &status_, WNOHANG) != watched) {
     pollfd file{image_.number(), POLLIN, 0};
-    const timespec longest = patience();
-    const int count = ::ppoll(&file, 1, note_.is_leaving ? &longest : nullptr, &signals_.mask());
+    const int count = ::ppoll(&file, 1, &kSecond, &signals_.mask());
     if (count > 0) look_at_program();
-    if (count == 0) end_watched({.kind = ProcessEnd::Kind::TimeOut});
+    if (count == 0 && note_.is_leaving && ++leaving > kLongestEnd + 5) {
+      end_watched({.kind = ProcessEnd::Kind::TimeOut});
+    }
   }
 }
-
-/// Longer than the process itself waits for its end, which can say more about it.
-timespec Watch::patience() const { return {kLongestEnd + 5, 0}; }
 
 /// Some code may have closed the file, too.
 void Watch::look_at_program() {
@@ -222,24 +222,23 @@ ProcessEnd Watch::end() const {
 bool Watch::is_ended_from_outside() const {
   if (own_end_ || !WIFSIGNALED(status_)) return false;
   const int signal = WTERMSIG(status_);
-  // what reads the standard output has gone
-  const bool is_pipe = signal == SIGPIPE;
-  return is_pipe || signal == last_signal || (note_.is_complete && note_.code == -signal);
+  const bool is_output_gone = signal == SIGPIPE && !is_in_run();
+  return is_output_gone || signal == last_signal || (note_.is_complete && note_.code == -signal);
 }
 
-/// Where something ends the process when the run was over.
-bool Watch::is_recorded() const {
+/// It has begun, and was not over.
+bool Watch::is_in_run() const {
   try {
     const fs::path run_file(note_.run_file.view());
-    return core::is_file(run_file) && !recorders::is_running(run_file);
+    return core::is_file(run_file) && recorders::is_running(run_file);
   } catch (const std::exception&) {  // it cannot be read
     return false;
   }
 }
 
 void Watch::report(const core::Error& error) const {
-  if (is_ended_from_outside() && is_recorded()) return;
   const fs::path run_file(note_.run_file.view());
+  if (is_ended_from_outside() && !run_file.empty() && !is_in_run()) return;
   warn_of_failure([&] {
     if (run_file.empty() || !core::is_file(run_file)) return;
     if (!recorders::add_error(run_file, error.what(), error.context().time)) return;
