@@ -36,8 +36,8 @@
 #include "master/util/descriptor.h"
 #include "master/util/file_identity.h"
 #include "master/util/input_file.h"
+#include "master/util/outliving.h"
 #include "master/util/output_file.h"
-#include "master/util/process/outliving.h"
 
 namespace stride::cli {
 namespace {

@@ -28,9 +28,9 @@
 #include "master/importer/unit_call.h"
 #include "master/util/error.h"
 #include "master/util/listed.h"
+#include "master/util/outliving.h"
 #include "master/util/process/floating_point_mode.h"
 #include "master/util/process/fork_mark.h"
-#include "master/util/process/outliving.h"
 #include "master/util/process/process_state.h"
 
 namespace stride::importer {

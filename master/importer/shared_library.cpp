@@ -17,7 +17,7 @@
 #include "master/importer/python_library.h"
 #include "master/util/input_file.h"
 #include "master/util/lower_case.h"
-#include "master/util/process/outliving.h"
+#include "master/util/outliving.h"
 #include "master/util/process/process_state.h"
 
 namespace stride::importer {

@@ -8,7 +8,7 @@
 #include <unistd.h>
 
 #include "master/importer/present_call.h"
-#include "master/util/process/outliving.h"
+#include "master/util/outliving.h"
 
 namespace stride::importer {
 namespace {

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "master/model/meant_value.h"
 #include "master/model/values.h"
 
 namespace stride::importer {

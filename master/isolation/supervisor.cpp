@@ -22,7 +22,7 @@
 #include "master/isolation/process/children.h"
 #include "master/isolation/process/surroundings.h"
 #include "master/util/archive/temporary_folder.h"
-#include "master/util/process/outliving_memory.h"
+#include "master/util/outliving_memory.h"
 
 namespace stride::isolation {
 namespace {

@@ -7,10 +7,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "master/model/meant_value.h"
 #include "master/model/number_range.h"
-#include "master/model/transformation_types.h"
-#include "master/model/values.h"
 #include "master/util/suggest.h"
+#include "master/util/words.h"
 
 namespace stride::core {
 namespace {
@@ -93,10 +93,8 @@ class Composer {
       const Transformation::Kind kind = segments_[i].transformation.kind;
       if (kind == Transformation::Kind::None || kind == Transformation::Kind::Linear) continue;
       std::string result;
-      for (std::size_t at = 0; (at = text.find_first_not_of(" \t\r\n", at)) != text.npos;) {
-        const std::size_t end = std::min(text.find_first_of(" \t\r\n", at), text.size());
-        result += (result.empty() ? "" : " ") + word(i, text.substr(at, end - at));
-        at = end;
+      for (const std::string& element : words_of(text)) {
+        result += (result.empty() ? "" : " ") + word(i, element);
       }
       text = result;
     }

@@ -10,13 +10,11 @@
 #include <vector>
 
 #include "master/model/description.h"
+#include "master/model/transformation.h"
 #include "master/model/unit_of_measure.h"
 #include "master/util/error.h"
 
 namespace stride::core {
-
-/// Integer mapping, sorted by source; unmapped numbers are unchanged.
-using NumberMap = std::vector<std::pair<std::int64_t, std::int64_t>>;
 
 /// The conversion of each element.
 struct Conversion {
@@ -35,20 +33,6 @@ std::int64_t mapped(const NumberMap& map, std::int64_t value);
 
 /// The unit of measure; if it has no meaning of its own, with that of the description.
 UnitOfMeasure known_unit(UnitOfMeasure unit, const UnitDescription& description);
-
-using EnumerationItems = std::vector<std::pair<std::string, std::int64_t>>;
-
-/// A transformation of SSP (2.0, section "Transformation Choice"), applied after the conversion of
-/// units of measure. Where a connection changes the type, too, it is applied to the end that has
-/// the type which it is for: before the change, or after it.
-struct Transformation {
-  enum class Kind { None, Linear, BooleanMapping, IntegerMapping, EnumerationMapping };
-  Kind kind = Kind::None;
-  LinearConversion linear{};
-  NumberMap numbers{};                                       ///< of Boolean and integer mappings
-  std::vector<std::pair<std::string, std::string>> names{};  ///< of Enumerations, by their items
-  Location where{};
-};
 
 /// Between two connectors of a path: an ssd:Connection or an ssm:MappingEntry.
 struct PathSegment {

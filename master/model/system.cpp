@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include "master/model/meant_value.h"
 #include "master/model/number_range.h"
 #include "master/model/unknown_variable.h"
 #include "master/util/limited_warnings.h"

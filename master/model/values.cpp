@@ -10,24 +10,12 @@
 #include <fmt/format.h>
 
 #include "master/util/hex.h"
-#include "master/util/lower_case.h"
 #include "master/util/message_text.h"
 #include "master/util/number_text.h"
+#include "master/util/words.h"
 
 namespace stride::core {
 namespace {
-
-std::vector<std::string> split(const std::string& text) {
-  std::vector<std::string> words;
-  std::size_t at = 0;
-  constexpr const char* kBlanks = " \t\r\n";
-  while ((at = text.find_first_not_of(kBlanks, at)) != std::string::npos) {
-    const std::size_t end = std::min(text.find_first_of(kBlanks, at), text.size());
-    words.push_back(text.substr(at, end - at));
-    at = end;
-  }
-  return words;
-}
 
 [[noreturn]] void reject(const std::string& text, const std::string& expected) {
   throw std::invalid_argument(
@@ -77,34 +65,6 @@ void parse_enumeration(const Variable& variable, const std::string& text, std::i
     names += (names.empty() ? "" : ", ") + item;
   }
   reject(text, "one of " + names);
-}
-
-/// The "2" of "2" and "2.0"; empty for what is no whole number.
-std::string whole_number(const std::string& word) {
-  const std::size_t digits = word.starts_with('-') ? 1 : 0;
-  const std::size_t end = std::min(word.find_first_not_of("0123456789", digits), word.size());
-  if (end == digits) return "";
-  const bool is_whole =
-      end == word.size() || (word[end] == '.' && word.find_first_not_of('0', end + 1) == word.npos);
-  return is_whole ? word.substr(0, end) : "";
-}
-
-std::string meant_boolean(const std::string& word) {
-  const std::string lower = lower_case(word);
-  if (lower == "true" || lower == "false") return lower;
-  const std::string number = whole_number(word);
-  if (number.empty() || word == "0" || word == "1") return word;
-  return number.find_first_not_of("-0") == number.npos ? "false" : "true";
-}
-
-/// A word of such a text, or the word itself.
-std::string meant_word(ValueType type, const std::string& word) {
-  if (type == ValueType::Boolean) return meant_boolean(word);
-  const std::string lower = lower_case(word);
-  if (lower == "true" || lower == "false") return lower == "true" ? "1" : "0";
-  if (is_real(type)) return word;
-  const std::string number = whole_number(word);
-  return number.empty() ? word : number;
 }
 
 template <class T>
@@ -200,7 +160,7 @@ ValueBlock parse(const Variable& variable, const std::string& text) {
   const std::vector<std::string> words = whole ? std::vector<std::string>{text}
                                          : variable.type == ValueType::Binary && text.empty()
                                              ? std::vector<std::string>{""}
-                                             : split(text);
+                                             : words_of(text);
   if (words.size() != variable.size) {
     reject(text, variable.size == 1 ? fmt::format("one {} value", name(variable.type))
                                     : fmt::format("{} {} values separated by blanks", variable.size,
@@ -215,20 +175,6 @@ ValueBlock parse(const Variable& variable, const std::string& text) {
     for (std::size_t i = 0; i < words.size(); ++i) parse_element(variable, words[i], values[i]);
   });
   return block;
-}
-
-std::optional<std::string> meant_value(ValueType type, const std::string& text) {
-  const bool may_differ =
-      element_size(type) > 0 && type != ValueType::Clock && type != ValueType::Enumeration;
-  if (!may_differ) return std::nullopt;
-  std::string meant;
-  bool differs = false;
-  for (const std::string& word : split(text)) {
-    const std::string value = meant_word(type, word);
-    differs |= value != word;
-    meant += (meant.empty() ? "" : " ") + value;
-  }
-  return differs ? std::optional(meant) : std::nullopt;
 }
 
 std::string element_text(const ValueBlock& block, std::size_t element) {

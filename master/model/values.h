@@ -145,12 +145,6 @@ bool is_same(const ValueBlock& a, std::size_t a_element, const ValueBlock& b,
 /// itself for String. Throws std::invalid_argument whose text contains what was expected.
 ValueBlock parse(const Variable& variable, const std::string& text);
 
-/// The value that a text of another form is meant to be, which some tools write: "true" for "True"
-/// or "TRUE", "2" for the "2.0" of an integer; between Booleans and numbers what a connection makes
-/// of it, "1" for the "true" of a number, "true" for the "2" of a Boolean. Nothing for any other
-/// text, and for other types.
-std::optional<std::string> meant_value(ValueType type, const std::string& text);
-
 /// The text of one element: shortest decimal form that reads back the same, "true"/"false",
 /// hexadecimal digits.
 std::string element_text(const ValueBlock& block, std::size_t element);

@@ -9,7 +9,7 @@
 
 #include <fmt/format.h>
 
-#include "master/model/transformation_types.h"
+#include "master/model/transformation.h"
 #include "master/ssp/ssp.h"
 
 namespace stride::ssp {

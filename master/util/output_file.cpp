@@ -130,21 +130,29 @@ void OutputFile::rescue_left() {
   Outliving<UnwrittenRest>::for_each_left([](const UnwrittenRest& rest) { rest.write(); });
 }
 
+/// In the middle of flush(), too.
 void OutputFile::rescue() noexcept {
-  if (descriptor_ < 0 || has_failed_ || is_flushing_ || !get_back()) return;
-  const std::size_t lines = std::string_view(rest_->bytes, rest_->size).rfind('\n') + 1;
-  int tries = kMostTries;
-  for (std::size_t done = 0; done < lines;) {
-    const long count = write_piece(rest_->bytes + done, lines - done);
-    const bool is_lost = count < 0 && errno == EBADF && !(tries-- > 0 && get_back());
-    if (is_lost || (count < 0 && errno != EINTR && errno != EBADF)) return;
-    if (count <= 0) continue;
-    done += static_cast<std::size_t>(count);
-    taken_ += count;
+  if (descriptor_ < 0 || has_failed_) return;
+  std::optional<std::int64_t> end;
+  for (int tries = kMostTries; tries > 0 && !end && get_back(); --tries) {
+    end = absolute_path_.empty() ? rescue_into_pipe() : rest_->write_to(descriptor_);
+    if (!end && errno != EBADF) return;
   }
+  if (!end) return;
   rest_->size = 0;
-  rest_->place = taken_;
-  if (lines > 0) rest_->line_end = taken_;
+  taken_ = rest_->place = rest_->line_end = *end;
+}
+
+/// What is being written is lost.
+std::optional<std::int64_t> OutputFile::rescue_into_pipe() noexcept {
+  const std::size_t lines = std::string_view(rest_->bytes, rest_->size).rfind('\n') + 1;
+  std::size_t done = is_flushing_ ? lines : 0;
+  while (done < lines) {
+    const ssize_t count = ::write(descriptor_, rest_->bytes + done, lines - done);
+    if (count < 0 && errno != EINTR) return std::nullopt;
+    if (count > 0) done += static_cast<std::size_t>(count);
+  }
+  return taken_;
 }
 
 void OutputFile::flush() {

@@ -16,7 +16,7 @@
 #include "master/util/error.h"
 #include "master/util/file_identity.h"
 #include "master/util/listed.h"
-#include "master/util/process/outliving.h"
+#include "master/util/outliving.h"
 #include "master/util/unwritten_rest.h"
 
 namespace stride::core {
@@ -86,8 +86,8 @@ class OutputFile {
   void close();
 
   /// Hands the whole lines of all open files to the system, where the process has to end. For
-  /// signal handlers: throws nothing, allocates nothing and takes no lock. Of a file that is being
-  /// flushed meanwhile nothing is written twice.
+  /// signal handlers: throws nothing, allocates nothing and takes no lock. A line that was begun is
+  /// cut off.
   static void rescue_all() noexcept;
 
   /// Before the process is forked that is watched, and when it has ended: the same for the files
@@ -99,6 +99,7 @@ class OutputFile {
   std::size_t room() const { return UnwrittenRest::kCapacity - rest_->size; }
   void write_slowly(std::string_view text);
   void rescue() noexcept;
+  std::optional<std::int64_t> rescue_into_pipe() noexcept;
   bool is_own() const noexcept { return FileIdentity::of(descriptor_) == identity_; }
   /// Returns whether the descriptor is that of the file, be it after it was opened again.
   bool get_back() noexcept;

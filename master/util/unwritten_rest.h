@@ -4,6 +4,7 @@
 #include <climits>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 
 #include "master/util/file_identity.h"
 #include "master/util/fixed_text.h"
@@ -25,8 +26,10 @@ struct UnwrittenRest {
   std::size_t size = 0;
   char bytes[kCapacity];
 
-  /// Writes the whole lines, and cuts off what follows the last one in the file. Does nothing if
-  /// there is another file at the path.
+  /// Writes the whole lines, be it once more, and cuts off what follows the last one in the file.
+  /// Returns the size that it has then; nothing if that fails (errno). For signal handlers.
+  std::optional<std::int64_t> write_to(int file) const noexcept;
+  /// Likewise to the file of the path, unless there is another one.
   void write() const;
 };
 

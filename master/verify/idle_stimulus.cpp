@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace stride::verify {
 namespace {
@@ -48,7 +49,8 @@ double IdleStimulus::element(const Input& input, double start, double other,
   const double luck = uniform(seed_ + 3, mixed(input.reference, jump));
   if (jump_ == Jump::Near) return start + luck * (other - start);
   const auto [low, high] = range_of(unit_.variables[input.variable]);
-  const bool is_bounded = std::isfinite(high - low);
+  using Limits = std::numeric_limits<double>;  // which are no bounds that a unit has declared
+  const bool is_bounded = low > Limits::lowest() && high < Limits::max();
   if (is_bounded) return low + luck * (high - low);
   const double decades = 3 * uniform(seed_ + 4, mixed(input.reference, jump));
   const double way = (2 * luck - 1) * std::abs(other - start) * std::pow(10, decades);

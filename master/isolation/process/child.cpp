@@ -12,7 +12,7 @@
 
 #include "master/isolation/process/descriptor.h"
 #include "master/isolation/process/surroundings.h"
-#include "master/util/process/outliving_memory.h"
+#include "master/util/outliving_memory.h"
 
 namespace stride::isolation {
 namespace {

@@ -5,7 +5,7 @@
 #include <unistd.h>
 
 #include "master/importer/present_call.h"
-#include "master/util/process/outliving.h"
+#include "master/util/outliving.h"
 
 using namespace stride;
 using namespace stride::importer;

@@ -76,22 +76,3 @@ TEST_CASE("the error of an invalid value has what was expected") {
   CHECK_THAT(reason(variable(ValueType::Binary), "zz"), Contains("hexadecimal"));
   CHECK_THAT(reason(variable(ValueType::Float64, 2), "1"), Contains("2 Float64 values"));
 }
-
-TEST_CASE("values of another form that have one meaning are understood, others are not") {
-  CHECK(meant_value(ValueType::Boolean, "True") == "true");
-  CHECK(meant_value(ValueType::Boolean, "FALSE true") == "false true");
-  CHECK(meant_value(ValueType::Int32, "-2.0") == "-2");
-  CHECK(meant_value(ValueType::UInt8, "3.") == "3");
-  for (const char* text : {"2", "2.5", "2,0", ".0", "-.0", "2.0.0", "x.0", "", "1e3", "--1.0"}) {
-    CHECK_FALSE(meant_value(ValueType::Int32, text));
-  }
-  CHECK_FALSE(meant_value(ValueType::Boolean, "on"));
-  CHECK_FALSE(meant_value(ValueType::Boolean, "0 1"));
-  CHECK(meant_value(ValueType::Boolean, "1.0 0.0 -3 00 2.") == "true false true false true");
-  CHECK_FALSE(meant_value(ValueType::Boolean, "2.5"));
-  CHECK(meant_value(ValueType::Float64, "true 2.5 False") == "1 2.5 0");
-  CHECK(meant_value(ValueType::UInt8, "TRUE") == "1");
-  CHECK_FALSE(meant_value(ValueType::Enumeration, "true"));
-  CHECK_FALSE(meant_value(ValueType::Float64, "2.0"));
-  CHECK_FALSE(meant_value(ValueType::String, "True"));
-}

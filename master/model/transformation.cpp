@@ -1,4 +1,4 @@
-#include "master/model/transformation_types.h"
+#include "master/model/transformation.h"
 
 #include <cstddef>
 

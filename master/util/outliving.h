@@ -1,6 +1,6 @@
 // Objects that can still be read when the process that has made them has ended, however it ended.
-#ifndef STRIDE_MASTER_UTIL_PROCESS_OUTLIVING_H
-#define STRIDE_MASTER_UTIL_PROCESS_OUTLIVING_H
+#ifndef STRIDE_MASTER_UTIL_OUTLIVING_H
+#define STRIDE_MASTER_UTIL_OUTLIVING_H
 
 #include <atomic>
 #include <cstddef>
@@ -9,7 +9,7 @@
 #include <type_traits>
 #include <utility>
 
-#include "master/util/process/outliving_memory.h"
+#include "master/util/outliving_memory.h"
 
 namespace stride::core {
 

@@ -1,4 +1,4 @@
-#include "master/util/process/outliving.h"
+#include "master/util/outliving.h"
 
 #include <functional>
 #include <vector>

@@ -1,4 +1,4 @@
-#include "master/util/process/outliving_memory.h"
+#include "master/util/outliving_memory.h"
 
 #include <array>
 #include <new>
