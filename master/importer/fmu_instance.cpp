@@ -90,7 +90,7 @@ bool FmuInstance::declares(core::CapabilityId id) const {
 Status FmuInstance::check_status(const char* name, Status status) {
   if (status == Status::Discard || (status == Status::Pending && may_be_pending())) return status;
   if (status != Status::Ok && status != Status::Warning) fail_call(name, status);
-  if (has_messages_.load(std::memory_order_relaxed)) take_messages(name);
+  if (has_messages_.load(std::memory_order_relaxed)) drop_messages();
   return status;
 }
 
@@ -108,6 +108,7 @@ void FmuInstance::fail_not_callable(const char* name) const {
 void FmuInstance::fail_call(const char* function, Status status) {
   failed_in_ = function;
   if (status == Status::Fatal) mark_unusable();
+  if (callback_failure_) log_held();
   rethrow_callback_failure();  // it is the cause of what the unit answered
   const std::string hint = hint_for(function, status);
   fail(failure_of(function, status), hint);
@@ -157,6 +158,7 @@ void FmuInstance::fail_thrown(const char* function) {
   if (!mode_.is_present()) restore_mode();
   present_->end();
   mark_unusable();
+  log_held();
   fail(fmt::format("{} threw {}", function, what), "a function of FMI returns a status instead");
 }
 
@@ -269,17 +271,52 @@ void FmuInstance::receive(Status status, const char* category, const char* messa
     }
     if (status == Status::Discard || status == Status::Error || status == Status::Fatal) {
       const std::lock_guard lock(messages_mutex_);
-      if (messages_.size() < kMaxMessages) messages_.push_back(text);
       has_messages_ = true;
+      if (messages_.size() < kMaxMessages) {
+        messages_.push_back(text);
+        if (is_reason_of_call(status, text)) {
+          held_.push_back({category != nullptr ? category : "", text});
+          return;
+        }
+      }
     }
     if (options_.log) options_.log(name_, status, category != nullptr ? category : "", text);
   } catch (...) {  // nothing may cross the unit's C code
   }
 }
 
+/// "fmi3DoStep: the fuse has blown" is what the unit kit, and others, log right before they return:
+/// the error of the call contains it, and logged it would be there twice.
+bool FmuInstance::is_reason_of_call(Status status, std::string_view message) const {
+  const char* const function = present_->function();
+  if (status != Status::Error || function == nullptr) return false;
+  const std::size_t size = std::string_view(function).size();
+  return message.starts_with(function) && message.substr(size).starts_with(": ");
+}
+
+void FmuInstance::log_held() {
+  std::vector<HeldMessage> held;
+  {
+    const std::lock_guard lock(messages_mutex_);
+    held = std::exchange(held_, {});
+  }
+  if (!options_.log) return;
+  for (const HeldMessage& message : held) {
+    options_.log(name_, Status::Error, message.category, message.text);
+  }
+}
+
+void FmuInstance::drop_messages() {
+  log_held();
+  const std::lock_guard lock(messages_mutex_);
+  has_messages_ = false;
+  messages_.clear();
+}
+
 std::string FmuInstance::take_messages(const std::string& function) {
   const std::lock_guard lock(messages_mutex_);
   has_messages_ = false;
+  held_.clear();
   std::vector<std::string> messages = std::exchange(messages_, {});
   if (messages.empty()) return "the unit gives no reason";
   const std::string prefix = function + ": ";
@@ -290,6 +327,7 @@ std::string FmuInstance::take_messages(const std::string& function) {
 }
 
 void FmuInstance::take_rejection_reason(const char* function) {
+  log_held();
   rejection_reason_ = has_messages_ ? take_messages(function) : "";
 }
 

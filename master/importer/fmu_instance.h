@@ -234,7 +234,9 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics, public Call
   void receive(Status status, const char* category, const char* message) noexcept;
   /// The failure messages of the call that has just ended, for one line of text.
   std::string take_messages(const std::string& function);
-  /// The same of a rejected step; empty if the unit gave none.
+  /// Forgets them where the call is no failure, and logs those that were held back.
+  void drop_messages();
+  /// take_messages() of a rejected step; empty if the unit gave none.
   void take_rejection_reason(const char* function);
   /// What helps where the unit does not accept its present step since it is shorter than the
   /// others; empty if it is not.
@@ -300,6 +302,8 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics, public Call
                                const std::string& hint = "") const;
   char major_version() const { return prefix_[3] != '\0' ? prefix_[3] : '1'; }
   bool may_be_pending() const { return major_version() != '3'; }
+  bool is_reason_of_call(Status status, std::string_view message) const;
+  void log_held();
 
   std::string hint_for(const char* function, Status status) const;
   void give_up_saving(std::string failure);
@@ -311,6 +315,10 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics, public Call
   std::shared_ptr<const SharedLibrary> library_;
   std::mutex messages_mutex_;
   std::vector<std::string> messages_;  ///< those of the present call that report a failure
+  struct HeldMessage {
+    std::string category, text;
+  };
+  std::vector<HeldMessage> held_;  ///< those of them that are not logged if the call fails
   bool has_mode_warning_ = false;
   bool has_text_warning_ = false;
   bool has_null_state_warning_ = false;

@@ -103,6 +103,7 @@ System::System(const SystemDeclaration& declaration) : name_(declaration.name) {
   if (!diagnostics.attempt([&] { add_structural_values(targets); })) diagnostics.raise();
   add_connections(declaration, diagnostics);
   add_start_values(targets, diagnostics);
+  if (diagnostics.any()) sum_up_misfits(declaration, diagnostics);
   diagnostics.raise();
   add_outputs(declaration);
 }

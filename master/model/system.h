@@ -92,6 +92,7 @@ class System {
  private:
   void add_components(const SystemDeclaration& declaration, Diagnostics& diagnostics);
   void add_connections(const SystemDeclaration& declaration, Diagnostics& diagnostics);
+  void sum_up_misfits(const SystemDeclaration& declaration, Diagnostics& diagnostics) const;
   void add_outputs(const SystemDeclaration& declaration);
   void add_output(const OutputDeclaration& declaration);
   /// A start value and what it is for.

@@ -1,6 +1,8 @@
 // The part of System that checks and makes its connections.
 #include <algorithm>
 #include <map>
+#include <set>
+#include <string>
 
 #include <fmt/format.h>
 
@@ -64,6 +66,30 @@ void System::add_connections(const SystemDeclaration& declaration, Diagnostics& 
     if (variable(connection.to).is_triggered_clock()) {
       note_missing_data(*sources.at(connection.to).wanted, connection);
     }
+  }
+}
+
+/// A unit that has few of them is another one than was meant.
+void System::sum_up_misfits(const SystemDeclaration& declaration, Diagnostics& diagnostics) const {
+  std::map<std::string, std::set<std::string>> expected;
+  for (const ConnectionDeclaration& wanted : declaration.connections) {
+    expected[wanted.from_component].insert(wanted.from_connector);
+    expected[wanted.to_component].insert(wanted.to_connector);
+  }
+  for (const ComponentDeclaration& component : declaration.components) {
+    std::set<std::string>& variables = expected[component.name];
+    for (const ConnectorDeclaration& declared : component.connectors) {
+      variables.insert(declared.name);
+    }
+    const auto known =
+        static_cast<std::size_t>(std::ranges::count_if(variables, [&](const std::string& name) {
+          return find_end(component.name, name).has_value();
+        }));
+    if (known == variables.size() || variables.size() == 1) continue;
+    diagnostics.sum_up(component.name, component.where,
+                       fmt::format("its model '{}' has {} of the {} variables that are expected",
+                                   component.description->model_name,
+                                   known == 0 ? "none" : std::to_string(known), variables.size()));
   }
 }
 

@@ -1,7 +1,7 @@
 #include "master/util/diagnostics.h"
 
 #include <algorithm>
-#include <map>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -43,29 +43,45 @@ bool Diagnostics::mentions(const std::string& unit, const std::string& variable)
   });
 }
 
+void Diagnostics::sum_up(const std::string& unit, Location where, std::string text) {
+  summaries_[unit] = {std::move(where), std::move(text)};
+}
+
+void Diagnostics::raise_of_unit(const std::string& unit, const std::string& count,
+                                const std::string& lines, const std::string& hints) const {
+  std::string head = fmt::format("{} things do not fit", count);
+  Location where;
+  if (const auto summary = summaries_.find(unit); summary != summaries_.end()) {
+    where = summary->second.where;
+    head += "; " + summary->second.text;
+  }
+  fail_input({where, unit, {}, {}}, head + ":" + lines, hints);
+}
+
 void Diagnostics::raise() const {
   if (kept_.empty()) return;
   if (kept_.size() == 1) throw kept_.front();
   const std::vector<Error> sorted = by_unit(kept_);
   const std::string& unit = sorted.front().context().unit;
   const bool is_of_one_unit = sorted.back().context().unit == unit && !unit.empty();
-  const char* at_least = sorted.size() < kMostKept ? "" : "at least ";
-  std::string text = is_of_one_unit
-                         ? fmt::format("{}{} things do not fit:", at_least, sorted.size())
-                         : fmt::format("there are {}{} mistakes:", at_least, sorted.size());
   std::map<std::string, int> hint_uses;
   for (const Error& mistake : sorted) ++hint_uses[mistake.hint()];
+  std::string lines;
   for (std::size_t i = 0; i < std::min(sorted.size(), kMostLines); ++i) {
     const std::string& hint = sorted[i].hint();
     Context context = sorted[i].context();
     if (is_of_one_unit) context.unit.clear();
-    text += fmt::format("\n  {}{}", to_text(context), sorted[i].message());
-    if (!hint.empty() && hint_uses[hint] == 1) text += fmt::format(" ({})", hint);
+    lines += fmt::format("\n  {}{}", to_text(context), sorted[i].message());
+    if (!hint.empty() && hint_uses[hint] == 1) lines += fmt::format(" ({})", hint);
   }
   if (sorted.size() > kMostLines) {
-    text += fmt::format("\n  … and {} more", sorted.size() - kMostLines);
+    lines += fmt::format("\n  … and {} more", sorted.size() - kMostLines);
   }
-  fail_input({{}, is_of_one_unit ? unit : "", {}, {}}, text, shared_hints(sorted, hint_uses));
+  const std::string count =
+      fmt::format("{}{}", sorted.size() < kMostKept ? "" : "at least ", sorted.size());
+  const std::string hints = shared_hints(sorted, hint_uses);
+  if (is_of_one_unit) raise_of_unit(unit, count, lines, hints);
+  fail_input({}, fmt::format("there are {} mistakes:{}", count, lines), hints);
 }
 
 }  // namespace stride::core

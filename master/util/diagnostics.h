@@ -3,6 +3,7 @@
 #define STRIDE_MASTER_UTIL_DIAGNOSTICS_H
 
 #include <cstddef>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -36,12 +37,24 @@ class Diagnostics {
   /// Whether one of them concerns this variable or connector of a unit.
   bool mentions(const std::string& unit, const std::string& variable) const;
 
+  /// What is said of a unit above its mistakes, if there are several and all are about it: where
+  /// it is named, and a text that sums them up.
+  void sum_up(const std::string& unit, Location where, std::string text);
+
   /// Throws what was kept, if anything was: a single mistake as it is, several as one Error with a
   /// line for each, those about one unit together, in the order in which they were found.
   void raise() const;
 
  private:
+  struct Summary {
+    Location where;
+    std::string text;
+  };
+  [[noreturn]] void raise_of_unit(const std::string& unit, const std::string& count,
+                                  const std::string& lines, const std::string& hints) const;
+
   std::vector<Error> kept_;
+  std::map<std::string, Summary> summaries_;  ///< by the unit
 };
 
 }  // namespace stride::core

@@ -30,6 +30,16 @@ TEST_CASE("a unit that throws is named, with the time and its message") {
                  Contains("fmi3Error") && Contains("the fuse has blown"));
 }
 
+TEST_CASE("the message of a unit that throws is there once") {
+  const Workspace workspace = beside_a_filter("fuse", "thrower.fmu");
+  const auto hosting = GENERATE(as<std::string>(), "--no-report", "--isolate");
+  const Outcome outcome = workspace.run({"--set", "fuse.throw_at=0.5", hosting});
+  CHECK(outcome.exit_code == 1);
+  const std::size_t first = outcome.err.find("the fuse has blown");
+  REQUIRE(first != std::string::npos);
+  CHECK(outcome.err.find("the fuse has blown", first + 1) == std::string::npos);
+}
+
 TEST_CASE("a unit that throws something else is named, too") {
   const Workspace workspace = beside_a_filter("fuse", "thrower.fmu");
   CHECK_THAT(

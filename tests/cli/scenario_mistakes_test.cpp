@@ -45,9 +45,9 @@ TEST_CASE("a scenario that is not XML names the file and the line") {
   std::string text = scenario_text(two_filters());
   text.erase(text.find("</ssd:Connections>"), std::string("</ssd:Connections>").size());
   const Workspace workspace(text);
-  CHECK_THAT(mistake_in(workspace),
-             StartsWith("stride: error: " + workspace.at("<ssd:Connections>")) &&
-                 Contains("not well-formed XML") && Contains("without its end tag"));
+  CHECK_THAT(mistake_in(workspace), StartsWith("stride: error: " + workspace.at("</ssd:System>")) &&
+                                        Contains("not well-formed XML: </ssd:System>") &&
+                                        Contains("before the end tag of <ssd:Connections>"));
 }
 
 TEST_CASE("a scenario that is another kind of file") {
@@ -83,6 +83,12 @@ TEST_CASE("an unknown unit names the places searched and the nearest unit") {
   CHECK_THAT(mistake_in(workspace),
              Contains(workspace.at("<ssd:Component ") + "there is no unit 'minimla.fmu'") &&
                  Contains(unit_folder().string()) && Contains("did you mean 'minimal.fmu'?"));
+}
+
+TEST_CASE("an unknown unit is answered with the one beside the scenario") {
+  const Workspace workspace(Parts{component("filter", "hosst.fmu")});
+  fs::copy(unit_folder() / "minimal.fmu", workspace / "host.fmu");
+  CHECK_THAT(mistake_in(workspace), Contains("did you mean 'host.fmu'?"));
 }
 
 TEST_CASE("an unknown element in the annotation is answered with the nearest one") {

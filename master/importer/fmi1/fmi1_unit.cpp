@@ -122,7 +122,7 @@ std::optional<Time> Fmi1Unit::last_successful_time(const core::StepInterval& int
   double seconds = 0;
   const Status status =
       call_discardable("fmiGetRealStatus", fmi_.GetRealStatus, fmi1LastSuccessfulTime, &seconds);
-  if (has_messages_) take_messages("fmiGetRealStatus");
+  if (has_messages_) drop_messages();
   const bool is_known = status == Status::Ok || status == Status::Warning;
   return is_known ? instant_within(interval, seconds, "fmiLastSuccessfulTime") : std::nullopt;
 }

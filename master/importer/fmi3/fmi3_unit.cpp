@@ -115,7 +115,7 @@ std::string Fmi3Unit::describe_message(core::ValueReference variable, const core
       call_discardable(name, function, variable, value.empty() ? &none : value.data(), value.size(),
                        text.data(), text.size(), &size);
   if (status == Status::Discard) {
-    take_messages(name);
+    drop_messages();
     return {};
   }
   if (size > text.size()) {

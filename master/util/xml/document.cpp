@@ -1,7 +1,5 @@
 #include "master/util/xml/document.h"
 
-#include <algorithm>
-
 #include <fmt/format.h>
 #include <tinyxml2.h>
 
@@ -9,6 +7,7 @@
 #include "master/util/xml/character_references.h"
 #include "master/util/xml/editor.h"
 #include "master/util/xml/encoding.h"
+#include "master/util/xml/tag_mistake.h"
 
 namespace stride::xml {
 namespace {
@@ -65,8 +64,7 @@ void strip_nuls(std::string& text, const std::string& file, std::vector<std::str
 }
 
 core::Context place_of(std::size_t position, const std::string& text, const std::string& file) {
-  const auto line = 1 + std::count(text.begin(), text.begin() + std::ptrdiff_t(position), '\n');
-  return {.where = {file, static_cast<int>(line)}};
+  return {.where = {file, line_at(text, position)}};
 }
 
 /// The time of tinyxml2 is quadratic in their number.
@@ -108,6 +106,39 @@ void check_characters(const std::string& text, const std::string& file) {
                                "character of XML",
                                static_cast<unsigned char>(text[*bad])),
                    "leave it out");
+}
+
+/// The mistake in the tags that tinyxml2 has met, if it is one. It names the line of the start tag
+/// where an end tag is wrong, and the last tag that it has read where the text ends too early.
+std::optional<TagMistake> tag_mistake_at(const tinyxml2::XMLDocument& document,
+                                         const std::string& text) {
+  const tinyxml2::XMLError error = document.ErrorID();
+  const bool is_in_no_tag = error == tinyxml2::XML_ERROR_PARSING_COMMENT ||
+                            error == tinyxml2::XML_ERROR_PARSING_CDATA ||
+                            error == tinyxml2::XML_ERROR_PARSING_DECLARATION ||
+                            error == tinyxml2::XML_ERROR_PARSING_UNKNOWN;
+  if (is_in_no_tag) return std::nullopt;
+  auto mistake = find_tag_mistake(text);
+  const bool is_in_one_tag = error == tinyxml2::XML_ERROR_PARSING_ELEMENT ||
+                             error == tinyxml2::XML_ERROR_PARSING_ATTRIBUTE;
+  const bool is_later = mistake && line_at(text, mistake->position) > document.ErrorLineNum();
+  if (is_in_one_tag && is_later) return std::nullopt;
+  return mistake;
+}
+
+[[noreturn]] void fail_to_parse(const tinyxml2::XMLDocument& document, const std::string& text,
+                                const std::string& file) {
+  const core::Context place{.where = {file, document.ErrorLineNum()}};
+  if (document.ErrorID() == tinyxml2::XML_ELEMENT_DEPTH_EXCEEDED) {
+    core::fail_input(place, "more than 100 elements inside each other, which is not read");
+  }
+  const std::string message = "this is not well-formed XML: ";
+  if (const auto mistake = tag_mistake_at(document, text)) {
+    core::fail_input(place_of(mistake->position, text, file), message + mistake->reason,
+                     mistake->hint);
+  }
+  core::fail_input(place, message + words_for(document.ErrorID()),
+                   "look for a missing end tag or quotation mark in or above this line");
 }
 
 /// tinyxml2 takes </a/> for an element, so it finds more of them than there are.
@@ -180,13 +211,7 @@ Document Document::parse(std::string bytes, const std::string& shown_as,
   check_references(text, shown_as);
   tinyxml2::XMLDocument& document = content->document;
   if (document.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS) {
-    if (document.ErrorID() == tinyxml2::XML_ELEMENT_DEPTH_EXCEEDED) {
-      core::fail_input({.where = {shown_as, document.ErrorLineNum()}},
-                       "more than 100 elements inside each other, which is not read");
-    }
-    core::fail_input({.where = {shown_as, document.ErrorLineNum()}},
-                     fmt::format("this is not well-formed XML: {}", words_for(document.ErrorID())),
-                     "look for a missing end tag or quotation mark in or above this line");
+    fail_to_parse(document, text, shown_as);
   }
   tinyxml2::XMLElement* const root = document.RootElement();
   if (root == nullptr) fail(shown_as, "the file holds no XML element");

@@ -350,6 +350,20 @@ TEST_CASE("a unit that does not fit is explained connector by connector, each of
           "types"));
 }
 
+TEST_CASE("a unit that lacks variables is summed up above them") {
+  auto system = declaration();
+  system.components[1].where = {"s.ssd", 3};
+  system.components[1].connectors = {{"lamp", {}, {}, {}, {"s.ssd", 5}}};
+  system.connections = {wire("y", "speed", 12)};
+  CHECK_THAT(reason(system),
+             StartsWith("s.ssd:3: unit 'beta': 2 things do not fit; its model 'model' has none of "
+                        "the 2 variables that are expected:\n  s.ssd:5: variable 'lamp': "));
+  system.connections.push_back(wire("y", "u", 13));
+  system.connections.push_back({"beta", "lamp", "alpha", "n", false, {"s.ssd", 14}});
+  CHECK_THAT(reason(system), StartsWith("s.ssd:3: unit 'beta': 2 things do not fit; its model "
+                                        "'model' has 1 of the 3 variables that are expected:\n"));
+}
+
 TEST_CASE("wrong start values are reported together") {
   auto system = declaration();
   system.start_values = {{"alpha", "gain", "high", {}, {"s.ssd", 5}},

@@ -68,6 +68,21 @@ TEST_CASE("where all are about one unit it is named once") {
         "  a.ssd:8: variable 'adc': second");
 }
 
+TEST_CASE("what sums up the mistakes of a unit is above them if all are about it") {
+  Diagnostics diagnostics;
+  diagnostics.sum_up("sensor", {"a.ssd", 3}, "it has none of 2 variables");
+  diagnostics.sum_up("world", {"a.ssd", 4}, "not this");
+  keep(diagnostics, {{"a.ssd", 7}, "sensor", "led", {}}, "first");
+  CHECK(told(diagnostics) == "a.ssd:7: unit 'sensor', variable 'led': first");
+  keep(diagnostics, {{"a.ssd", 8}, "sensor", "adc", {}}, "second");
+  CHECK(told(diagnostics) ==
+        "a.ssd:3: unit 'sensor': 2 things do not fit; it has none of 2 variables:\n"
+        "  a.ssd:7: variable 'led': first\n"
+        "  a.ssd:8: variable 'adc': second");
+  keep(diagnostics, {{"a.ssd", 9}, {}, {}, {}}, "third");
+  CHECK_THAT(told(diagnostics), Contains("there are 3 mistakes:") && !Contains("none of"));
+}
+
 TEST_CASE("very many mistakes are counted") {
   Diagnostics diagnostics;
   for (int i = 0; i < 100; ++i) keep(diagnostics, {{"a.ssd", i}, "sensor", "led", {}}, "wrong");

@@ -5,7 +5,10 @@
  *
  * 8 to 11 with messages as careless generators write them: with a pointer of its own for the
  * environment, with null for whatever may be a pointer, from another thread, without arguments for
- * its conversions. */
+ * its conversions.
+ *
+ * 12 and 13 with a message that begins with the function's name, as a unit gives its reason, and
+ * then with fmi2OK or fmi2Error. */
 #include <pthread.h>
 
 #include "tests/test_units/fmi2/unit.h"
@@ -67,6 +70,10 @@ static fmi2Status unit_step(Unit* unit, double begin, double size) {
     case 11:
       log_carelessly(unit, mood);
       return fmi2OK;
+    case 12:
+    case 13:
+      LOG(unit, fmi2Error, "fmi2DoStep: it gets hot");
+      return mood == 12 ? fmi2OK : fmi2Error;
     case 77:
       return (fmi2Status)77;
     default:

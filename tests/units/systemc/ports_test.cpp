@@ -57,6 +57,14 @@ struct Driver : sc_core::sc_module {
   void look() { seen.write(bus.read()); }
 };
 
+struct Serial : sc_core::sc_module {
+  sc_core::sc_fifo_out<unsigned char> data{"data"};
+  sc_core::sc_fifo_out<unsigned char> debug{"debug"};
+  sc_core::sc_fifo_in<unsigned char> commands{"commands"};
+  sc_core::sc_fifo_in<unsigned char> settings{"settings"};
+  explicit Serial(sc_core::sc_module_name name) : sc_module(name) {}
+};
+
 struct LogicCounter : sc_core::sc_module {
   sc_core::sc_in<sc_dt::sc_logic> clk{"clk"}, reset{"reset"};
   sc_core::sc_out<int> count{"count"};
@@ -139,6 +147,18 @@ std::string error_of(UnitDriver unit) {
 }
 
 }  // namespace
+
+TEST_CASE("several FIFOs of a module get no warning") {
+  auto driver = driver_of<Serial>([](Rows<Serial>& rows) {
+    rows.message_output("data.byte", &Serial::data);
+    rows.message_output("debug.byte", &Serial::debug);
+    rows.message_input("commands.byte", &Serial::commands);
+    rows.message_input("settings.byte", &Serial::settings);
+  });
+  driver.initialize();
+  driver.step(at(kMicrosecond));
+  CHECK(driver.log.empty());
+}
 
 TEST_CASE("what a module writes into an sc_inout stays until the input changes") {
   const Duration step = GENERATE(as<Duration>(), kMicrosecond, 3 * kMicrosecond);

@@ -547,6 +547,23 @@ TEST_CASE("a message is the unit's, whatever it gives for its environment and on
   if (mood == 9) CHECK(unit.lines[1].message.empty());
 }
 
+TEST_CASE("the reason of a failure is in the error only, and logged where the call does not fail") {
+  Fmi2Fixture unit("fmi2_grumbler");
+  const bool fails = GENERATE(false, true);
+  unit.set_number("mood", fails ? 13 : 12);
+  unit.start();
+  if (fails) {
+    CHECK_THAT(run_error([&] { unit.step({}, Time(1s)); }),
+               Contains("fmi2DoStep returned fmi2Error: it gets hot"));
+    CHECK(unit.lines.empty());
+  } else {
+    CHECK(unit.step({}, Time(1s)).reached_without_request(Time(1s)));
+    REQUIRE(unit.lines.size() == 1);
+    CHECK(unit.lines[0].status == importer::Status::Error);
+    CHECK(unit.lines[0].message == "fmi2DoStep: it gets hot");
+  }
+}
+
 TEST_CASE("a message of a unit that is gone is lost, and no more", "[here]") {
   const auto fmu = importer::Fmu::load(test_fmu("fmi2_relaxation"));
   Fmi2Fixture unit(fmu);

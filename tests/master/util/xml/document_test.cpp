@@ -1,5 +1,7 @@
 #include "master/util/xml/document.h"
 
+#include <algorithm>
+
 #include <catch2/catch.hpp>
 
 #include "tests/error_of.h"
@@ -28,8 +30,9 @@ TEST_CASE("A file that cannot be read is named, with the reason") {
 
 TEST_CASE("What is not well-formed is refused with its line") {
   CHECK_THAT(error_in("<a>\n<b>\n</a>"),
-             Contains("x.ssd:2: this is not well-formed XML: an element without its end tag") &&
-                 Contains("missing end tag"));
+             Contains("x.ssd:3: this is not well-formed XML: </a>, which ends the element of line "
+                      "1, before the end tag of <b> of line 2") &&
+                 Contains("hint: write </b> before it"));
   CHECK_THAT(error_in("<a x=1/>"),
              Contains("x.ssd:1: this is not well-formed XML: a malformed or doubled attribute"));
   CHECK_THAT(error_in("<a x='1' x='2'/>"), Contains("a malformed or doubled attribute"));
@@ -46,6 +49,24 @@ TEST_CASE("What is not well-formed is refused with its line") {
   CHECK(error_in("<?xml version='1.0' encoding='utf-8'?><a encoding='x'/>") == "(no error)");
   CHECK(error_in("<?xml version='1.0'?><a encoding='x'/>") == "(no error)");
   CHECK_THAT(error_in("PK\x03\x04..."), Contains("this is a packed archive") && Contains("unpack"));
+}
+
+TEST_CASE("A file that was cut off is refused where it ends") {
+  const std::string whole = "<a>\n<b x='1'>\n<c y='2'>text</c>\n</b>\n</a>";
+  for (std::size_t size = 1; size < whole.size(); ++size) {
+    const std::string cut = whole.substr(0, size);
+    const auto last = std::count(cut.begin(), cut.end(), '\n') + (cut.ends_with('\n') ? 0 : 1);
+    CHECK_THAT(error_in(cut), Contains("x.ssd:" + std::to_string(last) + ": this is not") &&
+                                  Contains("the file ends"));
+  }
+  CHECK_THAT(error_in(whole.substr(0, 14)),
+             Contains("before the end tag of <b> of line 2") && Contains("2 elements"));
+}
+
+TEST_CASE("A mistake within a tag that comes before one of the tags is the one reported") {
+  CHECK_THAT(error_in("<a>\n<b x=1/>\n<c>\n</a>"), Contains("x.ssd:2: ") && Contains("attribute"));
+  CHECK_THAT(error_in("<a>\n<b/ >\n<c>\n</a>"), Contains("x.ssd:2: ") && Contains("malformed tag"));
+  CHECK_THAT(error_in("<a>\n<b>\n<!-- <c>"), Contains("x.ssd:3: ") && Contains("a comment"));
 }
 
 TEST_CASE("NUL characters behind the end of a document are ignored, with a warning") {

@@ -132,7 +132,7 @@ class Outlet final : public sc_core::sc_prim_channel, public sc_core::sc_fifo_ou
 
  private:
   Sender send_;
-  sc_core::sc_event never_{"never"};
+  sc_core::sc_event never_{sc_core::sc_gen_unique_name("never")};
 };
 
 /// A pair of variables, NAME and the clock beside it.
