@@ -28,6 +28,7 @@
 #include "master/util/archive/temporary_folder.h"
 #include "master/util/error.h"
 #include "master/util/output_file.h"
+#include "master/util/process/signal_state.h"
 #include "master/util/readable_text.h"
 
 namespace stride::cli {
@@ -66,7 +67,7 @@ void print(std::string_view text) { (void)!::write(STDERR_FILENO, text.data(), t
                         importer::unfinished_library_work(), note.is_leaving};
     const core::Error error = error_of(note.end, work);
     print(core::terminal_text(fmt::format("stride: error: {}\n", error.what())));
-    note.is_printed = true;
+    note.is_printed = EndNote::kComplete;
     (*guarded.conclusion.load())(error.what());
   } catch (...) {  // the rest is lost
   }
@@ -106,7 +107,7 @@ bool is_done_in_fork(void (*work)()) {
   const bool is_from_outside =
       note.end.kind == ProcessEnd::Kind::Signal && note.end.origin == SignalOrigin::Outside;
   note.code = is_from_outside ? -note.end.number : kRunFailed;
-  note.is_complete = true;
+  note.is_complete = EndNote::kComplete;
   if (is_from_outside) end_by(note.end.number);
   ::_exit(kRunFailed);
 }
@@ -152,7 +153,7 @@ constexpr void (*kSteps[])() = {stop_other_threads, core::OutputFile::rescue_all
   const pid_t self = ::gettid();
   if (guarded.ending.compare_exchange_strong(ending, self)) {
     EndNote& note = end_note();
-    note.is_complete = false;
+    note.is_complete = 0;
     note.end = end;
     note.end.thread = &importer::this_thread;
     note.has_end = true;

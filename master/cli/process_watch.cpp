@@ -38,6 +38,7 @@
 #include "master/util/input_file.h"
 #include "master/util/outliving.h"
 #include "master/util/output_file.h"
+#include "master/util/process/signal_state.h"
 
 namespace stride::cli {
 namespace {
@@ -45,8 +46,12 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Those that end a process, and can be sent to it [man 7 signal].
-constexpr std::array kForwarded{SIGHUP,  SIGINT,  SIGQUIT, SIGTERM,   SIGUSR1, SIGUSR2,
-                                SIGALRM, SIGPROF, SIGXCPU, SIGVTALRM, SIGPWR};
+bool is_forwarded(int signal) {
+  constexpr std::array kOthers{SIGKILL, SIGSTOP, SIGCHLD, SIGCONT, SIGTSTP,
+                               SIGTTIN, SIGTTOU, SIGURG,  SIGWINCH};
+  const bool is_hidden = 32 <= signal && signal < SIGRTMIN;  // by the C library
+  return !is_hidden && std::ranges::find(kOthers, signal) == kOthers.end();
+}
 
 // What handlers, which have no arguments, have to know.
 volatile pid_t watched = 0;
@@ -59,6 +64,8 @@ bool is_of_terminal(int signal, const siginfo_t& info) {
 }
 
 void forward(int signal, siginfo_t* info, void*) {
+  const bool is_crash = std::ranges::find(core::kCrashes, signal) != core::kCrashes.end();
+  if (is_crash && info->si_code > 0) end_by(signal);  // of this process
   last_signal = signal;
   if (!is_of_terminal(signal, *info)) ::kill(watched, signal);
 }
@@ -81,23 +88,21 @@ class Signals {
  public:
   Signals() {
     sigset_t blocked;
-    ::sigemptyset(&blocked);
-    for (const int signal : kForwarded) ::sigaddset(&blocked, signal);
-    ::sigaddset(&blocked, SIGCHLD);
+    ::sigfillset(&blocked);
     ::sigprocmask(SIG_BLOCK, &blocked, &mask_);
     struct sigaction action {};
     action.sa_handler = note_child;
-    ::sigaction(SIGCHLD, &action, &of_children_);
+    ::sigaction(SIGCHLD, &action, nullptr);
   }
+  /// Not that SIGCHLD is ignored: no process could wait for those that it makes.
   void restore() const {
-    ::sigaction(SIGCHLD, &of_children_, nullptr);
+    ::signal(SIGCHLD, SIG_DFL);
     ::sigprocmask(SIG_SETMASK, &mask_, nullptr);
   }
   const sigset_t& mask() const { return mask_; }
 
  private:
   sigset_t mask_{};
-  struct sigaction of_children_ {};
 };
 
 void forward_signals() {
@@ -105,10 +110,12 @@ void forward_signals() {
   action.sa_sigaction = forward;
   action.sa_flags = SA_SIGINFO;
   ::sigfillset(&action.sa_mask);
-  for (const int signal : kForwarded) {
+  for (int signal = 1; signal <= SIGRTMAX; ++signal) {
     struct sigaction before {};
     ::sigaction(signal, nullptr, &before);
-    if (before.sa_handler != SIG_IGN) ::sigaction(signal, &action, nullptr);
+    if (is_forwarded(signal) && before.sa_handler != SIG_IGN) {
+      ::sigaction(signal, &action, nullptr);
+    }
   }
 }
 
@@ -143,6 +150,7 @@ class Watch {
   [[noreturn]] void run();
 
  private:
+  void complete_records() const;
   void wait();
   void look_at_program();
   void end_watched(const ProcessEnd& end);
@@ -161,15 +169,18 @@ class Watch {
 void Watch::run() {
   wait();
   const int code = WIFEXITED(status_) ? WEXITSTATUS(status_) : -WTERMSIG(status_);
-  const bool is_told = note_.is_complete && note_.code == code && !own_end_;
-  if (is_told && code >= 0) ::_exit(code);
+  const bool is_told = note_.is_complete == EndNote::kComplete && note_.code == code && !own_end_;
+  if (is_told && code >= 0) {
+    if (code != 0) complete_records();
+    ::_exit(code);
+  }
   core::OutputFile::rescue_left();
   const bool is_ours = !is_ended_from_outside();
   if (!is_told) {
     const UnitWork work{importer::left_calls(note_.has_end ? note_.end.thread : nullptr),
                         importer::left_library_work(), note_.is_leaving};
     const core::Error error = error_of(end(), work);
-    if (is_ours && !note_.is_printed) print_error(error.what());
+    if (is_ours && note_.is_printed != EndNote::kComplete) print_error(error.what());
     report(error);
     await_copies();
     archive::TemporaryFolder::sweep_abandoned();
@@ -177,6 +188,16 @@ void Watch::run() {
   if (is_ours) ::_exit(kRunFailed);
   ::prctl(PR_SET_DUMPABLE, 0);  // there is an image of the other process's memory, if any
   end_by(WTERMSIG(status_));
+}
+
+/// What a process that has told its error could not write, such as one that has lost its rights.
+void Watch::complete_records() const {
+  if (is_in_run()) {
+    report({core::Error::Kind::Run,
+            {},
+            "the run has failed, and could not write here for what reason"});
+  }
+  archive::TemporaryFolder::sweep_abandoned();
 }
 
 /// The process itself waits less long for its end, and can say more about it.
@@ -222,8 +243,9 @@ ProcessEnd Watch::end() const {
 bool Watch::is_ended_from_outside() const {
   if (own_end_ || !WIFSIGNALED(status_)) return false;
   const int signal = WTERMSIG(status_);
-  const bool is_output_gone = signal == SIGPIPE && !is_in_run();
-  return is_output_gone || signal == last_signal || (note_.is_complete && note_.code == -signal);
+  const bool is_output_gone = signal == SIGPIPE && importer::left_calls(nullptr).empty();
+  return is_output_gone || signal == last_signal ||
+         (note_.is_complete == EndNote::kComplete && note_.code == -signal);
 }
 
 /// It has begun, and was not over.
@@ -259,7 +281,7 @@ void Watch::report(const core::Error& error) const {
 void complete_note(int code, void*) {
   EndNote& note = end_note();
   if (!note.is_leaving || own != ::getpid()) return;
-  note.is_complete = true;
+  note.is_complete = EndNote::kComplete;
   if (code == note.code) return;
   std::fflush(nullptr);
   ::_exit(note.code);

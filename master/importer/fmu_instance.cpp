@@ -156,7 +156,7 @@ void FmuInstance::fail_thrown(const char* function) {
   if (is_fork_ || !core::ForkMark::is_set()) leave_fork();
   failed_in_ = function;
   if (!mode_.is_present()) restore_mode();
-  present_->end();
+  present_.end();
   mark_unusable();
   log_held();
   fail(fmt::format("{} threw {}", function, what), "a function of FMI returns a status instead");
@@ -169,7 +169,7 @@ void FmuInstance::fail_thrown(const char* function) {
 /// unit calls back may set anew.
 void FmuInstance::note_fork() noexcept {
   core::Listed<FmuInstance>::for_each(
-      [](FmuInstance& instance) { instance.is_fork_ = instance.present_->is_by_this_thread(); });
+      [](FmuInstance& instance) { instance.is_fork_ = instance.present_.is_by_this_thread(); });
 }
 
 /// What is in memory, as lines of results, is the first process's to write.
@@ -177,7 +177,7 @@ void FmuInstance::leave_fork() const {
   const std::string text = core::terminal_text(
       fmt::format("warning: unit '{}': {} called fork() and returned in both processes; the new "
                   "one ends here\n",
-                  name_, present_->function()));
+                  name_, present_.function()));
   (void)!::write(STDERR_FILENO, text.data(), text.size());
   ::_exit(0);
 }
@@ -192,7 +192,7 @@ void FmuInstance::restore_mode() {
       fmt::format("{} left another floating-point mode behind ({}); it is put back, here and after "
                   "later calls, since the numbers of all units depend on it: a function has to "
                   "restore it before it returns",
-                  present_->function(), mode_.differences(left)));
+                  present_.function(), mode_.differences(left)));
 }
 
 void FmuInstance::restore_process(const char* function) {
@@ -247,7 +247,7 @@ bool is_any_call_unfinished() noexcept {
 std::vector<UnitCall> unfinished_calls(const char* thread) {
   std::vector<UnitCall> calls;
   core::Listed<FmuInstance>::for_each([&](const FmuInstance& instance) {
-    const PresentCall& present = *instance.present_;
+    const PresentCall& present = instance.present_;
     if (present.function() == nullptr) return;
     const core::ValueReference* const variable = present.variable();
     calls.push_back({.function = present.function(),
@@ -288,7 +288,7 @@ void FmuInstance::receive(Status status, const char* category, const char* messa
 /// "fmi3DoStep: the fuse has blown" is what the unit kit, and others, log right before they return:
 /// the error of the call contains it, and logged it would be there twice.
 bool FmuInstance::is_reason_of_call(Status status, std::string_view message) const {
-  const char* const function = present_->function();
+  const char* const function = present_.function();
   if (status != Status::Error || function == nullptr) return false;
   const std::size_t size = std::string_view(function).size();
   return message.starts_with(function) && message.substr(size).starts_with(": ");

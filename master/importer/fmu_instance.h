@@ -28,7 +28,6 @@
 #include "master/importer/unit_call.h"
 #include "master/util/error.h"
 #include "master/util/listed.h"
-#include "master/util/outliving.h"
 #include "master/util/process/floating_point_mode.h"
 #include "master/util/process/fork_mark.h"
 #include "master/util/process/process_state.h"
@@ -98,8 +97,8 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics, public Call
   std::string rejection_reason() const override { return rejection_reason_; }
   std::uint64_t calls() const override { return calls_; }
 
-  bool is_in_call() const final { return present_->function() != nullptr; }
-  bool is_called_by_this_thread() const final { return present_->is_by_this_thread(); }
+  bool is_in_call() const final { return present_.function() != nullptr; }
+  bool is_called_by_this_thread() const final { return present_.is_by_this_thread(); }
 
  protected:
   using References = std::span<const core::ValueReference>;
@@ -141,14 +140,14 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics, public Call
   /// For a call that does not count, or goes on.
   void write_note(const char* name) {
     core::ForkMark::set();
-    present_->begin(name, time_);
+    present_.begin(name, time_);
   }
   void end_call() {
     if (is_fork_ || !core::ForkMark::is_set()) [[unlikely]]
       leave_fork();
     if (!mode_.is_present()) [[unlikely]]
       restore_mode();
-    present_->end();
+    present_.end();
   }
   /// After a call of this function: see InstanceOptions::process.
   void restore_process(const char* function);
@@ -270,7 +269,7 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics, public Call
   void* instance_ = nullptr;         ///< as the unit calls it
   const char* failed_in_ = nullptr;  ///< the function after whose status nothing goes on
   std::uint64_t calls_ = 0;
-  core::Outliving<PresentCall> present_;
+  PresentCall present_;
   bool was_restored_ = false;  ///< from a kept state, and no step has ended since
   bool is_fork_ = false;       ///< the present function has made this process, by fork()
   const core::FloatingPointMode mode_ = core::FloatingPointMode::present();

@@ -31,7 +31,7 @@ void FmuInstance::copy_each(const char* function, References references, std::si
     PresentCall& present;
   };
   write_note(function);
-  const End end{*present_};
+  const End end{present_};
   std::size_t i = 0;
   const auto size_of = [&](core::ValueReference reference) {
     if (references.size() == count) return std::size_t{1};
@@ -39,7 +39,7 @@ void FmuInstance::copy_each(const char* function, References references, std::si
     return place ? parts_.description->variables[*place].size : count - i;
   };
   for (const core::ValueReference& reference : references) {
-    present_->read_value_of(&reference);
+    present_.read_value_of(&reference);
     for (const std::size_t last = std::min(i + size_of(reference), count); i < last; ++i) {
       try {
         copy(i, reference);

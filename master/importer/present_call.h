@@ -10,30 +10,48 @@
 #include "master/model/description.h"
 #include "master/util/error.h"
 #include "master/util/fixed_text.h"
+#include "master/util/outliving.h"
 
 namespace stride::importer {
 
 /// Its address identifies a thread.
 inline thread_local char this_thread = 0;
 
-/// The call of a function of an instance that has not returned, or whose values are still being
-/// read from the memory of the unit. One thread makes calls; others, handlers of signals, and the
-/// process that watches this one (core::Outliving) may look at any time. Nothing here allocates or
-/// locks.
-class PresentCall {
- public:
+/// What the process that watches this one sees of a call: see core::Outliving.
+struct LeftCall {
   static constexpr std::size_t kMostOutliving = 1024;
 
-  /// The name of the unit and the file of its component are cut off if they are long. Each call is
-  /// written to `note` as well, for another process; null = nowhere.
+  /// The name of the unit and the file of its component are cut off if they are long.
+  LeftCall(std::string_view unit_name, const core::Location& where)
+      : unit(unit_name), file(where.file), line(where.line) {}
+
+  std::atomic<const char*> function{nullptr};  ///< null if there is no call
+  std::atomic<const char*> thread{nullptr};    ///< which makes it: its address of this_thread
+  std::optional<Time> time;
+  const core::FixedText<128> unit;
+  const core::FixedText<256> file;  ///< with `line`, the component's position in the scenario
+  const int line;
+};
+
+/// The call of a function of an instance that has not returned, or whose values are still being
+/// read from the memory of the unit. One thread makes calls; others, handlers of signals, and the
+/// process that watches this one may look at any time. Nothing here allocates or locks.
+///
+/// A copy of the process, which the function may make, has the call as it was then.
+class PresentCall {
+ public:
+  /// Each call is written to `note` as well, for another process; null = nowhere.
   PresentCall(std::string_view unit, const core::Location& where, CallNote* note)
-      : unit_(unit), file_(where.file), line_(where.line), note_(note) {}
+      : left_(unit, where), note_(note) {}
 
   /// `function` must outlive the call.
   void begin(const char* function, const std::optional<Time>& time) noexcept {
     thread_.store(&this_thread, std::memory_order_relaxed);
-    time_ = time;
     function_.store(function, std::memory_order_relaxed);
+    time_ = time;
+    left_->time = time;
+    left_->thread.store(&this_thread, std::memory_order_relaxed);
+    left_->function.store(function, std::memory_order_relaxed);
     if (note_ != nullptr) [[unlikely]]
       note_->write(function, time.value_or(Time{}));
   }
@@ -44,6 +62,7 @@ class PresentCall {
   }
   void end() noexcept {
     function_.store(nullptr, std::memory_order_relaxed);
+    left_->function.store(nullptr, std::memory_order_relaxed);
     if (note_ != nullptr) [[unlikely]]
       note_->clear();
   }
@@ -52,10 +71,6 @@ class PresentCall {
     end();
   }
 
-  std::string_view unit() const noexcept { return unit_.view(); }
-  /// The component's position in the scenario.
-  std::string_view file() const noexcept { return file_.view(); }
-  int line() const noexcept { return line_; }
   /// Of the last call.
   const std::optional<Time>& time() const noexcept { return time_; }
   /// Which thread makes it, or has made the last one: its address of this_thread.
@@ -74,11 +89,9 @@ class PresentCall {
   std::atomic<const char*> function_{nullptr};
   std::atomic<const char*> thread_{nullptr};
   std::optional<Time> time_;
-  std::atomic<const core::ValueReference*> variable_{nullptr};
-  const core::FixedText<128> unit_;
-  const core::FixedText<256> file_;
-  const int line_;
+  core::Outliving<LeftCall> left_;
   CallNote* const note_;
+  std::atomic<const core::ValueReference*> variable_{nullptr};
 };
 
 }  // namespace stride::importer

@@ -29,20 +29,21 @@ std::string name_at(const char* pointer) {
 }  // namespace
 
 void share_calls() {
-  core::Outliving<PresentCall>::share();
+  core::Outliving<LeftCall>::share();
   core::Outliving<LibraryWork>::share();
 }
 
 std::vector<UnitCall> left_calls(const char* thread) {
   std::vector<UnitCall> calls;
-  core::Outliving<PresentCall>::for_each_left([&](const PresentCall& call) {
-    if (call.function() == nullptr) return;
-    calls.push_back({.function = name_at(call.function()),
-                     .unit = std::string(call.unit()),
-                     .where = {std::string(call.file()), call.line()},
-                     .time = call.time(),
+  core::Outliving<LeftCall>::for_each_left([&](const LeftCall& call) {
+    const char* const function = call.function;
+    if (function == nullptr) return;
+    calls.push_back({.function = name_at(function),
+                     .unit = std::string(call.unit.view()),
+                     .where = {std::string(call.file.view()), call.line},
+                     .time = call.time,
                      .variable = {},
-                     .is_by_thread = thread != nullptr && call.thread() == thread});
+                     .is_by_thread = thread != nullptr && call.thread == thread});
   });
   return calls;
 }

@@ -5,24 +5,23 @@
 #include "master/util/composed_letters.h"
 
 namespace stride::core {
-namespace {
 
 /// Of several variables of one name, the first is kept.
-std::map<std::string_view, std::size_t> names_of(const UnitDescription& description) {
-  std::map<std::string_view, std::size_t> names;
+NameIndex::Variables::Variables(const UnitDescription& description) {
   for (std::size_t i = 0; i < description.variables.size(); ++i) {
-    names.emplace(description.variables[i].name, i);
-    for (const std::string& alias : description.variables[i].aliases) names.emplace(alias, i);
+    places.emplace(description.variables[i].name, i);
+    for (const std::string& alias : description.variables[i].aliases) places.emplace(alias, i);
   }
-  return names;
+  for (const auto& [name, place] : std::map(places)) {
+    std::string other = composed(name);
+    if (other != name) places.emplace(composed_names.emplace_back(std::move(other)), place);
+  }
 }
-
-}  // namespace
 
 bool NameIndex::add(const std::string& component,
                     std::shared_ptr<const UnitDescription> description) {
   const auto [entry, is_new] = descriptions_.try_emplace(std::move(description));
-  if (is_new) entry->second = std::make_shared<const Variables>(names_of(*entry->first));
+  if (is_new) entry->second = std::make_shared<const Variables>(*entry->first);
   const std::size_t number = variables_.size();
   variables_.push_back(entry->second);
   return components_.emplace(component, number).second;
@@ -35,7 +34,7 @@ std::optional<std::size_t> NameIndex::component(const std::string& name) const {
 }
 
 std::optional<std::size_t> NameIndex::variable(std::size_t component, std::string_view name) const {
-  const Variables& variables = *variables_[component];
+  const auto& variables = variables_[component]->places;
   auto found = variables.find(name);
   if (found == variables.end()) found = variables.find(composed(name));
   if (found == variables.end()) return std::nullopt;

@@ -3,6 +3,7 @@
 #define STRIDE_MASTER_MODEL_NAME_INDEX_H
 
 #include <cstddef>
+#include <deque>
 #include <map>
 #include <memory>
 #include <optional>
@@ -24,15 +25,19 @@ class NameIndex {
   /// The number of the component, counted from 0.
   std::optional<std::size_t> component(const std::string& name) const;
   /// The index of the component's variable with this name or alias, as UnitDescription::find() has
-  /// it. A name with marks behind its letters is also that with letters that have marks: see
-  /// composed().
+  /// it. Of letters with marks either form is found: see composed().
   std::optional<std::size_t> variable(std::size_t component, std::string_view name) const;
 
  private:
-  using Variables = std::map<std::string_view, std::size_t>;
+  struct Variables {
+    explicit Variables(const UnitDescription& description);
+
+    std::map<std::string_view, std::size_t> places;
+    std::deque<std::string> composed_names;  ///< of those that are not
+  };
 
   std::map<std::string, std::size_t> components_;
-  /// The views in the maps are into these descriptions.
+  /// The views in the maps are into these descriptions, or the composed names.
   std::map<std::shared_ptr<const UnitDescription>, std::shared_ptr<const Variables>> descriptions_;
   std::vector<std::shared_ptr<const Variables>> variables_;  ///< by component
 };

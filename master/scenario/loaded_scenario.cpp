@@ -301,6 +301,7 @@ void LoadedScenario::check_steps() {
   if (core::has_unlimited_steps(*system_, options_)) warn_of_unlimited_steps();
   if (!options_.step.policy->has_grid) return;
   end_with_whole_steps();
+  warn_of_other_steps();
   warn_of_internal_steps();
 }
 
@@ -355,6 +356,25 @@ void LoadedScenario::end_with_whole_steps() {
                                         fmt::format(": the run ends at {} s, with the last whole "
                                                     "one",
                                                     core::to_text(options_.stop))));
+}
+
+/// Some units count their steps, and not the time.
+void LoadedScenario::warn_of_other_steps() const {
+  for (std::size_t i = 0; i < fmus_.size(); ++i) {
+    const core::UnitDescription& unit = *fmus_[i]->description();
+    if (unit.can_vary_step || !unit.default_step || *unit.default_step == options_.step.size) {
+      continue;
+    }
+    const core::ComponentDeclaration& component = scenario_.system.components[i];
+    const core::Context context{component.where, component.name, {}, {}};
+    const std::string step = core::to_text(*unit.default_step);
+    spdlog::warn("{}",
+                 core::message_text(fmt::format(
+                     "{}the unit takes steps of one size only, and its DefaultExperiment has "
+                     "{} s, but its steps are of {} s; if its times or values are wrong then, "
+                     "use --step {}",
+                     core::to_text(context), step, core::to_text(options_.step.size), step)));
+  }
 }
 
 void LoadedScenario::warn_of_internal_steps() const {

@@ -85,6 +85,7 @@ class LoadedScenario {
   void choose_idle_skips(const ScenarioRequest& request);
   void choose_signals(const ScenarioRequest& request);
   void end_with_whole_steps();
+  void warn_of_other_steps() const;
   void warn_of_internal_steps() const;
   void warn_of_unlimited_steps() const;
   importer::InstanceOptions instance_options(std::size_t component,

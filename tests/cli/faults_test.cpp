@@ -92,6 +92,7 @@ constexpr Fault kFaults[] = {
     {"limit resources", nullptr, kCompletes},
     {"limit open files", kCompletes, kCompletes},
     {"fork", kCompletes, kCompletes},
+    {"fork and go on", kCompletes, kCompletes},
     {"round up", kCompletes, kCompletes},
     {"flush to zero", kCompletes, kCompletes},
 };
@@ -302,8 +303,8 @@ TEST_CASE("a unit's own timer may run on when the unit is gone") {
 
 TEST_CASE("a signal from outside that ends the run is reported, and ends the process") {
   if (kSanitized) return;
-  const auto [signal, name] =
-      GENERATE(table<int, std::string>({{SIGQUIT, "SIGQUIT"}, {SIGPROF, "SIGPROF"}}));
+  const auto [signal, name] = GENERATE(table<int, std::string>(
+      {{SIGQUIT, "SIGQUIT"}, {SIGPROF, "SIGPROF"}, {SIGABRT, "SIGABRT"}, {SIGSEGV, "SIGSEGV"}}));
   const Workspace workspace = workspace_for({3, false}, kStep);
   Process process(stride_command(Workspace::run_arguments({"--stop", "1e6", "--no-trace"})),
                   workspace.scratch().path());
@@ -427,6 +428,14 @@ TEST_CASE("a unit that opens all files that it can leaves some for the results")
     CHECK(fs::exists(workspace / "out/report.html"));
     CHECK(workspace.left_behind().empty());
   }
+}
+
+TEST_CASE("units have hosts where whoever has started stride ignores the end of processes") {
+  const Workspace workspace = workspace_for({3, true}, kStep);
+  const std::string command = shell_command({"--quiet", "--step", "0.125", "--isolate"});
+  const Outcome outcome =
+      Process({"sh", "-c", "trap '' CHLD; exec " + command}, workspace.scratch().path()).wait();
+  CHECK(outcome.exit_code == 0);
 }
 
 TEST_CASE("a hosted unit has no terminal") {

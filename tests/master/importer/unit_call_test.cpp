@@ -5,7 +5,6 @@
 #include <unistd.h>
 
 #include "master/importer/present_call.h"
-#include "master/util/outliving.h"
 
 using namespace stride;
 using namespace stride::importer;
@@ -14,13 +13,13 @@ TEST_CASE("the calls that a process has left are named, whatever it has done to 
   share_calls();
   const pid_t process = ::fork();
   if (process == 0) {
-    auto& call = *new core::Outliving<PresentCall>("fuse", core::Location{"a.ssd", 7}, nullptr);
-    call->begin("fmi3DoStep", Time(std::chrono::seconds(2)));
-    auto& other = *new core::Outliving<PresentCall>("idle", core::Location{}, nullptr);
-    other->begin("fmi3GetFloat64", {});
-    other->end();
-    auto& damaged = *new core::Outliving<PresentCall>("wild", core::Location{}, nullptr);
-    damaged->begin(reinterpret_cast<const char*>(8), {});
+    auto& call = *new PresentCall("fuse", core::Location{"a.ssd", 7}, nullptr);
+    call.begin("fmi3DoStep", Time(std::chrono::seconds(2)));
+    auto& other = *new PresentCall("idle", core::Location{}, nullptr);
+    other.begin("fmi3GetFloat64", {});
+    other.end();
+    auto& damaged = *new PresentCall("wild", core::Location{}, nullptr);
+    damaged.begin(reinterpret_cast<const char*>(8), {});
     ::_exit(0);
   }
   ::waitpid(process, nullptr, 0);

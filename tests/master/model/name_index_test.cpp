@@ -59,4 +59,7 @@ TEST_CASE("a name is found in another form of its letters, too") {
   names.add("a", described({variable("Gr\u00F6\u00DFe")}));
   CHECK(names.variable(0, "Gro\u0308\u00DFe") == 0);
   CHECK_FALSE(names.variable(0, "Gra\u0308\u00DFe"));
+  names.add("b", described({variable("x"), variable("su\u0308\u00DF")}));
+  CHECK(names.variable(1, "s\u00FC\u00DF") == 1);
+  CHECK(names.variable(1, "su\u0308\u00DF") == 1);
 }

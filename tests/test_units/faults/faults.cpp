@@ -355,6 +355,7 @@ constexpr Fault kFaults[] = {
        write_to_nowhere();
      }},
     {"fork", fork_and_return},
+    {"fork and go on", [] { static_cast<void>(::fork()); }},
     {"send nameless files", send_nameless_files},
     {"limit parent", limit_parent},
     {"round up", [] { std::fesetround(FE_UPWARD); }},
