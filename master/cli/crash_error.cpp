@@ -1,6 +1,8 @@
 #include "master/cli/crash_error.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <span>
 #include <string>
 
 #include <fmt/format.h>
@@ -65,11 +67,12 @@ core::Error error_in(const importer::UnitCall& call, const std::string& end) {
 }
 
 std::string names_of(std::span<const importer::UnitCall> calls) {
+  constexpr std::size_t kMost = 5;
   std::string names;
-  for (const importer::UnitCall& call : calls) {
+  for (const importer::UnitCall& call : calls.first(std::min(calls.size(), kMost))) {
     names += fmt::format("{}{} of '{}'", names.empty() ? "" : ", ", call.function, call.unit);
   }
-  return names;
+  return calls.size() <= kMost ? names : fmt::format("{} and {} more", names, calls.size() - kMost);
 }
 
 }  // namespace

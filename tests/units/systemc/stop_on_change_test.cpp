@@ -89,8 +89,10 @@ TEST_CASE("a change that an input causes without a delay ends the step where it 
   UnitDriver unit = stopping();
   unit.initialize();
   REQUIRE(unit.step(at(10 * kMicrosecond), true) == kRise);
+  CHECK_FALSE(unit.needs_event());
   unit.value<bool>("mask") = true;
   CHECK(unit.step(at(10 * kMicrosecond), true) == kRise);
+  CHECK(unit.needs_event());
   CHECK_FALSE(unit.value<bool>("irq"));
   CHECK(unit.step(at(10 * kMicrosecond), true) == at(10 * kMicrosecond));
 }

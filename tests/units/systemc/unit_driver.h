@@ -48,6 +48,7 @@ class UnitDriver {
     Step step(now_, to, may_return_early);
     unit_->step(step);
     terminates_ |= step.terminates();
+    needs_event_ = step.event_needed();
     return now_ = step.reached().value_or(to);
   }
 
@@ -56,6 +57,8 @@ class UnitDriver {
     unit_->event(event);
     terminates_ |= event.terminates();
   }
+  /// The last step has ended for an event.
+  bool needs_event() const { return needs_event_; }
   /// The unit has requested the end of the simulation.
   bool terminates() const { return terminates_; }
 
@@ -71,6 +74,7 @@ class UnitDriver {
   kit::Table table_{*unit_, seconds_};
   Time now_;
   bool terminates_ = false;
+  bool needs_event_ = false;
 };
 
 }  // namespace stride::tests

@@ -73,6 +73,8 @@ class DeviceUnit : public Unit {
     publish();
     if (has_finished()) step.terminate_simulation();
     if (step.early_return_allowed() && to_master(reached) < step.to()) {
+      // where a step began it ends for an event only (FMI 3.0, 2.4.7)
+      if (to_master(reached) == step.from()) step.need_event();
       step.return_early(to_master(reached));
     }
   }
