@@ -124,19 +124,24 @@ bool is_copy(pid_t process) {
          core::FileIdentity::of(program_of(::getpid()).c_str());
 }
 
+/// Whether it may be one: of a process that is ending the program is not known.
+bool may_be_copy(pid_t process) {
+  return is_copy(process) || !core::FileIdentity::of(program_of(process).c_str());
+}
+
 /// Of the process that has ended, which are adopted: they hold its files, and end by themselves.
 void await_copies() {
   constexpr int kLongest = 200;  // [10 ms]
   for (int i = 0; i <= kLongest; ++i) {
     while (::waitpid(-1, nullptr, WNOHANG) > 0) {
     }
-    const auto copies = isolation::children_of(::getpid()).value_or(std::vector<pid_t>{});
-    if (std::ranges::none_of(copies, is_copy)) return;
+    const auto children = isolation::children_of(::getpid()).value_or(std::vector<pid_t>{});
+    if (std::ranges::none_of(children, may_be_copy)) return;
     constexpr timespec kPause{0, 10'000'000};
     ::nanosleep(&kPause, nullptr);
     if (i < kLongest) continue;
-    for (const pid_t copy : copies) {
-      if (is_copy(copy)) ::kill(copy, SIGKILL);
+    for (const pid_t child : children) {
+      if (is_copy(child)) ::kill(child, SIGKILL);
     }
   }
 }
