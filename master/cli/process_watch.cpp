@@ -326,8 +326,8 @@ void fork_to_watch() {
 }  // namespace
 
 EndNote& end_note() {
-  static auto& note = **new core::Outliving<EndNote>;
-  return note;
+  static auto& note = *new core::Outliving<EndNote>;
+  return *note;
 }
 
 void go_on_watched() {
