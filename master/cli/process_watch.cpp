@@ -326,8 +326,9 @@ void fork_to_watch() {
 }  // namespace
 
 EndNote& end_note() {
-  static auto& note = *new core::Outliving<EndNote>;
-  return *note;
+  static auto* const owner = new core::Outliving<EndNote>;
+  static EndNote& note = **owner;  // reached without the heap, which may be damaged
+  return note;
 }
 
 void go_on_watched() {

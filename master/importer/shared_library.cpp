@@ -132,9 +132,10 @@ std::atomic<const LibraryWork*> noted_work{nullptr};
 /// Made when it is needed first, and so after the memory that outlives the process. Never
 /// destroyed, since handlers of signals may look later.
 LibraryWork& present_work() {
-  static auto& work = *new core::Outliving<LibraryWork>;
-  noted_work = &*work;
-  return *work;
+  static auto* const owner = new core::Outliving<LibraryWork>;
+  static LibraryWork& work = **owner;
+  noted_work = &work;
+  return work;
 }
 
 /// One flag per library in the process: dlopen gives the same handle however often it is opened.
