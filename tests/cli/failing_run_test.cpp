@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "tests/cli/failures.h"
+#include "tests/cli/leftovers.h"
 
 using namespace stride::tests;
 using Catch::Matchers::Contains;
@@ -195,6 +196,7 @@ TEST_CASE("a second run into the folder of one that has not ended is refused") {
 }
 
 TEST_CASE("what a killed run leaves goes with the next one") {
+  const Leftovers leftovers;
   const Workspace workspace(two_filters());
   {
     Process process(stride_command(Workspace::run_arguments({"--stop", "1e6", "--no-trace"})),
@@ -203,6 +205,7 @@ TEST_CASE("what a killed run leaves goes with the next one") {
     process.send(SIGKILL);
     CHECK(process.wait().exit_code == -SIGKILL);
   }
+  CHECK(leftovers.after_a_while() == std::vector<std::string>{});
   CHECK_FALSE(workspace.left_behind().empty());
   CHECK(workspace.run({"--quiet"}).exit_code == 0);
   CHECK(workspace.left_behind().empty());
