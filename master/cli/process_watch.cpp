@@ -25,7 +25,7 @@
 #include "master/cli/end_note.h"
 #include "master/cli/exit.h"
 #include "master/cli/output.h"
-#include "master/cli/report_page.h"
+#include "master/cli/recorded_run.h"
 #include "master/cli/test_report.h"
 #include "master/importer/unit_call.h"
 #include "master/isolation/process/children.h"
@@ -64,8 +64,7 @@ bool is_of_terminal(int signal, const siginfo_t& info) {
 }
 
 void forward(int signal, siginfo_t* info, void*) {
-  const bool is_crash = std::ranges::find(core::kCrashes, signal) != core::kCrashes.end();
-  if (is_crash && info->si_code > 0) end_by(signal);  // of this process
+  if (core::is_crash(signal) && info->si_code > 0) end_by(signal);  // of this process
   last_signal = signal;
   if (!is_of_terminal(signal, *info)) ::kill(watched, signal);
 }
@@ -222,11 +221,10 @@ void Watch::wait() {
 /// Some code may have closed the file, too.
 void Watch::look_at_program() {
   image_ = core::Descriptor();
-  const fs::path program = program_of(watched);
-  if (is_copy(watched) || !core::FileIdentity::of(program.c_str())) return;
+  if (may_be_copy(watched)) return;
   ProcessEnd end{.kind = ProcessEnd::Kind::Program};
   std::error_code none;
-  end.text.set(fs::read_symlink(program, none).native());
+  end.text.set(fs::read_symlink(program_of(watched), none).native());
   end_watched(end);
 }
 
@@ -268,10 +266,9 @@ void Watch::report(const core::Error& error) const {
   if (is_ended_from_outside() && !run_file.empty() && !is_in_run()) return;
   warn_of_failure([&] {
     if (run_file.empty() || !core::is_file(run_file)) return;
-    if (!recorders::add_error(run_file, error.what(), error.context().time)) return;
-    const recorders::ResultFiles files = report::result_files(run_file.parent_path());
-    if (files.report.empty()) return;
-    write_report(run_file.parent_path(), files, run_file.parent_path() / files.report);
+    recorders::ResultFiles files = report::result_files(run_file.parent_path());
+    files.statistics = run_file.filename();
+    add_error({run_file.parent_path(), files}, error.what(), error.context().time);
   });
   const fs::path test_report(note_.test_report.view());
   warn_of_failure([&] {

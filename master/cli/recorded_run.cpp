@@ -18,6 +18,7 @@
 #include "master/recorders/run_json.h"
 #include "master/recorders/unit_folders.h"
 #include "master/util/error.h"
+#include "master/util/input_file.h"
 #include "master/util/output_file.h"
 #include "master/util/process/spare_files.h"
 #include "master/util/replacement.h"
@@ -96,6 +97,15 @@ void require_passed(std::span<const core::Verdict> verdicts) {
 }
 
 }  // namespace
+
+void add_error(const ResultsTarget& results, const std::string& error,
+               std::optional<Time> reached) {
+  const auto& [folder, files] = results;
+  const std::filesystem::path run_file = folder / files.statistics;
+  if (files.statistics.empty() || !core::is_file(run_file)) return;
+  if (!recorders::add_error(run_file, error, reached) || files.report.empty()) return;
+  write_report(folder, files, folder / files.report);
+}
 
 Recorders::Recorders(const core::System& system, const ResultsTarget& results) {
   const auto& [folder, files] = results;

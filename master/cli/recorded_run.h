@@ -32,6 +32,12 @@ struct ResultsTarget {
   recorders::ResultFiles files;
 };
 
+/// Adds an error to the run.json of a run that is over, or will not end by itself, and makes its
+/// report anew; `reached` is the time in the latter case. Does nothing if there is no run.json, or
+/// if it has an error already. Throws as recorders::add_error() and write_report() do.
+void add_error(const ResultsTarget& results, const std::string& error,
+               std::optional<Time> reached = {});
+
 struct RunDisplay {
   ProgressStyle progress = ProgressStyle::Auto;
   bool quiet = false;        ///< no summary

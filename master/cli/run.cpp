@@ -24,10 +24,8 @@
 #include "master/cli/test_report.h"
 #include "master/isolation/process/child.h"
 #include "master/recorders/results_folder.h"
-#include "master/recorders/run_json.h"
 #include "master/recorders/unit_folders.h"
 #include "master/scenario/loaded_scenario.h"
-#include "master/util/input_file.h"
 #include "master/util/output_file.h"
 #include "master/util/process/process_state.h"
 #include "master/util/process/spare_files.h"
@@ -146,14 +144,6 @@ struct Records {
 
   void add(const std::string& error);
 };
-
-void add_error(const ResultsTarget& results, const std::string& error) {
-  const auto& [folder, files] = results;
-  const std::filesystem::path run_file = folder / files.statistics;
-  if (files.statistics.empty() || !core::is_file(run_file)) return;
-  if (!recorders::add_error(run_file, error) || files.report.empty()) return;
-  write_report(folder, files, folder / files.report);
-}
 
 /// The process ends, so nothing else prints the failure.
 void Records::add(const std::string& error) {

@@ -3,6 +3,8 @@
 #include <sys/time.h>
 #include <unistd.h>
 
+#include "master/util/process/signal_state.h"
+
 namespace stride::cli {
 namespace {
 
@@ -36,9 +38,7 @@ SignalOrigin origin_of(int signal, const siginfo_t& info) noexcept {
     default:
       break;
   }
-  const bool is_fault = signal == SIGSEGV || signal == SIGBUS || signal == SIGILL ||
-                        signal == SIGFPE || signal == SIGTRAP || signal == SIGSYS;
-  if (is_fault) return SignalOrigin::Call;
+  if (core::is_crash(signal)) return SignalOrigin::Call;
   return is_requested(signal) ? SignalOrigin::Process : SignalOrigin::Outside;
 }
 

@@ -2,6 +2,7 @@
 #ifndef STRIDE_MASTER_UTIL_PROCESS_SIGNAL_STATE_H
 #define STRIDE_MASTER_UTIL_PROCESS_SIGNAL_STATE_H
 
+#include <algorithm>
 #include <array>
 #include <csignal>
 #include <string>
@@ -11,6 +12,10 @@ namespace stride::core {
 
 /// The signals by which a process ends that has damaged itself.
 inline constexpr std::array kCrashes{SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT, SIGSYS, SIGTRAP};
+
+inline bool is_crash(int signal) noexcept {
+  return std::find(kCrashes.begin(), kCrashes.end(), signal) != kCrashes.end();
+}
 
 /// Those that end or interrupt a run, that a write may raise, and that the end of a child does.
 inline constexpr std::array kNotices{SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGXFSZ, SIGCHLD};
