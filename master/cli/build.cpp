@@ -47,9 +47,8 @@ void build(BuildRequest request) {
                             .includes = request.includes,
                             .folder = folder.path(),
                             .library = folder.path() / name});
-  const bool is_fmi3 = unit.fmi_version.starts_with("3.");
-  const std::string place = fmt::format(
-      "binaries/{}/{}", is_fmi3 ? importer::platform() : importer::fmi2_platform(), name);
+  const std::string place =
+      fmt::format("binaries/{}/{}", importer::platform_of(unit.fmi_version), name);
   archive::Contents contents;
   archive::add_folder(contents, "", fmu.folder());
   contents.erase(place);

@@ -130,6 +130,9 @@ fs::path find_binaries(const fs::path& fmu_folder) {
 
 const char* platform() { return STRIDE_PLATFORM; }
 const char* fmi2_platform() { return STRIDE_FMI2_PLATFORM; }
+const char* platform_of(const std::string& fmi_version) {
+  return fmi_version.starts_with("3.") ? platform() : fmi2_platform();
+}
 
 FoundLibrary find_library(const fs::path& fmu_folder, const std::string& fmi_version,
                           const std::string& model_identifier, const core::Context& user) {

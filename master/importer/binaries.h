@@ -15,6 +15,9 @@ const char* platform();
 /// own.
 const char* fmi2_platform();
 
+/// The one of them that this version of FMI has.
+const char* platform_of(const std::string& fmi_version);
+
 struct FoundLibrary {
   std::filesystem::path path;
   std::string warning;  ///< if it is not named as the standard wants it

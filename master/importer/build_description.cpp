@@ -1,13 +1,13 @@
 #include "master/importer/build_description.h"
 
 #include <algorithm>
-#include <sstream>
 
 #include <fmt/format.h>
 
 #include "master/importer/binaries.h"
 #include "master/util/error.h"
 #include "master/util/input_file.h"
+#include "master/util/words.h"
 #include "master/util/xml/document.h"
 
 namespace stride::importer {
@@ -25,13 +25,6 @@ fs::path inner_path(const xml::Element& element) {
                            element.tag()));
 }
 
-std::vector<std::string> words(const std::string& text) {
-  std::istringstream stream(text);
-  std::vector<std::string> words;
-  for (std::string word; stream >> word;) words.push_back(word);
-  return words;
-}
-
 std::string definition(const xml::Element& element) {
   const auto value = element.attribute("value");
   return element.required("name") + (value && !value->empty() ? "=" + *value : "");
@@ -42,7 +35,7 @@ SourceFileSet read_set(const xml::Element& element) {
   set.language = element.attribute_or("language");
   const std::string compiler = element.attribute_or("compiler");
   const bool is_ours = compiler.empty() || compiler == "gcc" || compiler == "clang";
-  if (is_ours) set.options = words(element.attribute_or("compilerOptions"));
+  if (is_ours) set.options = core::words_of(element.attribute_or("compilerOptions"));
   for (const xml::Element& file : element.children("SourceFile")) {
     set.files.push_back(inner_path(file));
   }
