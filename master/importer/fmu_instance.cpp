@@ -253,7 +253,7 @@ std::vector<UnitCall> unfinished_calls(const char* thread) {
     calls.push_back({.function = present.function(),
                      .unit = instance.name_,
                      .where = instance.options_.where,
-                     .time = present.time(),
+                     .time = instance.time_,
                      .variable = variable != nullptr ? instance.variable_name(*variable) : "",
                      .is_by_thread = present.thread() == thread});
   });

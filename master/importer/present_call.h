@@ -48,7 +48,6 @@ class PresentCall {
   void begin(const char* function, const std::optional<Time>& time) noexcept {
     thread_.store(&this_thread, std::memory_order_relaxed);
     function_.store(function, std::memory_order_relaxed);
-    time_ = time;
     left_->time = time;
     left_->thread.store(&this_thread, std::memory_order_relaxed);
     left_->function.store(function, std::memory_order_relaxed);
@@ -71,8 +70,6 @@ class PresentCall {
     end();
   }
 
-  /// Of the last call.
-  const std::optional<Time>& time() const noexcept { return time_; }
   /// Which thread makes it, or has made the last one: its address of this_thread.
   const char* thread() const noexcept { return thread_.load(std::memory_order_relaxed); }
   /// Null if there is no call.
@@ -88,7 +85,6 @@ class PresentCall {
  private:
   std::atomic<const char*> function_{nullptr};
   std::atomic<const char*> thread_{nullptr};
-  std::optional<Time> time_;
   core::Outliving<LeftCall> left_;
   CallNote* const note_;
   std::atomic<const core::ValueReference*> variable_{nullptr};
