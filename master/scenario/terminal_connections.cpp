@@ -1,6 +1,7 @@
 #include "master/scenario/terminal_connections.h"
 
 #include <algorithm>
+#include <map>
 
 #include <fmt/format.h>
 
@@ -13,7 +14,7 @@ namespace {
 /// A terminal of a component.
 struct End {
   const core::ComponentDeclaration* component;
-  importer::Terminal terminal;
+  const importer::Terminal* terminal;
 };
 
 class Ends {
@@ -22,13 +23,11 @@ class Ends {
        std::span<const std::shared_ptr<importer::Fmu>> fmus)
       : components_(components), fmus_(fmus) {}
 
-  End find(const std::string& element, const std::string& name, const core::Location& where) const {
+  End find(const std::string& element, const std::string& name, const core::Location& where) {
     const std::size_t i = find_component(element, where);
-    const importer::Fmu& fmu = *fmus_[i];
     std::vector<std::string> names;
-    for (importer::Terminal& terminal :
-         importer::read_terminals(fmu.folder(), fmu.path().string())) {
-      if (terminal.name == name) return {&components_[i], std::move(terminal)};
+    for (const importer::Terminal& terminal : terminals_of(*fmus_[i])) {
+      if (terminal.name == name) return {&components_[i], &terminal};
       names.push_back(terminal.name);
     }
     core::fail_input({.where = where, .unit = element},
@@ -38,6 +37,13 @@ class Ends {
   }
 
  private:
+  /// Read once.
+  const std::vector<importer::Terminal>& terminals_of(const importer::Fmu& fmu) {
+    const auto [found, is_new] = terminals_.try_emplace(&fmu);
+    if (is_new) found->second = importer::read_terminals(fmu.folder(), fmu.path().string());
+    return found->second;
+  }
+
   std::size_t find_component(const std::string& element, const core::Location& where) const {
     std::vector<std::string> names;
     for (std::size_t i = 0; i < components_.size(); ++i) {
@@ -50,6 +56,7 @@ class Ends {
 
   std::span<const core::ComponentDeclaration> components_;
   std::span<const std::shared_ptr<importer::Fmu>> fmus_;
+  std::map<const importer::Fmu*, std::vector<importer::Terminal>> terminals_;
 };
 
 /// Whether a connection begins at the variable; one that is not there is reported later.
@@ -64,7 +71,7 @@ bool is_source(const End& end, const std::string& variable) {
 std::vector<importer::TerminalPair> match(const End& start, const End& end,
                                           const core::Location& where) {
   try {
-    return importer::match_terminals(start.terminal, end.terminal);
+    return importer::match_terminals(*start.terminal, *end.terminal);
   } catch (const core::Error& mistake) {
     core::fail_input({.where = where},
                      fmt::format("cannot connect the terminals of '{}' and '{}': {}",
@@ -79,7 +86,7 @@ std::vector<core::ConnectionDeclaration> connect_terminals(
     std::span<const TerminalConnection> connections,
     std::span<const core::ComponentDeclaration> components,
     std::span<const std::shared_ptr<importer::Fmu>> fmus) {
-  const Ends ends(components, fmus);
+  Ends ends(components, fmus);
   std::vector<core::ConnectionDeclaration> made;
   for (const TerminalConnection& wanted : connections) {
     const End start = ends.find(wanted.start_element, wanted.start_terminal, wanted.where);
