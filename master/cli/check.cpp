@@ -197,7 +197,7 @@ void check(const scenario::ScenarioRequest& request) {
   const CrashGuard guard;
   const scenario::LoadedScenario loaded(request);
   const LimitedEnd end;
-  loaded.instantiate();
+  const auto units = loaded.instantiate();
   const core::System& system = loaded.system();
   const core::RunOptions& options = loaded.options();
   print_text("{}: {} components, {} connections, {} recorded signals\n", system.name(),
@@ -210,6 +210,7 @@ void check(const scenario::ScenarioRequest& request) {
   print_text("\nStep order\n{}", order_table(loaded));
   print_text("\nOrder of the initial values\n{}", initial_order_text(system));
   print_text("\nAlgebraic loops\n{}", loops_text(system));
+  for (const auto& unit : units) unit->free();
 }
 
 }  // namespace

@@ -80,6 +80,12 @@ std::string names_of(std::span<const importer::UnitCall> calls) {
 core::Error error_of(const ProcessEnd& end, const UnitWork& work) {
   const std::string how = describe(end);
   if (end.kind == ProcessEnd::Kind::Error) return {core::Error::Kind::Run, {}, how};
+  if (work.is_overwritten) {
+    return {core::Error::Kind::Run,
+            {},
+            how + ", after other code had overwritten what stride notes of its calls",
+            kGeneralHint};
+  }
   const bool is_by_call = end.origin == SignalOrigin::Call;
   const auto own = std::ranges::find_if(work.calls, &importer::UnitCall::is_by_thread);
   if (is_by_call && own != work.calls.end()) return error_in(*own, how + " in");

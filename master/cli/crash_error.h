@@ -31,7 +31,8 @@ struct ProcessEnd {
 struct UnitWork {
   std::vector<importer::UnitCall> calls;  ///< those that have not returned
   importer::LibraryWork library;
-  bool is_leaving = false;  ///< the command is over
+  bool is_leaving = false;      ///< the command is over
+  bool is_overwritten = false;  ///< this, so that it says nothing
 };
 
 /// If the thread that ends the process makes none of the calls, a unit has started it.

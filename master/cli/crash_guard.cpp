@@ -8,12 +8,11 @@
 #include <ctime>
 #include <iterator>
 #include <new>
-#include <string_view>
+#include <string>
 #include <utility>
 
 #include <dirent.h>
 #include <fcntl.h>
-#include <fmt/format.h>
 #include <sys/mman.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
@@ -29,7 +28,6 @@
 #include "master/util/error.h"
 #include "master/util/output_file.h"
 #include "master/util/process/signal_state.h"
-#include "master/util/readable_text.h"
 
 namespace stride::cli {
 namespace {
@@ -55,8 +53,6 @@ struct Guarded {
 };
 Guarded guarded;
 
-void print(std::string_view text) { (void)!::write(STDERR_FILENO, text.data(), text.size()); }
-
 // ---- The steps to the end of a process that a unit has damaged ----
 
 /// In the fork.
@@ -64,10 +60,10 @@ void print(std::string_view text) { (void)!::write(STDERR_FILENO, text.data(), t
   try {
     EndNote& note = end_note();
     const UnitWork work{importer::unfinished_calls(note.end.thread),
-                        importer::unfinished_library_work(), note.is_leaving};
+                        importer::unfinished_library_work(), bool(note.is_leaving)};
     const core::Error error = error_of(note.end, work);
-    print(core::terminal_text(fmt::format("stride: error: {}\n", error.what())));
-    note.is_printed = EndNote::kComplete;
+    note.error.set(error.what());
+    note.is_printed.set(write_error(error.what()));
     (*guarded.conclusion.load())(error.what());
   } catch (...) {  // the rest is lost
   }
@@ -107,7 +103,7 @@ bool is_done_in_fork(void (*work)()) {
   const bool is_from_outside =
       note.end.kind == ProcessEnd::Kind::Signal && note.end.origin == SignalOrigin::Outside;
   note.code = is_from_outside ? -note.end.number : kRunFailed;
-  note.is_complete = EndNote::kComplete;
+  note.is_complete.set();
   if (is_from_outside) end_by(note.end.number);
   ::_exit(kRunFailed);
 }
@@ -153,10 +149,10 @@ constexpr void (*kSteps[])() = {stop_other_threads, core::OutputFile::rescue_all
   const pid_t self = ::gettid();
   if (guarded.ending.compare_exchange_strong(ending, self)) {
     EndNote& note = end_note();
-    note.is_complete = 0;
+    note.is_complete.set(false);
     note.end = end;
     note.end.thread = &importer::this_thread;
-    note.has_end = true;
+    note.has_end.set();
   } else if (ending != self) {
     wait_for_end();
   }
@@ -200,7 +196,7 @@ void begin_time_limit() {
 
 /// What takes long is a unit's, or stride's own work with many files, which may.
 void on_time_limit() {
-  const bool is_of_unit = end_note().is_leaving || importer::is_any_call_unfinished() ||
+  const bool is_of_unit = bool(end_note().is_leaving) || importer::is_any_call_unfinished() ||
                           !importer::unfinished_library_work().what.view().empty();
   if (is_of_unit) end_process({.kind = ProcessEnd::Kind::TimeOut});
   begin_time_limit();
@@ -325,7 +321,7 @@ int leave_with(int code) {
   EndNote& note = end_note();
   if (guarded.ending != 0) wait_for_end();
   note.code = code;
-  note.is_leaving = true;
+  note.is_leaving.set();
   if (guarded.process != ::getpid()) return code;
   set_handlers(0);
   guarded.conclusion = &no_conclusion();

@@ -1,41 +1,54 @@
+// What the process of a command notes for the one that watches it.
 #ifndef STRIDE_MASTER_CLI_END_NOTE_H
 #define STRIDE_MASTER_CLI_END_NOTE_H
 
 #include <atomic>
 #include <climits>
 #include <cstddef>
-#include <cstdint>
+#include <filesystem>
 
 #include "master/cli/crash_error.h"
 #include "master/util/fixed_text.h"
+#include "master/util/robust_flag.h"
 
 namespace stride::cli {
 
-/// What the process notes for the one that watches it (go_on_watched()).
+/// How the process ends.
 struct EndNote {
   static constexpr std::size_t kMostOutliving = 1;
 
-  /// Means "yes", which no damage to the memory is likely to leave.
-  static constexpr std::uint64_t kComplete = 0x5ba1'c0de'7e57'0e4d;
+  EndNote() { is_whole.set(); }
 
+  core::RobustFlag is_whole;  ///< not so if other code has overwritten it
   /// What is to be told of the end is told; the exit code, or that signal as a negative number.
-  std::atomic<std::uint64_t> is_complete{0};
+  core::RobustFlag is_complete;
   std::atomic<int> code{0};
-  std::atomic<bool> is_leaving{false};  ///< the command is over
+  core::RobustFlag is_leaving;    ///< the command is over
+  core::FixedText<4096> error{};  ///< that it ends with, if any
+  core::RobustFlag is_printed;    ///< the error, where the program's own were to be
 
   /// If something ends the process on the way.
-  std::atomic<bool> has_end{false};
-  std::atomic<std::uint64_t> is_printed{0};  ///< the error
+  core::RobustFlag has_end;
   ProcessEnd end;
-
-  /// The files that state how the run ends, absolute; empty if there are none.
-  core::FixedText<PATH_MAX> run_file{};
-  core::FixedText<PATH_MAX> test_report{};
-  core::FixedText<PATH_MAX> scenario{};
 };
+
+/// The files that state how a run ends, absolute; empty if there are none.
+struct RunFiles {
+  core::FixedText<PATH_MAX> run_file;
+  core::FixedText<PATH_MAX> test_report;
+  core::FixedText<PATH_MAX> scenario;  ///< which the test report is of
+};
+
+/// In memory that processes have in common which are forked from here on.
+void share_end_note();
 
 /// That of this process.
 EndNote& end_note();
+
+/// Otherwise than by these functions it cannot be written: a unit that tries crashes.
+const RunFiles& run_files();
+void note_run_file(const std::filesystem::path& file);
+void note_test_report(const std::filesystem::path& file, const std::filesystem::path& scenario);
 
 }  // namespace stride::cli
 

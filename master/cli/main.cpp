@@ -18,6 +18,7 @@
 
 #include "master/cli/commands.h"
 #include "master/cli/crash_guard.h"
+#include "master/cli/end_note.h"
 #include "master/cli/exit.h"
 #include "master/cli/hard_limits.h"
 #include "master/cli/memory_limits.h"
@@ -150,29 +151,17 @@ void flush_standard_output() {
                                          std::generic_category().message(errno)));
 }
 
-bool is_lack_of_memory(const std::exception& error) {
-  const auto* system = dynamic_cast<const std::system_error*>(&error);
-  return dynamic_cast<const std::bad_alloc*>(&error) != nullptr ||
-         (system != nullptr && system->code() == std::errc::not_enough_memory);
-}
-
-/// Of an exception of the standard library, whose own text is for programmers.
-std::string in_words(const std::exception& error) {
-  if (const auto* file = dynamic_cast<const std::filesystem::filesystem_error*>(&error)) {
-    const std::string path = file->path1().string();
-    return fmt::format("{}: {}", path.empty() ? "the working folder" : path,
-                       file->code().message());
-  }
-  if (is_lack_of_memory(error)) {
-    return fmt::format("there is not enough memory\n  hint: {}", stride::cli::memory_hint());
-  }
-  return error.what();
-}
-
 void add_verbose(CLI::App& command) {
   command.add_flag_callback(
       "--verbose", [] { spdlog::set_level(spdlog::level::info); },
       "Show everything that units log, not only warnings and errors");
+}
+
+/// The process that watches this one prints it where this one cannot.
+void tell(const std::string& error) {
+  stride::cli::EndNote& note = stride::cli::end_note();
+  note.error.set(error);
+  note.is_printed.set(stride::cli::print_error(error));
 }
 
 int execute(CLI::App& app, int argc, char** argv) {
@@ -183,12 +172,12 @@ int execute(CLI::App& app, int argc, char** argv) {
     flush_standard_output();
     return code;
   } catch (const stride::core::Error& error) {
-    stride::cli::print_error(error.what());
+    tell(error.what());
     return error.kind() == stride::core::Error::Kind::Input ? kWrongInput : kRunFailed;
   } catch (const std::exception& error) {
-    stride::cli::print_error(in_words(error));
+    tell(stride::cli::in_words(error));
   } catch (...) {
-    stride::cli::print_error("something that is not a std::exception was thrown");
+    tell("something that is not a std::exception was thrown");
   }
   return kRunFailed;
 }

@@ -1,13 +1,20 @@
 #include "master/cli/output.h"
 
+#include <exception>
+#include <filesystem>
 #include <memory>
+#include <new>
+#include <optional>
 #include <string>
+#include <system_error>
 
 #include <spdlog/pattern_formatter.h>
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 #include <unistd.h>
 
+#include "master/cli/memory_limits.h"
+#include "master/util/file_identity.h"
 #include "master/util/message_text.h"
 #include "master/util/readable_text.h"
 
@@ -17,6 +24,11 @@ namespace {
 std::FILE* const own_output = stdout;
 std::FILE* const own_errors = stderr;
 char output_buffer[BUFSIZ];
+std::optional<core::FileIdentity> error_file;  ///< at the beginning
+
+bool is_error_file_own() { return core::FileIdentity::of(STDERR_FILENO) == error_file; }
+
+std::string error_line(std::string_view text) { return fmt::format("stride: error: {}\n", text); }
 
 void give_buffer() {
   const int mode = ::isatty(STDOUT_FILENO) != 0 ? _IOLBF : _IOFBF;
@@ -37,18 +49,43 @@ class SafeText final : public spdlog::custom_flag_formatter {
   }
 };
 
-}  // namespace
-
-void put(std::FILE* stream, std::string_view text) {
-  const std::string safe = core::terminal_text(text);
-  std::fwrite(safe.data(), 1, safe.size(), stream);
+bool is_lack_of_memory(const std::exception& error) {
+  const auto* system = dynamic_cast<const std::system_error*>(&error);
+  return dynamic_cast<const std::bad_alloc*>(&error) != nullptr ||
+         (system != nullptr && system->code() == std::errc::not_enough_memory);
 }
 
-void print_error(std::string_view text) {
-  put(stderr, fmt::format("stride: error: {}\n", core::message_text(text)));
+}  // namespace
+
+bool put(std::FILE* stream, std::string_view text) {
+  const std::string safe = core::terminal_text(text);
+  return std::fwrite(safe.data(), 1, safe.size(), stream) == safe.size();
+}
+
+bool print_error(std::string_view text) {
+  return put(stderr, error_line(core::message_text(text))) && is_error_file_own();
+}
+
+bool write_error(std::string_view text) {
+  const std::string line = core::terminal_text(error_line(text));
+  return is_error_file_own() &&
+         ::write(STDERR_FILENO, line.data(), line.size()) == static_cast<ssize_t>(line.size());
+}
+
+std::string in_words(const std::exception& error) {
+  if (const auto* file = dynamic_cast<const std::filesystem::filesystem_error*>(&error)) {
+    const std::string path = file->path1().string();
+    return fmt::format("{}: {}", path.empty() ? "the working folder" : path,
+                       file->code().message());
+  }
+  if (is_lack_of_memory(error)) {
+    return fmt::format("there is not enough memory\n  hint: {}", memory_hint());
+  }
+  return error.what();
 }
 
 void set_up_output() {
+  error_file = core::FileIdentity::of(STDERR_FILENO);
   give_buffer();
   auto log = spdlog::stderr_color_mt("stride");
   auto formatter = std::make_unique<spdlog::pattern_formatter>();

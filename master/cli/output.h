@@ -4,6 +4,7 @@
 
 #include <cstdio>
 #include <exception>
+#include <string>
 #include <string_view>
 #include <utility>
 
@@ -12,8 +13,8 @@
 
 namespace stride::cli {
 
-/// Writes core::terminal_text() of it.
-void put(std::FILE* stream, std::string_view text);
+/// Writes core::terminal_text() of it. Returns whether the stream has taken it.
+bool put(std::FILE* stream, std::string_view text);
 
 /// To the standard output.
 template <class... Values>
@@ -21,8 +22,16 @@ void print_text(fmt::format_string<Values...> format, Values&&... values) {
   put(stdout, fmt::format(format, std::forward<Values>(values)...));
 }
 
-/// "stride: error: TEXT", to the standard error stream; core::message_text() of the text.
-void print_error(std::string_view text);
+/// "stride: error: TEXT", to the standard error stream; core::message_text() of the text. Returns
+/// whether that is where it was at the beginning: code of a unit may have put another file there.
+bool print_error(std::string_view text);
+
+/// Likewise for a process whose streams may be damaged.
+bool write_error(std::string_view text);
+
+/// Its text; for exceptions of the standard library, whose own text is for programmers, another
+/// one.
+std::string in_words(const std::exception& error);
 
 /// For work whose failure must not hide how the run ended.
 template <class Work>
@@ -30,7 +39,7 @@ void warn_of_failure(Work&& work) {
   try {
     work();
   } catch (const std::exception& failure) {
-    spdlog::warn("{}", failure.what());
+    spdlog::warn("{}", in_words(failure));
   }
 }
 

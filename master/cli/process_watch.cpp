@@ -34,9 +34,9 @@
 #include "master/report/results.h"
 #include "master/util/archive/temporary_folder.h"
 #include "master/util/descriptor.h"
+#include "master/util/error.h"
 #include "master/util/file_identity.h"
 #include "master/util/input_file.h"
-#include "master/util/outliving.h"
 #include "master/util/output_file.h"
 #include "master/util/process/signal_state.h"
 
@@ -173,7 +173,7 @@ class Watch {
 void Watch::run() {
   wait();
   const int code = WIFEXITED(status_) ? WEXITSTATUS(status_) : -WTERMSIG(status_);
-  const bool is_told = note_.is_complete == EndNote::kComplete && note_.code == code && !own_end_;
+  const bool is_told = note_.is_whole && note_.is_complete && note_.code == code && !own_end_;
   if (is_told && code >= 0) {
     if (code != 0) complete_records();
     ::_exit(code);
@@ -182,9 +182,9 @@ void Watch::run() {
   const bool is_ours = !is_ended_from_outside();
   if (!is_told) {
     const UnitWork work{importer::left_calls(note_.has_end ? note_.end.thread : nullptr),
-                        importer::left_library_work(), note_.is_leaving};
+                        importer::left_library_work(), bool(note_.is_leaving), !note_.is_whole};
     const core::Error error = error_of(end(), work);
-    if (is_ours && note_.is_printed != EndNote::kComplete) print_error(error.what());
+    if (is_ours && !note_.is_printed) print_error(error.what());
     report(error);
     await_copies();
     archive::TemporaryFolder::sweep_abandoned();
@@ -196,11 +196,16 @@ void Watch::run() {
 
 /// What a process that has told its error could not write, such as one that has lost its rights.
 void Watch::complete_records() const {
+  const std::string error(note_.error.view());
+  if (!note_.is_printed && !error.empty()) print_error(error);
   if (is_in_run()) {
-    report({core::Error::Kind::Run,
-            {},
-            "the run has failed, and could not write here for what reason"});
+    report(
+        {core::Error::Kind::Run,
+         {},
+         error.empty() ? "the run has failed, and could not write here for what reason" : error});
   }
+  std::error_code none;  // else it stays as it is
+  if (is_in_run()) fs::remove(fs::path(run_files().run_file.view()), none);
   archive::TemporaryFolder::sweep_abandoned();
 }
 
@@ -208,7 +213,8 @@ void Watch::complete_records() const {
 void Watch::wait() {
   constexpr timespec kSecond{1, 0};
   unsigned leaving = 0;  // [s]
-  while (::waitpid(watched, &status_, WNOHANG) != watched) {
+  while (::waitpid(watched, &status_, WNOHANG) != watched || WIFSTOPPED(status_)) {
+    if (WIFSTOPPED(status_)) isolation::let_go(watched, std::exchange(status_, 0));
     pollfd file{image_.number(), POLLIN, 0};
     const int count = ::ppoll(&file, 1, &kSecond, &signals_.mask());
     if (count > 0) look_at_program();
@@ -247,14 +253,21 @@ bool Watch::is_ended_from_outside() const {
   if (own_end_ || !WIFSIGNALED(status_)) return false;
   const int signal = WTERMSIG(status_);
   const bool is_output_gone = signal == SIGPIPE && importer::left_calls(nullptr).empty();
-  return is_output_gone || signal == last_signal ||
-         (note_.is_complete == EndNote::kComplete && note_.code == -signal);
+  return is_output_gone || signal == last_signal || (note_.is_complete && note_.code == -signal);
+}
+
+/// Of a file that the run has made, if it has: other code may have put something else there.
+bool is_there(const fs::path& file) {
+  if (file.empty()) return false;
+  if (core::is_file(file)) return true;
+  core::fail_run({.where = {file.string(), 0}},
+                 "other code has removed or replaced this file, so it does not contain the error");
 }
 
 /// It has begun, and was not over.
 bool Watch::is_in_run() const {
   try {
-    const fs::path run_file(note_.run_file.view());
+    const fs::path run_file(run_files().run_file.view());
     return core::is_file(run_file) && recorders::is_running(run_file);
   } catch (const std::exception&) {  // it cannot be read
     return false;
@@ -262,19 +275,18 @@ bool Watch::is_in_run() const {
 }
 
 void Watch::report(const core::Error& error) const {
-  const fs::path run_file(note_.run_file.view());
+  const fs::path run_file(run_files().run_file.view());
   if (is_ended_from_outside() && !run_file.empty() && !is_in_run()) return;
   warn_of_failure([&] {
-    if (run_file.empty() || !core::is_file(run_file)) return;
+    if (!is_there(run_file)) return;
     recorders::ResultFiles files = report::result_files(run_file.parent_path());
     files.statistics = run_file.filename();
     add_error({run_file.parent_path(), files}, error.what(), error.context().time);
   });
-  const fs::path test_report(note_.test_report.view());
+  const fs::path test_report(run_files().test_report.view());
   warn_of_failure([&] {
-    if (core::is_file(test_report)) {
-      TestReport(test_report, fs::path(note_.scenario.view())).write(error.what());
-    }
+    if (!is_there(test_report)) return;
+    TestReport(test_report, fs::path(run_files().scenario.view())).write(error.what());
   });
 }
 
@@ -283,7 +295,7 @@ void Watch::report(const core::Error& error) const {
 void complete_note(int code, void*) {
   EndNote& note = end_note();
   if (!note.is_leaving || own != ::getpid()) return;
-  note.is_complete = EndNote::kComplete;
+  note.is_complete.set();
   if (code == note.code) return;
   std::fflush(nullptr);
   ::_exit(note.code);
@@ -291,10 +303,9 @@ void complete_note(int code, void*) {
 
 /// In memory that the processes have in common.
 void share_notes() {
-  core::Outliving<EndNote>::share();
+  share_end_note();
   core::OutputFile::share();
   importer::share_calls();
-  end_note();
 }
 
 /// Returns in the process in which the command is run.
@@ -321,12 +332,6 @@ void fork_to_watch() {
 }
 
 }  // namespace
-
-EndNote& end_note() {
-  static auto* const owner = new core::Outliving<EndNote>;
-  static EndNote& note = **owner;  // reached without the heap, which may be damaged
-  return note;
-}
 
 void go_on_watched() {
   share_notes();

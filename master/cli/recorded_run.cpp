@@ -146,8 +146,7 @@ void RecordedRun::announce() const {
     write_run_file(std::nullopt, false);
   } catch (const core::Error&) {  // what is wrong with the disk is an error at the end
   }
-  std::error_code none;  // then nothing is added to it
-  end_note().run_file.set(std::filesystem::absolute(file, none).native());
+  note_run_file(file);
 }
 
 void RecordedRun::run() {
@@ -263,17 +262,9 @@ void RecordedRun::write_statistics(std::optional<std::string> error) {
   } catch (const std::exception& mistake) {
     failure = std::current_exception();
     if (!error) error = mistake.what();
-    forget_announcement();
   }
   setup_.test_report.write(setup_.options, simulation_.statistics(), verdicts_, error);
   if (failure) std::rethrow_exception(failure);
-}
-
-/// The run does not go on.
-void RecordedRun::forget_announcement() const {
-  const std::filesystem::path file = setup_.results.folder / setup_.results.files.statistics;
-  std::error_code none;  // then it is there
-  if (!core::Replacement::is_at_once(file)) std::filesystem::remove(file, none);
 }
 
 void RecordedRun::write_run_file(const std::optional<std::string>& error, bool is_over) const {

@@ -91,7 +91,6 @@ class RecordedRun {
   void collect_verdicts(bool is_complete);
   void write_statistics(std::optional<std::string> error);
   void announce() const;
-  void forget_announcement() const;
   void write_run_file(const std::optional<std::string>& error, bool is_over = true) const;
   void write_page() const;
   void print_summary() const;

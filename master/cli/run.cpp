@@ -26,6 +26,7 @@
 #include "master/recorders/results_folder.h"
 #include "master/recorders/unit_folders.h"
 #include "master/scenario/loaded_scenario.h"
+#include "master/util/input_file.h"
 #include "master/util/output_file.h"
 #include "master/util/process/process_state.h"
 #include "master/util/process/spare_files.h"
@@ -188,20 +189,13 @@ void run(const RunArguments& arguments, Records& records, CrashGuard& guard) {
   }
 }
 
-/// For an end without a word.
-void note_test_report(const RunArguments& arguments) {
-  std::error_code none;  // then nothing is added to it
-  if (arguments.junit.empty()) return;
-  end_note().test_report.set(std::filesystem::absolute(arguments.junit, none).native());
-  end_note().scenario.set(arguments.scenario.scenario.native());
-}
-
 /// Whatever ends the command, the test report contains it.
 void run_and_report(RunArguments arguments) {
   arguments.scenario.files = check_output_paths(arguments);
   const core::ProcessState process;
   Records records{{arguments.junit, arguments.scenario.scenario}};
-  note_test_report(arguments);
+  if (core::is_file(arguments.junit))
+    note_test_report(arguments.junit, arguments.scenario.scenario);
   const core::SpareFiles spare;
   CrashGuard guard([&](const std::string& error) {
     core::SpareFiles::release_all();

@@ -37,8 +37,9 @@ struct CallbackFailure {};
 
 /// First among the functions that exit() calls, but for the unit's own: those of the master are not
 /// for this process.
-void on_exit_called(int status, void*) {
+void on_exit_called(int status, void* server) {
   std::fflush(nullptr);
+  static_cast<Server*>(server)->confirm_end();
   ::_exit(status);
 }
 
@@ -53,9 +54,10 @@ void serve(HostLink& link, const HostedUnitSpec& spec, pid_t supervisor) noexcep
   reset_signal_handlers();
   ::prctl(PR_SET_NAME, spec.name.c_str());
   std::setvbuf(stdout, nullptr, _IOLBF, 0);  // a crash loses no line
-  ::on_exit(&on_exit_called, nullptr);
-  Server(link, spec, supervisor).run();
-  ::_exit(0);
+  Server server(link, spec, supervisor);
+  ::on_exit(&on_exit_called, &server);
+  server.run();
+  std::exit(0);
 }
 
 Server::Server(HostLink& link, const HostedUnitSpec& spec, pid_t supervisor)
@@ -71,6 +73,11 @@ void Server::run() {
     await_request();
     serve();
   }
+  memory_.call_note.write("an exit function of its library");
+}
+
+void Server::confirm_end() {
+  if (is_over_) reply(ReplyCode::Done, PacketWriter(link_.packets));
 }
 
 Protections Server::prepare() {
@@ -124,7 +131,7 @@ void Server::serve() {
   } catch (...) {
     fail(error_of(std::runtime_error("something that is not a std::exception")));
   }
-  reply(what, out);
+  if (!is_over_) reply(what, out);
 }
 
 template <core::CapabilityInterface C>

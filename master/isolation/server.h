@@ -27,8 +27,11 @@ class Server {
  public:
   Server(HostLink& link, const HostedUnitSpec& spec, pid_t supervisor);
 
-  /// Returns when the unit was destroyed, because the master wanted it.
+  /// Returns when the unit was destroyed, because the master wanted it. The master still waits for
+  /// confirm_end().
   void run();
+  /// After the exit functions of the unit. Does nothing if the master does not want the end.
+  void confirm_end();
 
  private:
   /// All that has to be so before code of the unit runs in this process.

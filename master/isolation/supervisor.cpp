@@ -147,7 +147,11 @@ class Supervisor {
     int status = 0;
     rusage usage{};
     for (pid_t child = 0; (child = ::wait4(-1, &status, WNOHANG, &usage)) > 0;) {
-      note_end(child, status, usage);
+      if (WIFSTOPPED(status)) {
+        let_go(child, status);
+      } else {
+        note_end(child, status, usage);
+      }
     }
   }
 

@@ -200,6 +200,15 @@ void add(Json& run, const core::RunStatistics& statistics) {
   run["phases"] = phase_entry(statistics.phases);
 }
 
+Json read(const std::filesystem::path& file) {
+  constexpr bool kThrows = false;
+  Json run = Json::parse(core::read_input(file), nullptr, kThrows);
+  if (run.is_object()) return run;
+  core::fail_run({.where = {file.string(), 0}},
+                 "other code has written to this file, so it does not contain how the run ended",
+                 "leave the results alone until the run has ended");
+}
+
 void write(const std::filesystem::path& file, const Json& run) {
   core::Replacement output(file);
   output.file().write(run.dump(2, ' ', false, Json::error_handler_t::replace));
@@ -228,13 +237,11 @@ void write_run_json(const std::filesystem::path& file, const RunRecord& record) 
   write(file, run);
 }
 
-bool is_running(const std::filesystem::path& file) {
-  return Json::parse(core::read_input(file))["outcome"] == kRunning;
-}
+bool is_running(const std::filesystem::path& file) { return read(file)["outcome"] == kRunning; }
 
 bool add_error(const std::filesystem::path& file, const std::string& error,
                std::optional<Time> reached) {
-  Json run = Json::parse(core::read_input(file));
+  Json run = read(file);
   if (run.contains("error")) return false;
   if (reached && run["outcome"] == kRunning) run["reached"] = to_seconds(*reached);
   run["outcome"] = "failed";

@@ -37,7 +37,7 @@ bool is_running(const std::filesystem::path& file);
 
 /// Makes the run.json of a run one that has failed, for what has failed after it was written. A run
 /// that was not over has reached this time. Returns false if it has an error already, which stays.
-/// Throws core::Error, and exceptions of the JSON library, if it cannot be read.
+/// Throws core::Error (Run) if that cannot be read or written.
 bool add_error(const std::filesystem::path& file, const std::string& error,
                std::optional<Time> reached = {});
 

@@ -35,7 +35,7 @@ Bytes deflated(const Bytes& bytes) {
   constexpr std::size_t kPiece = std::size_t{1} << 20;
   z_stream stream{};
   if (deflateInit2(&stream, Z_BEST_SPEED, Z_DEFLATED, kRaw, kMemory, Z_DEFAULT_STRATEGY) != Z_OK) {
-    throw std::runtime_error("zlib cannot be initialised");
+    throw std::bad_alloc();  // its only reason here
   }
   Bytes output;
   std::size_t done = 0;

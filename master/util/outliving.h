@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "master/util/outliving_memory.h"
+#include "master/util/robust_flag.h"
 
 namespace stride::core {
 
@@ -29,12 +30,12 @@ class Outliving {
       object_ = own_.get();
     } else {
       object_ = new (slot_->object) T(std::forward<Arguments>(arguments)...);
-      slot_->is_used.store(true, std::memory_order_release);
+      slot_->is_used.set();
     }
   }
   ~Outliving() {
     if (slot_ == nullptr) return;
-    slot_->is_used = false;
+    slot_->is_used.set(false);
     slot_->is_taken = false;
   }
   Outliving(const Outliving&) = delete;
@@ -63,7 +64,7 @@ class Outliving {
 
   struct Slot {
     std::atomic<bool> is_taken;
-    std::atomic<bool> is_used;
+    RobustFlag is_used;
     alignas(T) unsigned char object[sizeof(T)];
   };
 

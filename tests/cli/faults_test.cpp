@@ -74,6 +74,12 @@ constexpr Fault kFaults[] = {
      "it ended its process with exit code 0 in FUNCTION"},
     {"become daemon", "an exit with code 0 ends stride during FUNCTION",
      "it ended its process with exit code 0 in FUNCTION"},
+    {"close streams and crash", "signal 11 (SIGSEGV) ends stride in FUNCTION",
+     "its process was ended by signal 11 (SIGSEGV) in FUNCTION"},
+    {"divert errors and crash", "signal 11 (SIGSEGV) ends stride in FUNCTION",
+     "its process was ended by signal 11 (SIGSEGV) in FUNCTION"},
+    {"be traced and crash", "signal 11 (SIGSEGV) ends stride in FUNCTION",
+     "its process was ended by signal 11 (SIGSEGV) in FUNCTION"},
     {"run programs", kCompletes, kCompletes},
     {"throw int", "FUNCTION threw something that is not a std::exception",
      "FUNCTION threw something that is not a std::exception"},
@@ -345,6 +351,54 @@ TEST_CASE("a unit that has damaged the memory of stride does not end it without 
     check_results(workspace, outcome, kStep.last);
     CHECK(run_json(workspace)["reached"] == 0.375);
   }
+}
+
+TEST_CASE("a unit that has overwritten what stride notes of it does not end it without a word") {
+  if (kSanitized) return;
+  const Workspace workspace = workspace_for({3, false}, kStep);
+  const Outcome outcome = run(workspace, {3, false}, "overwrite and die", kStep);
+  INFO(outcome.err);
+  CHECK(outcome.exit_code == 1);
+  const std::string error =
+      "signal 9 (SIGKILL) ends stride, after other code had overwritten what stride notes of its "
+      "calls";
+  CHECK_THAT(outcome.err, Contains("stride: error: " + error + "\n"));
+  CHECK(run_json(workspace)["outcome"] == "failed");
+  CHECK_THAT(run_json(workspace)["error"].get<std::string>(), Contains(error));
+  CHECK_THAT(read(workspace / "junit.xml"), Contains(error));
+}
+
+TEST_CASE("a run.json that a unit has damaged or removed hides no error, and is no riddle") {
+  if (kSanitized) return;
+  const auto [fault, reason] = GENERATE(table<const char*, std::string>(
+      {{"write over run file and die", "other code has written to this file"},
+       {"remove run file and die", "other code has removed or replaced this file"}}));
+  const Workspace workspace = workspace_for({3, false}, kStep);
+  const Outcome outcome = run(workspace, {3, false}, fault, kStep);
+  check_error(workspace, outcome, "signal 9 (SIGKILL) ends stride during fmi3DoStep");
+  CHECK_THAT(outcome.err, Contains("out/run.json: " + reason));
+  CHECK(last_time(workspace) == kStep.last);
+}
+
+TEST_CASE("a unit that leaves no room for the results is an error in the records of the run") {
+  if (kSanitized) return;
+  const Workspace workspace = workspace_for({3, false}, kStep);
+  const Outcome outcome = run(workspace, {3, false}, "limit files by system call", kStep);
+  INFO(outcome.err);
+  CHECK(outcome.exit_code == 1);
+  CHECK_THAT(outcome.err, Contains("signals.csv: at 1 s: cannot write the file: File too large"));
+  CHECK(run_json(workspace)["outcome"] == "failed");
+  CHECK_THAT(read(workspace / "junit.xml"), Contains("<error message="));
+}
+
+TEST_CASE("a unit that leaves no memory for the report is an error that says so") {
+  if (kSanitized) return;
+  const Workspace workspace = workspace_for({3, false}, kStep);
+  const Outcome outcome = run(workspace, {3, false}, "limit memory by system call", kStep);
+  INFO(outcome.err);
+  CHECK(outcome.exit_code == 1);
+  CHECK_THAT(outcome.err, Contains("stride: error: there is not enough memory"));
+  CHECK(last_time(workspace) == "1");
 }
 
 TEST_CASE("a unit whose state may not be saved is never asked for it") {

@@ -73,6 +73,32 @@ TEST_CASE("a hosted unit's library that ends its process when it is unloaded is 
   CHECK(leftovers.all() == std::vector<std::string>{});
 }
 
+TEST_CASE("a hosted unit's exit function that crashes is an error") {
+  const Workspace workspace(Parts{component("faulty", "fmi3_faulty.fmu")});
+  const Leftovers leftovers;
+  const FaultOrder order("crash at exit", "step", "0.5");
+  const Outcome outcome = workspace.run({"--quiet", "--step", "0.125", "--isolate"});
+  INFO(outcome.err);
+  CHECK(outcome.exit_code == 1);
+  CHECK_THAT(outcome.err, Contains("unit 'faulty', at 1 s: its process was ended by signal 11 "
+                                   "(SIGSEGV) in an exit function of its library"));
+  CHECK(run_json(workspace)["outcome"] == "failed");
+  CHECK(last_time(workspace) == "1");
+  CHECK(leftovers.all() == std::vector<std::string>{});
+}
+
+TEST_CASE("'stride check' fails where the process of a unit does not end well") {
+  const Workspace workspace(Parts{component("faulty", "fmi3_faulty.fmu")});
+  const std::string call = GENERATE("free", "unload");
+  const FaultOrder order("segfault", call.c_str(), "0");
+  const Outcome outcome = workspace.stride({"check", "test.ssd", "--isolate"});
+  INFO(outcome.err);
+  CHECK(outcome.exit_code == 1);
+  CHECK_THAT(outcome.out, Contains("Step order"));
+  CHECK_THAT(outcome.err, Contains("stride: error: test.ssd") && Contains("unit 'faulty'") &&
+                              Contains("ended by signal 11 (SIGSEGV)"));
+}
+
 TEST_CASE("a crash in the unloading of a library hides no earlier error") {
   if (kSanitized) return;
   const Workspace workspace(

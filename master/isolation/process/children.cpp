@@ -1,11 +1,15 @@
 #include "master/isolation/process/children.h"
 
 #include <csignal>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <string>
 #include <system_error>
 #include <utility>
+
+#include <sys/ptrace.h>
+#include <sys/wait.h>
 
 namespace stride::isolation {
 namespace {
@@ -55,6 +59,11 @@ bool kill_children_of(pid_t process) {
     is_one_left = true;
   }
   return is_one_left;
+}
+
+void let_go(pid_t child, int status) noexcept {
+  const auto signal = static_cast<std::intptr_t>(WSTOPSIG(status));
+  ::ptrace(PTRACE_DETACH, child, nullptr, reinterpret_cast<void*>(signal));
 }
 
 }  // namespace stride::isolation

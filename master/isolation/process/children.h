@@ -20,6 +20,10 @@ std::vector<pid_t> descendants_of(pid_t process);
 /// until it returns false: a subreaper adopts the children of those that end.
 bool kill_children_of(pid_t process);
 
+/// For a child that waitpid() says is stopped: some code in it has made this process its debugger
+/// (PTRACE_TRACEME), for which its signals wait. From here on they have their effect.
+void let_go(pid_t child, int status) noexcept;
+
 }  // namespace stride::isolation
 
 #endif

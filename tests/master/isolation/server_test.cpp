@@ -46,7 +46,10 @@ class ServerFixture {
   HostLink link_;
   const HostedUnitSpec spec_{importer::Fmu::load(test_fmu("faulty")), "u", {}, {}};
   Server server_{link_, spec_, ::getpid()};
-  std::thread thread_{[this] { server_.run(); }};
+  std::thread thread_{[this] {
+    server_.run();
+    server_.confirm_end();
+  }};
 };
 
 void put_nothing(PacketWriter&) {}

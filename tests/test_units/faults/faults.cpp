@@ -17,9 +17,11 @@
 
 #include <fcntl.h>
 #include <netinet/in.h>
+#include <sys/ptrace.h>
 #include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -232,6 +234,20 @@ void use_terminal() {
   ::close(terminal);
 }
 
+/// By a system call, which is not replaced, unlike setrlimit().
+void limit_by_system_call(int resource) {
+  const rlimit none{0, 0};
+  if (::syscall(SYS_prlimit64, 0, resource, &none, nullptr) != 0) fail("cannot limit a resource");
+}
+
+/// As a log file of the unit's own would be.
+void divert_errors() {
+  const int file = ::open("/dev/null", O_WRONLY);
+  ::dup2(file, STDERR_FILENO);
+}
+
+void write_over_run_file() { std::ofstream("out/run.json") << "[1, 2"; }
+
 void close_streams() {
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) ::close(stream);
 }
@@ -309,6 +325,11 @@ constexpr Fault kFaults[] = {
        overwrite_shared_memory();
        std::abort();
      }},
+    {"overwrite and die",
+     [] {
+       overwrite_shared_memory();
+       std::raise(SIGKILL);
+     }},
     {"connect", connect},
     {"write temporary", write_temporary},
     {"SIGFPE", raise_signal<SIGFPE>},
@@ -348,6 +369,8 @@ constexpr Fault kFaults[] = {
     {"ignore SIGINT", [] { std::signal(SIGINT, SIG_IGN); }},
     {"limit resources", limit_resources},
     {"limit open files", limit_open_files},
+    {"limit memory by system call", [] { limit_by_system_call(RLIMIT_DATA); }},
+    {"limit files by system call", [] { limit_by_system_call(RLIMIT_FSIZE); }},
     {"open all files", open_all_files},
     {"open all files and crash",
      [] {
@@ -361,6 +384,32 @@ constexpr Fault kFaults[] = {
     {"round up", [] { std::fesetround(FE_UPWARD); }},
     {"flush to zero", flush_to_zero},
     {"close streams", close_streams},
+    {"close streams and crash",
+     [] {
+       close_streams();
+       write_to_nowhere();
+     }},
+    {"divert errors and crash",
+     [] {
+       divert_errors();
+       write_to_nowhere();
+     }},
+    {"write over run file and die",
+     [] {
+       write_over_run_file();
+       std::raise(SIGKILL);
+     }},
+    {"remove run file and die",
+     [] {
+       ::unlink("out/run.json");
+       std::raise(SIGKILL);
+     }},
+    {"be traced and crash",
+     [] {
+       ::ptrace(PTRACE_TRACEME, 0, nullptr, nullptr);
+       write_to_nowhere();
+     }},
+    {"crash at exit", [] { ::on_exit([](int, void*) { write_to_nowhere(); }, nullptr); }},
     {"buffer output", buffer_output},
     {"drop output stream", [] { stdout = nullptr; }},
     {"use terminal", use_terminal},
