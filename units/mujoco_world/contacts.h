@@ -25,8 +25,8 @@ struct WatchedContact {
 /// for two that MuJoCo does not let collide.
 std::vector<WatchedContact> list_contacts(const mjModel& model, const std::filesystem::path& file);
 
-/// Whether there is a force between them: MuJoCo's contacts of this instant, of mj_collision(), are
-/// nearer than their margin less their gap.
+/// Whether they touch: one of MuJoCo's contacts of this instant, of mj_collision(), is nearer than
+/// its margin less its gap, so that it may exert a force.
 bool is_touching(const WatchedContact& contact, const mjData& data);
 
 }  // namespace mujoco_world

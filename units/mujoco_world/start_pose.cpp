@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <sstream>
 #include <stdexcept>
 #include <utility>
 
@@ -99,6 +100,8 @@ void put_at_keyframe(const mjModel& model, mjData& data, const std::string& name
   mj_resetDataKeyframe(&model, &data, key);
 }
 
+std::string in_words(double number) { return (std::ostringstream() << number).str(); }
+
 /// A body, and its geom where that has a name.
 std::string in_words(const mjModel& model, int geom) {
   const char* name = mj_id2name(&model, mjOBJ_GEOM, geom);
@@ -119,8 +122,8 @@ std::vector<std::string> penetrations(const mjModel& model, const mjData& data) 
   for (const auto& [bodies, contact] : deepest) {
     const auto [one, other] = api::touching_geoms(*contact);
     list.push_back("the initial pose has " + in_words(model, one) + " " +
-                   std::to_string(-1e3 * contact->dist) + " mm inside of " +
-                   in_words(model, other) + ": they will be thrown apart; start elsewhere");
+                   in_words(-1e3 * contact->dist) + " mm inside of " + in_words(model, other) +
+                   ": they will be thrown apart; start elsewhere");
   }
   return list;
 }
@@ -134,8 +137,8 @@ std::vector<std::string> joints_out_of_range(const mjModel& model, const mjData&
     const double* const range = model.jnt_range + 2 * i;
     if (position >= range[0] && position <= range[1]) continue;
     list.push_back("the initial pose has the joint '" + name_of(model, mjOBJ_JOINT, i) + "' at " +
-                   std::to_string(position) + ", outside of its range from " +
-                   std::to_string(range[0]) + " to " + std::to_string(range[1]));
+                   in_words(position) + ", outside of its range from " + in_words(range[0]) +
+                   " to " + in_words(range[1]));
   }
   return list;
 }
