@@ -6,6 +6,7 @@
 
 #include "units/mujoco_world/clearance.h"
 #include "units/mujoco_world/mjcf.h"
+#include "units/mujoco_world/mujoco_api.h"
 
 namespace mujoco_world {
 namespace {

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "units/mujoco_world/mjcf.h"
+#include "units/mujoco_world/mujoco_api.h"
 #include "units/mujoco_world/names.h"
 
 namespace mujoco_world {
@@ -100,10 +101,10 @@ void put_at_keyframe(const mjModel& model, mjData& data, const std::string& name
   mj_resetDataKeyframe(&model, &data, key);
 }
 
-std::string in_words(double number) { return (std::ostringstream() << number).str(); }
+std::string in_short(double number) { return (std::ostringstream() << number).str(); }
 
 /// A body, and its geom where that has a name.
-std::string in_words(const mjModel& model, int geom) {
+std::string body_and_geom(const mjModel& model, int geom) {
   const char* name = mj_id2name(&model, mjOBJ_GEOM, geom);
   const std::string body = "'" + name_of(model, mjOBJ_BODY, model.geom_bodyid[geom]) + "'";
   return name && *name ? body + " (geom '" + name + "')" : body;
@@ -121,8 +122,8 @@ std::vector<std::string> penetrations(const mjModel& model, const mjData& data) 
   std::vector<std::string> list;
   for (const auto& [bodies, contact] : deepest) {
     const auto [one, other] = api::touching_geoms(*contact);
-    list.push_back("the initial pose has " + in_words(model, one) + " " +
-                   in_words(-1e3 * contact->dist) + " mm inside of " + in_words(model, other) +
+    list.push_back("the initial pose has " + body_and_geom(model, one) + " " +
+                   in_short(-1e3 * contact->dist) + " mm inside of " + body_and_geom(model, other) +
                    ": they will be thrown apart; start elsewhere");
   }
   return list;
@@ -137,8 +138,8 @@ std::vector<std::string> joints_out_of_range(const mjModel& model, const mjData&
     const double* const range = model.jnt_range + 2 * i;
     if (position >= range[0] && position <= range[1]) continue;
     list.push_back("the initial pose has the joint '" + name_of(model, mjOBJ_JOINT, i) + "' at " +
-                   in_words(position) + ", outside of its range from " + in_words(range[0]) +
-                   " to " + in_words(range[1]));
+                   in_short(position) + ", outside of its range from " + in_short(range[0]) +
+                   " to " + in_short(range[1]));
   }
   return list;
 }

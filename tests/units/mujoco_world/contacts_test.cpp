@@ -1,5 +1,6 @@
 #include "units/mujoco_world/contacts.h"
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
