@@ -1,6 +1,8 @@
 #include "master/model/unknown_variable.h"
 
 #include <algorithm>
+#include <iterator>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -70,6 +72,20 @@ class Wanted {
   std::vector<std::string> ends_;
 };
 
+/// Of structured names those that begin and end alike, if there are any: for joint.hand.start those
+/// of the other joints.
+std::vector<std::string> alike(const std::string& unknown, const std::vector<std::string>& names) {
+  const std::size_t first = unknown.find('.');
+  if (first == std::string::npos) return names;
+  const std::string_view begin = std::string_view(unknown).substr(0, first + 1);
+  const std::string_view end = std::string_view(unknown).substr(unknown.rfind('.'));
+  std::vector<std::string> found;
+  std::ranges::copy_if(names, std::back_inserter(found), [&](const std::string& name) {
+    return name.starts_with(begin) && name.ends_with(end);
+  });
+  return found.empty() ? names : found;
+}
+
 /// Where a connector is expected, connectors are shown if no name is near.
 std::string hint(const std::string& unknown, const UnitDescription& description,
                  bool is_connector_expected) {
@@ -81,7 +97,8 @@ std::string hint(const std::string& unknown, const UnitDescription& description,
     if (is_connector) connectors.push_back(variable.name);
   }
   const bool is_near = !nearest(unknown, names).empty();
-  return suggestion(unknown, is_connector_expected && !is_near ? connectors : names);
+  if (is_near) return suggestion(unknown, names);
+  return suggestion(unknown, alike(unknown, is_connector_expected ? connectors : names));
 }
 
 }  // namespace

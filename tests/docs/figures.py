@@ -70,7 +70,7 @@ FIGURES = [
      "the capacitor is full at {full:.2f} s",
      {"power": most(20.98, 21.3, INTAKE, 1e3), "start": start, "full": full,
       "ratio": lambda run: run.between(20.98, 21.3, INTAKE)[1] / run.at(15.499, INTAKE)}),
-    (PAPER, "EnergyIntake is only what the sensor takes, {power:.1f} µW", {"power": value(24.05, INTAKE, 1e6)}),
+    (PAPER, "EnergyIntake settles at what the sensor takes, {power:.1f} µW", {"power": value(23, INTAKE, 1e6)}),
     (PAPER, "Charge stays full until {time:.1f} s, {distance:.1f} cm away, and falls from there by {percent:.1f} %",
      {"time": fade, "distance": lambda run: 100 * run.at(fade(run), "channel.distance"),
       "percent": lambda run: lost(25, 30)(run) / run.at(25, "sensor.capacitor.charge") * 1e-4}),

@@ -8,15 +8,6 @@
 namespace mujoco_world {
 namespace {
 
-// As in MuJoCo's documentation, "Collision detection"; the pairs that it leaves out because one
-// body is the other's parent are kept.
-bool may_collide(const mjModel& model, int first, int second) {
-  const int* const weld = model.body_weldid;
-  if (weld[model.geom_bodyid[first]] == weld[model.geom_bodyid[second]]) return false;
-  return (model.geom_contype[first] & model.geom_conaffinity[second]) != 0 ||
-         (model.geom_contype[second] & model.geom_conaffinity[first]) != 0;
-}
-
 // Smaller is exacter as the first of a pair.
 int rank(const mjModel& model, int geom) {
   if (model.geom_type[geom] == mjGEOM_PLANE) return 0;
@@ -42,6 +33,13 @@ double distance(const mjModel& model, const mjData& data, int geom, const double
 }
 
 }  // namespace
+
+bool may_collide(const mjModel& model, int first, int second) {
+  const int* const weld = model.body_weldid;
+  if (weld[model.geom_bodyid[first]] == weld[model.geom_bodyid[second]]) return false;
+  return (model.geom_contype[first] & model.geom_conaffinity[second]) != 0 ||
+         (model.geom_contype[second] & model.geom_conaffinity[first]) != 0;
+}
 
 Clearance::Clearance(const mjModel& model)
     : is_bounded_(model.npair == 0 && !api::has_deformables(&model)) {

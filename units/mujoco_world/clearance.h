@@ -8,6 +8,10 @@
 
 namespace mujoco_world {
 
+/// Whether MuJoCo looks for contacts of two geoms, by its documentation, "Collision detection", but
+/// for explicit pairs; those that it leaves out because one body is the other's parent are kept.
+bool may_collide(const mjModel& model, int first, int second);
+
 /// Knows a lower bound of the distance of each two geoms that MuJoCo would look at: between a plane
 /// or box and the other's bounding sphere, else between both bounding spheres. Much cheaper than
 /// mj_collision() where a wide table lies below everything, which bounding spheres do not tell

@@ -74,6 +74,7 @@ bool has_only_touch_sensors(const mjModel& model) {
 World::World(const std::filesystem::path& folder)
     : model_(load_model(find_scene(folder))),
       catalogue_(list(*model_)),
+      contacts_(list_contacts(*model_, find_scene(folder))),
       timestep_(read_timestep(*model_)),
       only_touches_(has_only_touch_sensors(*model_)),
       clearance_(*model_) {
@@ -83,6 +84,7 @@ World::World(const std::filesystem::path& folder)
   inputs_.resize(catalogue_.actuators.size());
   taken_.resize(inputs_.size());
   lamps_.resize(catalogue_.lamps.size());
+  touching_.resize(contacts_.size());
   scratch_.resize(api::state_size(model_.get(), grid_data_.get()));
   reset(Time{});
 }
@@ -93,16 +95,10 @@ World::DataPointer World::make_data() const {
   return data;
 }
 
-void World::reset(Time start) {
-  const int key = mj_name2id(model_.get(), mjOBJ_KEY, "start");
-  mjData* data = grid_data_.get();
-  if (key >= 0) {
-    mj_resetDataKeyframe(model_.get(), data, key);
-  } else {
-    mj_resetData(model_.get(), data);
-  }
+void World::reset(Time start, const StartPose& pose) {
+  put_at_start(*model_, *grid_data_, pose);
   for (std::size_t i = 0; i < inputs_.size(); ++i) {
-    inputs_[i] = data->ctrl[catalogue_.actuators[i].control];
+    inputs_[i] = grid_data_->ctrl[catalogue_.actuators[i].control];
   }
   taken_ = inputs_;
   std::fill(lamps_.begin(), lamps_.end(), 0.0);
@@ -110,6 +106,12 @@ void World::reset(Time start) {
   resting_ = false;
   rest_detector_.restart();
   move(start, start);
+  look_for_contacts();
+}
+
+std::vector<std::string> World::flaws() const {
+  if (!has_contact()) instant_data_->ncon = 0;
+  return flaws_of_pose(*model_, *instant_data_);
 }
 
 void World::set_input(std::size_t actuator, double value) {
@@ -129,22 +131,37 @@ std::vector<int> World::shining() const {
   return geoms;
 }
 
-void World::advance(Time to) {
+bool World::advance(Time to, bool stops_at_contacts) {
   if (failed_) throw std::logic_error("the world has failed: restore a state or reset it first");
   if (to < now_) throw std::invalid_argument("a world cannot be advanced into its past");
   while (now_ < to) {
     if (resting_) rest(to);
-    if (now_ == to) return;
+    if (now_ == to) return false;
     if (now_ == grid_) take_inputs();
     const Time next = grid_ + timestep_;
     if (next <= to) {
       integrate();
       move(next, next);
+      const bool has_contact_changed = look_for_contacts();
       if (rest_settings_) look_for_rest();
+      if (has_contact_changed && stops_at_contacts) return true;
     } else {
       move(grid_, to);
     }
   }
+  return false;
+}
+
+bool World::look_for_contacts() {
+  if (contacts_.empty()) return false;
+  const bool any = has_contact();
+  bool has_changed = false;
+  for (std::size_t i = 0; i < contacts_.size(); ++i) {
+    const double touching = any && is_touching(contacts_[i], *instant_data_) ? 1.0 : 0.0;
+    has_changed = has_changed || touching != touching_[i];
+    touching_[i] = touching;
+  }
+  return has_changed;
 }
 
 void World::take_inputs() {
@@ -229,6 +246,7 @@ const mjData& World::sensed() const {
 }
 
 bool World::has_contact() const {
+  posed();
   if (clearance_.excludes_contact(*model_, *instant_data_)) return false;
   call_mujoco(mj_collision, *model_, *instant_data_, now_);
   return instant_data_->ncon > 0;
@@ -283,7 +301,7 @@ double World::sensor(std::size_t sensor, int element) const {
 
 std::size_t World::state_size() const {
   const std::size_t rest = rest_settings_ ? kRest + rest_detector_.state_size() : 0;
-  return scratch_.size() + 2 * inputs_.size() + lamps_.size() + kTimes + rest;
+  return scratch_.size() + 2 * inputs_.size() + lamps_.size() + touching_.size() + kTimes + rest;
 }
 
 void World::save(double* block) const {
@@ -291,6 +309,7 @@ void World::save(double* block) const {
   block = std::copy(inputs_.begin(), inputs_.end(), block + scratch_.size());
   block = std::copy(taken_.begin(), taken_.end(), block);
   block = std::copy(lamps_.begin(), lamps_.end(), block);
+  block = std::copy(touching_.begin(), touching_.end(), block);
   put_time(block++, grid_);
   put_time(block++, now_);
   if (!rest_settings_) return;
@@ -310,6 +329,8 @@ void World::restore(const double* block) {
   block += taken_.size();
   std::copy_n(block, lamps_.size(), lamps_.begin());
   block += lamps_.size();
+  std::copy_n(block, touching_.size(), touching_.begin());
+  block += touching_.size();
   const double* times = block;
   block += kTimes;
   if (rest_settings_) {

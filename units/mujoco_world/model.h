@@ -7,13 +7,16 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include <stride/time.h>
 
 #include "units/mujoco_world/clearance.h"
+#include "units/mujoco_world/contacts.h"
 #include "units/mujoco_world/mjcf.h"
 #include "units/mujoco_world/rest.h"
+#include "units/mujoco_world/start_pose.h"
 
 namespace mujoco_world {
 
@@ -41,9 +44,10 @@ struct RestSettings {
 /// A drive's ripple (DriveRipple) is added to an actuator's input where it is taken, by the joint's
 /// position there.
 ///
-/// The model's timestep is rounded to whole picoseconds. If the MJCF has a keyframe called `start`,
-/// the world begins there (its ctrl are the inputs' start values), else in the model's reference
-/// pose.
+/// The model's timestep is rounded to whole picoseconds. The world begins in default_start(), if
+/// nothing else is said; its keyframe's ctrl are the inputs' start values.
+///
+/// Watched contacts are looked at where grid points are reached, and hold until the next one.
 ///
 /// With allow_rest(), a world that has come to rest (RestDetector) is not integrated any more: at a
 /// grid point it is stopped, its velocities set to zero, and does not move until an input changes,
@@ -60,6 +64,7 @@ class World {
 
   const mjModel& model() const { return *model_; }
   const Catalogue& catalogue() const { return catalogue_; }
+  const std::vector<WatchedContact>& contacts() const { return contacts_; }
   stride::Duration timestep() const { return timestep_; }
   stride::Time now() const { return now_; }
 
@@ -68,8 +73,12 @@ class World {
   void allow_rest(const RestSettings& settings);
   void forbid_rest();
 
-  /// Back to the initial state, with the grid's first point at `start`.
-  void reset(stride::Time start);
+  /// To the initial state, with the grid's first point at `start`. Throws as put_at_start() does.
+  void reset(stride::Time start, const StartPose& pose);
+  void reset(stride::Time start) { reset(start, default_start(*model_)); }
+
+  /// What is wrong with the present pose, see flaws_of_pose().
+  std::vector<std::string> flaws() const;
 
   /// `actuator` indexes catalogue().actuators, the value is in its unit. Limits of the model apply
   /// inside MuJoCo. Throws std::invalid_argument if the value is not finite.
@@ -85,10 +94,12 @@ class World {
   /// world is not at rest.
   stride::Time rests_until() const { return resting_ && keeps_inputs() ? rest_end_ : now_; }
 
-  /// Moves to `to`, not before now(). Throws std::runtime_error with the joint and the time if the
-  /// motion diverges, or with MuJoCo's message on an internal error; after that only reset() and
-  /// restore() may follow.
-  void advance(stride::Time to);
+  /// Moves to `to`, not before now(). Where `stops_at_contacts`, the way ends before that, at the
+  /// first grid point where a watched contact has begun or ended. Whether it ends at such a point
+  /// is returned; always false without `stops_at_contacts`. Throws std::runtime_error with the
+  /// joint and the time if the motion diverges, or with MuJoCo's message on an internal error;
+  /// after that only reset() and restore() may follow.
+  bool advance(stride::Time to, bool stops_at_contacts = false);
 
   /// The outputs at now(); indices are those of the catalogue, else std::out_of_range.
   double joint_position(std::size_t joint) const;  ///< [rad] or [m]
@@ -99,6 +110,8 @@ class World {
   Vector site_axis_rate(std::size_t site) const;   ///< [1/s], the rate of site_axis()
   std::size_t sensor_numbers() const { return static_cast<std::size_t>(model_->nsensordata); }
   double sensor(std::size_t sensor, int element = 0) const;  ///< in the sensor's unit
+  /// Whether a contact, by its index in contacts(), is closed.
+  bool touches(std::size_t contact) const { return touching_.at(contact) != 0; }
 
   /// With the poses of all that can be drawn, at now(); valid until the next call of anything else.
   mjData& drawn() const;
@@ -117,6 +130,7 @@ class World {
 
   DataPointer make_data() const;
   void integrate();
+  bool look_for_contacts();  // returns whether one has begun or ended
   void check_motion() const;
   [[noreturn]] void report_divergence(const char* quantity, int joint) const;
   void take_inputs();
@@ -135,14 +149,16 @@ class World {
 
   ModelPointer model_;
   Catalogue catalogue_;
+  std::vector<WatchedContact> contacts_;
   stride::Duration timestep_{};
   bool only_touches_;  // none but touch sensors
   Clearance clearance_;
   DataPointer grid_data_;     // the state at the grid point grid_
   DataPointer instant_data_;  // scratch: what is seen at now_
   std::vector<double> inputs_;
-  std::vector<double> taken_;  // of these, at the last grid point
-  std::vector<double> lamps_;  // 1 for one that shines
+  std::vector<double> taken_;     // of these, at the last grid point
+  std::vector<double> lamps_;     // 1 for one that shines
+  std::vector<double> touching_;  // 1 for a contact that is closed
   stride::Time grid_{};
   stride::Time now_{};
   bool failed_ = false;

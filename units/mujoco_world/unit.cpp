@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 #include <stride/unit.h>
@@ -52,6 +53,7 @@ class MujocoWorld : public stride::Unit {
     info.split_invariant = true;
     const auto& catalogue = world_.catalogue();
     inputs_.resize(catalogue.actuators.size());
+    described_inputs_.resize(inputs_.size());
     joints_.resize(catalogue.joints.size());
     sites_.resize(catalogue.sites.size());
     for (std::size_t i = 0; i < inputs_.size(); ++i) list_actuator(i);
@@ -59,6 +61,9 @@ class MujocoWorld : public stride::Unit {
     for (std::size_t i = 0; i < joints_.size(); ++i) list_joint(i);
     for (std::size_t i = 0; i < sites_.size(); ++i) list_site(i);
     for (const auto& sensor : catalogue.sensors) list_sensor(sensor);
+    for (const auto& contact : world_.contacts()) list_contact(contact);
+    info.early_return = !world_.contacts().empty();
+    list_start();
     list_rest();
     list_film();
     state();
@@ -66,20 +71,24 @@ class MujocoWorld : public stride::Unit {
 
   void initialize(stride::Time start) override {
     allow_rest();
-    world_.reset(start);
+    world_.reset(start, start_);
+    warn_of_flaws();
+    says_whose_controls_ = start_.keyframe != mujoco_world::default_start(world_.model()).keyframe;
     set_film();
     show();
   }
 
   void step(stride::Step& step) override {
+    if (std::exchange(says_whose_controls_, false)) warn_of_controls();
     for (std::size_t i = 0; i < inputs_.size(); ++i) world_.set_input(i, inputs_[i]);
     for (std::size_t i = 0; i < lamps_.size(); ++i) world_.set_lamp(i, lamps_[i]);
     const bool rests = world_.rests_until() >= step.to();
     if (film_) {
-      film_->advance(world_, step.to());
+      film_->advance(world_, step.to(), step.early_return_allowed());
     } else {
-      world_.advance(step.to());
+      world_.advance(step.to(), step.early_return_allowed());
     }
+    if (world_.now() < step.to()) step.return_early(world_.now());
     if (!rests) show();
   }
 
@@ -152,6 +161,36 @@ class MujocoWorld : public stride::Unit {
     world_.allow_rest(settings);
   }
 
+  /// Of the start pose; once, although the start is computed anew with each input that is set.
+  void warn_of_flaws() {
+    std::vector<std::string> flaws = world_.flaws();
+    if (flaws == flaws_) return;
+    flaws_ = std::move(flaws);
+    for (const std::string& flaw : flaws_) log(stride::Severity::Warning, flaw);
+  }
+
+  /// Before the first step: a keyframe's ctrl are an input's start value only in the description.
+  void warn_of_controls() {
+    for (std::size_t i = 0; i < inputs_.size(); ++i) {
+      if (inputs_[i] != described_inputs_[i] || inputs_[i] == world_.input(i)) continue;
+      log(stride::Severity::Warning,
+          "the input of actuator '" + world_.catalogue().actuators[i].name + "' has its start " +
+              "value, " + std::to_string(inputs_[i]) + "; the keyframe '" + start_.keyframe +
+              "' has " + std::to_string(world_.input(i)) + ", which is not used: set the input");
+    }
+  }
+
+  void list_start() {
+    parameter("start.keyframe", start_.keyframe)
+        .description("of the model, where the world begins; empty: in its reference pose");
+    const auto positions = mujoco_world::list_start_positions(world_.model());
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+      parameter(positions[i].parameter, start_.positions[i])
+          .unit(positions[i].unit)
+          .description("initial " + positions[i].description + "; NaN: as the keyframe has it");
+    }
+  }
+
   void list_rest() {
     parameter("rest.speed", limits_.speed)
         .min(0)
@@ -190,7 +229,7 @@ class MujocoWorld : public stride::Unit {
   void list_actuator(std::size_t i) {
     const auto& actuator = world_.catalogue().actuators[i];
     const std::string name = "actuator." + name_part(actuator.name);
-    inputs_[i] = world_.input(i);
+    inputs_[i] = described_inputs_[i] = world_.input(i);
     auto row = input(actuator.element == 0 ? name : indexed(name, actuator.element), inputs_[i]);
     row.unit(actuator.unit).description("control of the actuator " + actuator.name);
     if (actuator.range) row.range(actuator.range->first, actuator.range->second);
@@ -252,6 +291,13 @@ class MujocoWorld : public stride::Unit {
     }
   }
 
+  void list_contact(const mujoco_world::WatchedContact& contact) {
+    output("contact." + name_part(contact.name), contacts_.emplace_back(false))
+        .discrete()
+        .depends_on({})
+        .description("whether there is contact; a step ends where this changes");
+  }
+
   /// Brings the outputs to the world's present, and MuJoCo's warnings to the log.
   void show() {
     for (std::size_t i = 0; i < joints_.size(); ++i) {
@@ -266,6 +312,7 @@ class MujocoWorld : public stride::Unit {
         sensors_[i][k] = world_.sensor(i, static_cast<int>(k));
       }
     }
+    for (std::size_t i = 0; i < contacts_.size(); ++i) contacts_[i] = world_.touches(i);
     for (const std::string& warning : mujoco_world::take_warnings()) {
       log(stride::Severity::Warning, warning);
     }
@@ -273,14 +320,19 @@ class MujocoWorld : public stride::Unit {
 
   std::filesystem::path film_folder_;
   World world_;
+  mujoco_world::StartPose start_ = mujoco_world::default_start(world_.model());
+  std::vector<std::string> flaws_;  // of the start that were reported
   double film_interval_ = 0;
   mujoco_world::film::View view_;
   std::optional<mujoco_world::film::Film> film_;
   std::vector<double> inputs_;
+  std::vector<double> described_inputs_;  // their start values
+  bool says_whose_controls_ = false;
   std::deque<bool> lamps_;
   std::vector<Joint> joints_;
   std::vector<Site> sites_;
   std::deque<std::vector<double>> sensors_;
+  std::deque<bool> contacts_;
   mujoco_world::RestLimits limits_;
   mujoco_world::RestSettings rest_settings_;  // kept to avoid allocation
   double rest_window_ = stride::to_seconds(limits_.window);

@@ -9,6 +9,11 @@ double minimum_jerk(double share_of_time) {
   return s * s * s * (10.0 + s * (6.0 * s - 15.0));
 }
 
+void shift(Waypoint& waypoint, const std::vector<double>& offsets) {
+  const std::size_t size = std::min(waypoint.positions.size(), offsets.size());
+  for (std::size_t i = 0; i < size; ++i) waypoint.positions[i] += offsets[i];
+}
+
 double position(const std::vector<Waypoint>& waypoints, std::size_t axis, stride::Time time) {
   const auto next =
       std::upper_bound(waypoints.begin(), waypoints.end(), time,

@@ -15,6 +15,9 @@ struct Waypoint {
   std::vector<double> positions;  ///< one per axis [rad]
 };
 
+/// Adds `offsets` [rad] to a waypoint's positions; axes beyond their number stay where they are.
+void shift(Waypoint& waypoint, const std::vector<double>& offsets);
+
 /// The share of the way that is done after a share of the time, both 0 to 1, along the path of
 /// minimum jerk between two points at rest: 10 s^3 - 15 s^4 + 6 s^5 (Flash and Hogan, "The
 /// Coordination of Arm Movements", J. Neuroscience 5 (1985)). Before 0 it is 0, after 1 it is 1.

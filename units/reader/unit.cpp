@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include <stride/nfc/in_words.h>
 #include <stride/unit.h>
@@ -22,13 +23,14 @@ reader::Program load(const std::filesystem::path& resources, const std::string& 
 /// What of a program the parameters may replace.
 struct Choice {
   std::string program = "program.xml";
-  std::uint64_t seed = 0;    // 0: the program's
-  double tremor = -1;        // [rad], less than 0: the program's
-  double start_offset = -1;  // likewise
+  std::uint64_t seed = 0;                  // 0: the program's
+  double tremor = -1;                      // [rad], less than 0: the program's
+  double start_offset = -1;                // likewise
+  std::vector<double> waypoint_offsets{};  // [rad], one for each axis that the parameters list
 
   bool operator==(const Choice& other) const {
     return program == other.program && seed == other.seed && tremor == other.tremor &&
-           start_offset == other.start_offset;
+           start_offset == other.start_offset && waypoint_offsets == other.waypoint_offsets;
   }
 };
 
@@ -38,6 +40,9 @@ reader::Program load(const std::filesystem::path& resources, const Choice& choic
   if (choice.tremor >= 0) reader::scale_to(program.variation.tremor, choice.tremor);
   if (choice.start_offset >= 0)
     reader::scale_to(program.variation.start_offset, choice.start_offset);
+  for (reader::Waypoint& waypoint : program.waypoints) {
+    reader::shift(waypoint, choice.waypoint_offsets);
+  }
   return program;
 }
 
@@ -146,6 +151,14 @@ class ReaderUnit : public stride::Unit {
         .unit("rad")
         .range(-1, 1)
         .description("largest one of the axes in the first waypoint; less than 0 likewise");
+    const auto& axes = reader_.program().axes;
+    choice_.waypoint_offsets.resize(axes.size());
+    for (std::size_t i = 0; i < axes.size(); ++i) {
+      parameter("waypoint_offset." + axes[i], choice_.waypoint_offsets[i])
+          .unit("rad")
+          .range(-6.3, 6.3)
+          .description("added to the axis " + axes[i] + " in each waypoint");
+    }
   }
 
   void list_messages() {

@@ -37,7 +37,7 @@ void Timer::set(Time at) {
   kernel_.set_alarm();
 }
 
-void Timer::set_after(Duration delay) { set(kernel_.now() + delay); }
+void Timer::set_after(Duration delay) { set(later(kernel_.now(), delay)); }
 
 void Timer::cancel() {
   due_.reset();

@@ -80,8 +80,12 @@ class Event {
   /// Announces the next instant at which the unit needs Event Mode, in the place of the one that
   /// was announced before. It stays announced at each event until one at or after it has come, so
   /// call it only if the time changes. The importer comes there, or, if its
-  /// communication points are elsewhere, to the first one after it.
-  void next_event(Time time) { next_ = time; }
+  /// communication points are elsewhere, to the first one after it. Time::max() is never, as
+  /// no_next_event() says.
+  void next_event(Time time) {
+    if (time == Time::max()) return no_next_event();
+    next_ = time;
+  }
   /// Withdraws what was announced.
   void no_next_event() { next_.reset(); }
   /// Another event iteration at this same instant is wanted. A tick of an output clock implies it.

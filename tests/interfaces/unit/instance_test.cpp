@@ -559,6 +559,13 @@ TEST_CASE("the next event and another iteration are passed on") {
   CHECK_FALSE(unit.iterate);
 }
 
+TEST_CASE("an event that is announced for Time::max() never comes") {
+  stride::Event event(stride::Time{}, stride::time_from_seconds(1));
+  REQUIRE(event.next());
+  event.next_event(stride::Time::max());
+  CHECK_FALSE(event.next());
+}
+
 TEST_CASE("an announced event stays announced until it has come") {
   const UnitLibrary library(unit_library("stepper"));
   UnitInstance unit(library);

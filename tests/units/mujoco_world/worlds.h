@@ -94,6 +94,44 @@ inline const std::string kTumble = R"(
   </actuator>
 </mujoco>)";
 
+/// A ball of 5 cm that falls from 0.3 m onto a floor and bounces, beside a hinge and a joint that
+/// turns any way.
+inline const std::string kBounce = R"(
+<mujoco>
+  <compiler angle="radian"/>
+  <option timestep="0.001"/>
+  <default><geom solref="-50000 -5"/></default>
+  <custom>
+    <tuple name="contact.floor">
+      <element objtype="body" objname="ball"/><element objtype="geom" objname="floor"/>
+    </tuple>
+    <tuple name="contact.any"><element objtype="geom" objname="shell"/></tuple>
+    <tuple name="no_contact"><element objtype="site" objname="centre"/></tuple>
+  </custom>
+  <worldbody>
+    <geom name="floor" type="plane" size="2 2 0.1"/>
+    <body name="ball" pos="0 0 0.3">
+      <freejoint/>
+      <geom name="shell" type="sphere" size="0.05" mass="0.1"/>
+      <site name="centre"/>
+    </body>
+    <body name="gate" pos="1 0 0.5">
+      <joint name="gate" axis="0 0 1" limited="true" range="-1 1"/>
+      <geom type="box" size="0.1 0.01 0.1" mass="1"/>
+      <body pos="0 0 0.4">
+        <joint name="head" type="ball"/>
+        <geom type="sphere" size="0.05" mass="0.1"/>
+        <site name="nose" pos="0.1 0 0"/>
+      </body>
+    </body>
+  </worldbody>
+  <actuator><position name="gate" joint="gate" kp="10"/></actuator>
+  <keyframe>
+    <key name="high" qpos="0 0 1 1 0 0 0  0  1 0 0 0"/>
+    <key name="open" qpos="0 0 0.3 1 0 0 0  0.5  1 0 0 0" ctrl="0.5"/>
+  </keyframe>
+</mujoco>)";
+
 /// A joint that pushes itself ever harder.
 inline const std::string kRunaway = R"(
 <mujoco>

@@ -92,6 +92,18 @@ TEST_CASE("a timer goes off at its instant, once") {
   bench.with([](Alarms& a) { CHECK_FALSE(a.first.due()); });
 }
 
+TEST_CASE("a timer that is set for ever never goes off") {
+  Bench bench;
+  bench.device.advance(at(kMicrosecond));
+  bench.with([](Alarms& a) {
+    a.first.set(Time::max());
+    a.second.set_after(Duration::max());
+    CHECK(a.second.due() == Time::max());
+  });
+  bench.device.advance(at(9 * kMicrosecond));
+  CHECK(bench.marks().empty());
+}
+
 TEST_CASE("a timer that is set again has one instant, the last") {
   Bench bench;
   const auto set = [&](Duration when) { bench.with([=](Alarms& a) { a.first.set(at(when)); }); };

@@ -29,12 +29,13 @@ Film::Film(const World& world, const FilmSettings& settings, const std::filesyst
   go_on();
 }
 
-void Film::advance(World& world, Time to) {
+bool Film::advance(World& world, Time to, bool stops_at_contacts) {
   while (next_ <= to) {
-    world.advance(next_);
-    take();
+    const bool stopped = world.advance(next_, stops_at_contacts);
+    if (world.now() == next_) take();
+    if (stopped) return true;
   }
-  world.advance(to);
+  return world.advance(to, stops_at_contacts);
 }
 
 void Film::go_on() {

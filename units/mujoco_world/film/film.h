@@ -32,9 +32,9 @@ class Film {
 
   const FilmSettings& settings() const { return settings_; }
 
-  /// Moves the world to `to`, and takes the pictures on the way. Throws as World::advance() and
-  /// Renderer and Frames do.
-  void advance(World& world, stride::Time to);
+  /// Moves the world as World::advance() does, and takes the pictures on the way. Throws as that
+  /// and Renderer and Frames do.
+  bool advance(World& world, stride::Time to, bool stops_at_contacts = false);
 
   /// The world was set to another state: drops the pictures of what is not yet, and takes that of
   /// the present where there is none.

@@ -143,3 +143,20 @@ TEST_CASE("a film needs an interval") {
   CHECK_THROWS_AS(Tumble({Duration{}, {}}), std::invalid_argument);
   CHECK_THROWS_AS(Tumble({Duration(-1), {}}), std::invalid_argument);
 }
+
+TEST_CASE("a film of a world that stops at contacts lacks no picture") {
+  if (scene::lacks_open_gl()) return;
+  const worlds::Folder folder(worlds::kBounce);
+  const FilmSettings each_1_ms{std::chrono::milliseconds(1), {64, 48, ""}};
+  std::map<std::string, std::string> files[2];
+  for (const bool stops : {false, true}) {
+    const stride::tests::ScratchFolder scratch;
+    World world(folder.path());
+    Film film(world, each_1_ms, scratch / "film");
+    int times_stopped = 0;
+    while (world.now() < at(0.3)) times_stopped += film.advance(world, at(0.3), stops) ? 1 : 0;
+    CHECK((times_stopped > 1) == stops);
+    files[stops] = files_of(scratch / "film");
+  }
+  CHECK(files[0] == files[1]);
+}

@@ -1,0 +1,123 @@
+// The world seen by an importer: its start as parameters, and steps that end at contacts.
+#include <algorithm>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <catch2/catch.hpp>
+
+#include "tests/build.h"
+#include "tests/interfaces/unit/importer.h"
+#include "tests/units/mujoco_world/worlds.h"
+
+using namespace stride::tests;
+using Catch::Matchers::Contains;
+
+namespace {
+
+class WorldUnit {
+ public:
+  explicit WorldUnit(const std::string& mjcf, bool early_return = false) : folder_(mjcf) {
+    InstanceChoices choices;
+    choices.resources = (folder_.path() / "").string();
+    choices.early_return = early_return;
+    choices.logging = true;
+    unit_.emplace(library_, choices);
+    description_ = library_.describe(choices.resources);
+  }
+  UnitInstance* operator->() { return &*unit_; }
+
+  fmi3Status set_keyframe(const char* name) {
+    const fmi3ValueReference r = unit_->reference("start.keyframe");
+    return library_.SetString(unit_->handle, &r, 1, &name, 1);
+  }
+  bool touches(const std::string& contact) {
+    const fmi3ValueReference r = unit_->reference("contact." + contact);
+    bool value = false;
+    REQUIRE(library_.GetBoolean(unit_->handle, &r, 1, &value, 1) == fmi3OK);
+    return value;
+  }
+  /// How often a text was logged.
+  long said(const std::string& text) const {
+    return std::count_if(unit_->messages.begin(), unit_->messages.end(), [&](const auto& message) {
+      return message.find(text) != std::string::npos;
+    });
+  }
+  const std::string& description() const { return description_; }
+
+ private:
+  worlds::Folder folder_;
+  UnitLibrary library_{unit_library("mujoco_world")};
+  std::optional<UnitInstance> unit_;
+  std::string description_;
+};
+
+}  // namespace
+
+TEST_CASE("the start is set by parameters", "[mujoco_world]") {
+  WorldUnit world(worlds::kBounce);
+  REQUIRE(world.set_keyframe("high") == fmi3OK);
+  REQUIRE(world->set_real("joint.gate.start", 0.25) == fmi3OK);
+  REQUIRE(world->set_real("body.ball.start.position.x", 0.125) == fmi3OK);
+  REQUIRE(world->initialize() == fmi3OK);
+  CHECK(world->real("joint.gate.position") == 0.25);
+  CHECK(world->real("site.centre.position.x") == 0.125);
+  CHECK(world->real("site.centre.position.z") == 1);
+}
+
+TEST_CASE("a keyframe that is not there is an error with those that are", "[mujoco_world]") {
+  WorldUnit world(worlds::kBounce);
+  REQUIRE(world.set_keyframe("hihg") == fmi3OK);
+  CHECK(world->initialize() == fmi3Error);
+  CHECK_THAT(world->last_message(), Contains("'hihg'") && Contains("'high', 'open'"));
+}
+
+TEST_CASE("a flaw of the start is a warning, once", "[mujoco_world]") {
+  WorldUnit world(worlds::kBounce);
+  REQUIRE(world->set_real("body.ball.start.position.z", 0.04) == fmi3OK);
+  REQUIRE(world->fmi.EnterInitializationMode(world->handle, false, 0, 0, false, 0) == fmi3OK);
+  CHECK(world->real("site.centre.position.z") == 0.04);
+  REQUIRE(world->set_real("actuator.gate", 0.1) == fmi3OK);  // which computes the start anew
+  CHECK(world->real("site.centre.position.z") == 0.04);
+  REQUIRE(world->fmi.ExitInitializationMode(world->handle) == fmi3OK);
+  CHECK(world.said(" 10 mm inside of") == 1);
+}
+
+TEST_CASE("a keyframe's control that an input does not have is a warning", "[mujoco_world]") {
+  WorldUnit world(worlds::kBounce);
+  REQUIRE(world.set_keyframe("open") == fmi3OK);
+  SECTION("where the input was left alone") {
+    REQUIRE(world->start_steps() == fmi3OK);
+    REQUIRE(world->step(0, 0.01) == fmi3OK);
+    REQUIRE(world->step(0.01, 0.01) == fmi3OK);
+    CHECK(world.said(
+              "actuator 'gate' has its start value, 0.000000; the keyframe 'open' has 0.5") == 1);
+  }
+  SECTION("not where it was set") {
+    REQUIRE(world->set_real("actuator.gate", -0.5) == fmi3OK);
+    REQUIRE(world->start_steps() == fmi3OK);
+    REQUIRE(world->step(0, 0.01) == fmi3OK);
+    CHECK(world.said("actuator 'gate'") == 0);
+  }
+}
+
+TEST_CASE("a step ends where a contact changes, if it may", "[mujoco_world]") {
+  const bool may = GENERATE(true, false);
+  WorldUnit world(worlds::kBounce, may);
+  REQUIRE(world->start_steps() == fmi3OK);
+  CHECK_FALSE(world.touches("floor"));
+  REQUIRE(world->step(0, 0.2265) == fmi3OK);
+  CHECK(world->last.early == may);
+  CHECK(world->last.reached == (may ? 0.226 : 0.2265));
+  CHECK(world.touches("floor"));
+  CHECK(world.touches("any"));
+  CHECK_FALSE(world->last.event);
+}
+
+TEST_CASE("a world without watched contacts has nothing to do with them", "[mujoco_world]") {
+  WorldUnit with(worlds::kBounce);
+  WorldUnit without(worlds::kTumble);
+  CHECK_THAT(with.description(), Contains("mightReturnEarlyFromDoStep=\"true\""));
+  CHECK_THAT(without.description(),
+             !Contains("mightReturnEarlyFromDoStep=\"true\"") && !Contains("\"contact."));
+}
