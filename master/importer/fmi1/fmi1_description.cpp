@@ -70,8 +70,7 @@ class Fmi1Variables {
     for (const xml::Element& element : elements) add_output(element);
   }
 
-  /// Those of the unit, in the order of the variables.
-  const std::vector<fmi1ValueReference>& references() const { return references_; }
+  const Fmi1Attributes& attributes() const { return attributes_; }
 
  private:
   void read_types(const xml::Element& root) {
@@ -85,18 +84,24 @@ class Fmi1Variables {
   }
 
   void add(const xml::Element& element) {
-    if (element.attribute("alias") == "negatedAlias") {
-      unit_.warnings.push_back(
-          core::to_text({.where = element.where()}) +
-          fmt::format("'{}', a negatedAlias, is left out", element.attribute_or("name")));
+    core::Variable variable = read(element);
+    const bool is_negated = element.attribute("alias") == "negatedAlias";
+    if (is_negated && !can_be_negated(variable.type)) {
+      unit_.warnings.push_back(core::to_text({.where = element.where()}) +
+                               fmt::format("'{}' is left out: no {} can be a negatedAlias",
+                                           variable.name, core::name(variable.type)));
       return;
     }
-    core::Variable variable = read(element);
     variable.reference = static_cast<core::ValueReference>(unit_.variables.size());
     names_.add(variable.name, element);
     places_.emplace(variable.name, variable.reference);
-    references_.push_back(element.required_number<fmi1ValueReference>("valueReference"));
+    attributes_.references.push_back(element.required_number<fmi1ValueReference>("valueReference"));
+    attributes_.negated.push_back(is_negated);
     unit_.variables.push_back(std::move(variable));
+  }
+
+  static bool can_be_negated(ValueType type) {
+    return type == ValueType::Float64 || type == ValueType::Int32 || type == ValueType::Boolean;
   }
 
   core::Variable read(const xml::Element& element) const {
@@ -168,7 +173,7 @@ class Fmi1Variables {
   }
 
   core::UnitDescription& unit_;
-  std::vector<fmi1ValueReference> references_;
+  Fmi1Attributes attributes_;
   TypeDefinitions types_;
   VariableNames names_;
   std::map<std::string, core::ValueReference> places_;
@@ -180,7 +185,7 @@ Fmi1Attributes read_fmi1_description(const xml::Element& root, core::UnitDescrip
   unit.instantiation_token = root.given("guid");
   unit.model_identifier = read_model_identifier(root);
   read_fmi1_capabilities(find_stand_alone(root), unit);
-  return {Fmi1Variables(root, unit).references()};
+  return Fmi1Variables(root, unit).attributes();
 }
 
 }  // namespace stride::importer
