@@ -433,6 +433,7 @@ TEST_CASE("start values are converted, parsed and refused where they cannot be s
   CHECK_THAT(with({"beta", "ranged", "nan", "", {}}),
              Contains("nan is out of range, expected a number"));
   CHECK(with({"beta", "ranged", "2", "", {}}) == "accepted");
+  CHECK(with({"beta", "gain", "NaN", "", {}}) == "accepted");
   CHECK_THAT(with({"beta", "u", "1", "s", {}}), Contains("the value is in 's'"));
   SystemDeclaration declared = declaration();
   declared.start_values = {{"beta", "u", "1500", "mm", {}}};
