@@ -64,13 +64,23 @@ void check_column_count(const core::System& system, std::span<const core::Variab
                    "choose fewer signals, with <stride:Record signals=\"…\"/> or --signals");
 }
 
+/// Of what is written with another sign than '='.
+std::string assignment_hint(const std::string& option, const std::string& text) {
+  constexpr std::string_view kSigns = " :\t";
+  const std::size_t sign = text.find_first_of(kSigns);
+  const std::size_t value = text.find_first_not_of(kSigns, sign);
+  if (sign == 0 || sign == text.npos || value == text.npos) return "";
+  return fmt::format("write {} {}={}", option, text.substr(0, sign), text.substr(value));
+}
+
 }  // namespace
 
 std::pair<std::string, std::string> split_option(const std::string& option, const std::string& text,
                                                  const std::string& form) {
   const std::size_t at = text.find('=');
   if (at == std::string::npos || at == 0) {
-    core::fail_input({}, fmt::format("{} {}: expected {}", option, text, form));
+    core::fail_input({}, fmt::format("{} {}: expected {}", option, text, form),
+                     assignment_hint(option, text));
   }
   return {text.substr(0, at), text.substr(at + 1)};
 }
