@@ -33,6 +33,9 @@ const char* direction_hint(const Variable& source, const Variable& target) {
     return "connect the output that both are to follow to each of them";
   }
   if (is_source(source) && is_source(target)) return "end the connection at an input";
+  if (is_from_input_to_source(source, target)) {
+    return "swap start and end of the connections, or declare the connectors with their kinds";
+  }
   return "a connection starts at an output and ends at an input";
 }
 

@@ -68,6 +68,10 @@ ParameterValue read_value(const xml::Element& type, const Definitions& inside,
 
 ParameterValue read_parameter(const xml::Element& parameter, const Definitions& inside,
                               const Definitions& around) {
+  if (const auto type = parameter.attribute("type")) {
+    parameter.fail(fmt::format("{} has no attribute 'type'", parameter.tag()),
+                   fmt::format("its value is an element in it: <ssv:{} value=\"…\"/>", *type));
+  }
   parameter.allow_attributes({"name"});
   std::optional<ParameterValue> result;
   for (const xml::Element& child : parameter.children()) {
