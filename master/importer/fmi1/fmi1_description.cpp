@@ -46,15 +46,15 @@ xml::Element find_stand_alone(const xml::Element& root) {
                        "export the unit for stand-alone Co-Simulation");
 }
 
-void read_fmi1_capabilities(const xml::Element& stand_alone, core::UnitDescription& unit) {
-  unit.may_reject = false;
+/// Returns whether it can reject steps. Any unit may complete a step in part.
+bool read_fmi1_capabilities(const xml::Element& stand_alone, core::UnitDescription& unit) {
   const auto capabilities = stand_alone.child("Capabilities");
-  if (!capabilities) return;
+  if (!capabilities) return false;
   unit.can_vary_step =
       capabilities->lenient_flag("canHandleVariableCommunicationStepSize", unit.warnings);
   unit.single_instance =
       capabilities->lenient_flag("canBeInstantiatedOnlyOncePerProcess", unit.warnings);
-  unit.may_reject = capabilities->lenient_flag("canRejectSteps", unit.warnings);
+  return capabilities->lenient_flag("canRejectSteps", unit.warnings);
 }
 
 /// Reads <ModelVariables>.
@@ -184,8 +184,10 @@ class Fmi1Variables {
 Fmi1Attributes read_fmi1_description(const xml::Element& root, core::UnitDescription& unit) {
   unit.instantiation_token = root.given("guid");
   unit.model_identifier = read_model_identifier(root);
-  read_fmi1_capabilities(find_stand_alone(root), unit);
-  return Fmi1Variables(root, unit).attributes();
+  const bool can_reject_steps = read_fmi1_capabilities(find_stand_alone(root), unit);
+  Fmi1Attributes attributes = Fmi1Variables(root, unit).attributes();
+  attributes.can_reject_steps = can_reject_steps;
+  return attributes;
 }
 
 }  // namespace stride::importer

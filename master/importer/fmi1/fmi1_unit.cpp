@@ -150,7 +150,7 @@ core::StepResult Fmi1Unit::handle_discard(const core::StepInterval& interval) {
   if (reached && *reached > interval.from) {
     return {.early_return = *reached != interval.to, .reached = *reached};
   }
-  if (parts_.description->may_reject) {
+  if (attributes_->can_reject_steps) {
     is_new_step_ = false;
     return {.rejected = true, .reached = interval.from};
   }

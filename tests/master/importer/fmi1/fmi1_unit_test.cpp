@@ -20,11 +20,8 @@ namespace {
 /// An instance of the tank, and what it logs.
 class Tank {
  public:
-  explicit Tank(bool can_repeat = true) {
+  explicit Tank(const std::string& fmu = "fmi1_tank") : fmu_(importer::Fmu::load(test_fmu(fmu))) {
     importer::InstanceOptions options;
-    auto description = std::make_shared<core::UnitDescription>(*fmu_->description());
-    description->may_reject = can_repeat;
-    options.description = std::move(description);
     options.log = [this](const std::string&, importer::Status, const std::string&,
                          const std::string& message) { messages.push_back(message); };
     unit_ = make_unit(fmu_, "tank", std::move(options));
@@ -72,7 +69,7 @@ class Tank {
   std::vector<std::string> messages;
 
  private:
-  std::shared_ptr<importer::Fmu> fmu_ = importer::Fmu::load(test_fmu("fmi1_tank"));
+  std::shared_ptr<importer::Fmu> fmu_;
   std::unique_ptr<core::Unit> unit_;
 };
 
@@ -179,7 +176,7 @@ TEST_CASE("a step that an FMI 1.0 unit completes in part is an early return") {
 
 TEST_CASE("what an FMI 1.0 unit says of a step that it cannot repeat is in the error") {
   const auto error = [](int mood) {
-    Tank tank(false);
+    Tank tank("fmi1_hasty_tank");
     tank.start(mood);
     return run_error([&] { tank->step({{}, at(0.5)}); });
   };
