@@ -109,7 +109,7 @@ void Fmi1Unit::negate(References references, core::ValueBlock& values) const {
   };
   switch (values.type()) {
     case core::ValueType::Float64:
-      return apply(values.numbers<double>(), std::negate<>());
+      return apply(values.numbers<double>(), [](double value) { return 0 - value; });  // no "-0"
     case core::ValueType::Int32:  // the least has no negative
       return apply(values.numbers<std::int32_t>(), [](std::int32_t value) {
         return static_cast<std::int32_t>(0U - static_cast<std::uint32_t>(value));
