@@ -274,6 +274,10 @@ TEST_CASE("a linked system file finds its units beside the link, or beside the f
   const Workspace workspace(Parts{component("unit", "my.fmu")});
   fs::create_directories(workspace / "links");
   fs::create_symlink("../test.ssd", workspace / "links/linked.ssd");
+  const Arguments missing{"run", "links/linked.ssd"};
+  CHECK_THAT(input_error_of(workspace.stride(missing)),
+             Contains("there is no unit 'links/my.fmu, or ") &&
+                 Contains((workspace / "my.fmu").string() + "'"));
   const std::string place = GENERATE(as<std::string>(), "my.fmu", "links/my.fmu");
   fs::copy_file(test_fmu("fmi2_relaxation"), workspace / place);
   const Outcome outcome =
