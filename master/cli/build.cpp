@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
 #include "master/cli/commands.h"
 #include "master/cli/crash_guard.h"
@@ -18,6 +19,7 @@
 #include "master/scenario/unit_path.h"
 #include "master/util/archive/temporary_folder.h"
 #include "master/util/archive/zip.h"
+#include "master/util/message_text.h"
 
 namespace stride::cli {
 namespace {
@@ -38,7 +40,8 @@ void build(BuildRequest request) {
   refuse_kept_paths({&output, 1}, std::vector<KeptPath>{{request.fmu, "the FMU itself"}});
   for (fs::path& folder : request.includes) folder = fs::absolute(folder);
   const importer::UnpackedFmu fmu(request.fmu);
-  const auto unit = importer::read_model_description(fmu.folder() / "modelDescription.xml");
+  if (!fmu.warning().empty()) spdlog::warn("{}", core::message_text(fmu.warning()));
+  const auto unit = importer::read_model_description(fmu.description());
   const archive::TemporaryFolder folder;
   const std::string name = unit.model_identifier + ".so";
   isolation::build_library({.description = importer::read_build_description(fmu.folder(), unit),

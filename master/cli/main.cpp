@@ -68,6 +68,25 @@ std::string flag_hint(const CLI::App& command) {
   return "";
 }
 
+/// Options whose values are assignments.
+constexpr const char* kAssignments[] = {"--set", "--swap"};
+
+/// Where what should follow '=' is an argument of its own.
+std::string assignment_hint(const CLI::App& command, const std::vector<std::string>& rest) {
+  for (const char* name : kAssignments) {
+    const CLI::Option* const option = command.get_option_no_throw(name);
+    if (option == nullptr) continue;
+    for (const std::string& text : option->results()) {
+      if (text.find('=') != std::string::npos) continue;
+      std::error_code ignored;
+      const bool is_value = rest.size() == 1 && !std::filesystem::exists(rest.front(), ignored);
+      return fmt::format("\n  hint: the value follows '=', as in {} {}={}", name, text,
+                         is_value ? rest.front() : "VALUE");
+    }
+  }
+  return "";
+}
+
 /// The long options of a command.
 std::vector<std::string> option_names(const CLI::App& command) {
   std::vector<std::string> names;
@@ -116,7 +135,8 @@ std::string explanation(const CLI::App* app, const CLI::Error& mistake) {
   if (command == app) return fmt::format("stride: error: {}\n\n{}", message, app->help());
   const bool has_too_many = dynamic_cast<const CLI::ExtrasError*>(&mistake) != nullptr;
   return fmt::format("stride: error: {}{}\n  hint: {}\n", message,
-                     has_too_many ? flag_hint(*command) : "", option_hint(*command, rest));
+                     has_too_many ? flag_hint(*command) + assignment_hint(*command, rest) : "",
+                     option_hint(*command, rest));
 }
 
 std::string explain(const CLI::App* app, const CLI::Error& mistake) {

@@ -45,12 +45,12 @@ class SourceReader {
   void add_scenario(const fs::path& scenario) {
     if (core::is_file(scenario)) keep(scenario, kTheScenario);
     try {
-      const fs::path file = files().system_file(scenario);
+      const fs::path file = files().scenario_file(scenario);
       const auto package = files().archive_of(file);
       keep(package ? package->path : file, kTheScenario);
       known_.insert(file);
       const xml::Document& document = files().read_ahead(file);
-      add_sources(document.root(), file.parent_path());
+      add_sources(document.root(), ssp::source_folder(document.root(), file));
       found_.results = scenario::read_annotation(document.root()).results;
     } catch (const core::Error&) {  // reported where the scenario is read
     }
@@ -84,7 +84,8 @@ class SourceReader {
       if (is_component || file.extension() == ".fmu") return add_unit(file);
       keep(file, "a file of the scenario");
       if (file.extension() != ".ssd") return;
-      add_sources(files().read_ahead(file).root(), file.parent_path());
+      const xml::Element root = files().read_ahead(file).root();
+      add_sources(root, ssp::source_folder(root, file));
     } catch (const core::Error&) {  // likewise
     }
   }
@@ -108,7 +109,7 @@ ScenarioFiles files_of_scenario(const fs::path& scenario, std::span<const std::s
 
 std::vector<KeptPath> inputs_of(const scenario::LoadedScenario& loaded) {
   const scenario::Scenario& scenario = loaded.scenario();
-  const fs::path system = scenario.files->system_file(scenario.path);
+  const fs::path system = scenario.files->scenario_file(scenario.path);
   const auto package = scenario.files->archive_of(system);
   std::vector<KeptPath> inputs;
   for (const fs::path& file : scenario.files->documents()) {

@@ -87,8 +87,9 @@ void add_host_options(CLI::App& command, scenario::HostRequest& request) {
 
 void add_scenario_options(CLI::App& command, scenario::ScenarioRequest& request) {
   command
-      .add_option("FILE", request.scenario,
-                  "The scenario: an SSP system file (.ssd) or package (.ssp)")
+      .add_option(
+          "FILE", request.scenario,
+          "The scenario: an SSP system file (.ssd) or package (.ssp), or an FMU (.fmu) alone")
       ->required()
       ->type_name("");
   command.add_option("--stop", request.stop, "Simulated time at which to end")

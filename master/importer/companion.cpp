@@ -1,6 +1,8 @@
 #include "master/importer/companion.h"
 
+#include <cstddef>
 #include <string_view>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -31,6 +33,18 @@ fs::path find_other_version(const fs::path& folder, const std::string& name) {
   return found;
 }
 
+/// At any depth, in the order of their names; not all of what is no FMU but a disk.
+void append_folders_below(const fs::path& top, std::vector<fs::path>& folders) {
+  constexpr std::size_t kMostFolders = 1000;
+  if (folders.size() > kMostFolders) return;
+  for (const fs::path& entry : core::folder_entries(top)) {
+    std::error_code ignored;
+    if (!core::is_folder(entry) || fs::is_symlink(entry, ignored)) continue;
+    folders.push_back(entry);
+    append_folders_below(entry, folders);
+  }
+}
+
 }  // namespace
 
 fs::path find_companion(const fs::path& library, const std::string& name) {
@@ -40,6 +54,7 @@ fs::path find_companion(const fs::path& library, const std::string& name) {
   std::vector<fs::path> folders{folder};
   if (binaries.filename() == "binaries") {
     const fs::path resources = binaries.parent_path() / "resources";
+    append_folders_below(folder, folders);
     folders.insert(folders.end(), {binaries, resources, resources / folder.filename()});
   }
   for (const fs::path& candidate : folders) {
@@ -50,6 +65,21 @@ fs::path find_companion(const fs::path& library, const std::string& name) {
     if (!found.empty() && found != library) return found;
   }
   return {};
+}
+
+std::vector<std::string> find_namesakes(const fs::path& library, const std::string& name) {
+  const fs::path binaries = library.parent_path().parent_path();
+  if (binaries.filename() != "binaries") return {};
+  const fs::path fmu = binaries.parent_path();
+  const std::string plain = fs::path(name).filename().string();
+  std::vector<fs::path> folders{fmu};
+  append_folders_below(fmu, folders);
+  std::vector<std::string> found;
+  for (const fs::path& folder : folders) {
+    if (!core::is_file(folder / plain)) continue;
+    found.push_back((folder / plain).lexically_relative(fmu).string());
+  }
+  return found;
 }
 
 LoaderName::LoaderName(void* handle, std::string name) : name_(std::move(name)) {

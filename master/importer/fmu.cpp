@@ -95,9 +95,12 @@ Fmu::Fmu(fs::path path, core::Location where, fs::path shown_as)
 void Fmu::read_folder() {
   unpacked_.emplace(path_, where_, shown_as_);
   resources_ = unpacked_->folder() / "resources";
-  const std::string shown_as = (shown_as_ / "modelDescription.xml").string();
+  const fs::path inside = unpacked_->description().lexically_relative(unpacked_->root());
   auto description = std::make_shared<ModelDescription>(
-      read_model_description(unpacked_->folder() / "modelDescription.xml", shown_as));
+      read_model_description(unpacked_->description(), (shown_as_ / inside).string()));
+  if (!unpacked_->warning().empty()) {
+    description->warnings.insert(description->warnings.begin(), unpacked_->warning());
+  }
   const fs::path manifest = unpacked_->folder() / STRIDE_IDLE_MANIFEST;
   const bool is_fmi3 = !description->fmi1 && !description->fmi2;
   if (is_fmi3 && core::path_exists(manifest)) {  // its functions are in terms of FMI 3.0
@@ -127,8 +130,10 @@ void Fmu::load_once(std::shared_ptr<const Library>& library,
   const FoundLibrary found = find_library(unpacked_->folder(), description_->fmi_version,
                                           description_->model_identifier, user);
   library_warning_ = found.warning;
-  const fs::path shown_as = shown_as_ / found.path.lexically_relative(unpacked_->folder());
-  library = std::make_shared<Library>(found.path, model_identifier..., user, shown_as);
+  const fs::path shown_as = shown_as_ / found.path.lexically_relative(unpacked_->root());
+  const auto loaded = std::make_shared<Library>(found.path, model_identifier..., user, shown_as);
+  loaded->require_functions(*description_);
+  library = loaded;
 }
 
 std::shared_ptr<const SharedLibrary> Fmu::load_library() {

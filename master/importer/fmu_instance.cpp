@@ -14,6 +14,7 @@
 #include <unistd.h>
 
 #include "master/importer/state_hint.h"
+#include "master/model/own_step.h"
 #include "master/util/readable_text.h"
 #include "master/util/time_text.h"
 
@@ -119,7 +120,7 @@ std::string FmuInstance::hint_for(const char* function, Status status) const {
     return "the unit may have damaged this process; save what you need and end it";
   }
   if (was_restored_) return state_hint(name_);
-  if (std::string_view(function).ends_with("DoStep")) return short_step_hint();
+  if (std::string_view(function).ends_with("DoStep")) return step_hint();
   return state_hint(function, name_);
 }
 
@@ -338,6 +339,7 @@ void FmuInstance::warn(const std::string& message) const {
 // ---- Times ----
 
 double FmuInstance::set_stop(Time start, std::optional<Time> stop) {
+  start_ = start;
   stop_ = stop;
   stop_seconds_ = std::numeric_limits<double>::infinity();
   if (!stop) return 0;
@@ -358,6 +360,15 @@ std::string FmuInstance::short_step_hint() const {
       core::to_text(size), core::to_text(*options_.step), core::to_text(present_step_.from));
 }
 
+std::string FmuInstance::step_hint() const {
+  const std::string shorter = short_step_hint();
+  if (!shorter.empty()) return shorter;
+  const core::UnitDescription& unit = *parts_.description;
+  const bool may_be_the_reason = !unit.can_vary_step || present_step_.from == start_;
+  const Duration size = present_step_.to - present_step_.from;
+  return may_be_the_reason ? core::own_step_hint(unit, size) : "";
+}
+
 Time FmuInstance::checked_time(double seconds, const char* what) const {
   try {
     return time_from_seconds(seconds);
@@ -372,11 +383,21 @@ bool FmuInstance::is_within(const core::StepInterval& interval, double seconds) 
          seconds <= interval.end_seconds + tolerance;
 }
 
-std::optional<Time> FmuInstance::instant_within(const core::StepInterval& interval, double seconds,
+std::optional<Time> FmuInstance::instant_within(const core::StepInterval& interval,
+                                                std::optional<double> seconds,
                                                 const char* what) const {
-  if (!is_within(interval, seconds)) return std::nullopt;
-  if (is_end(interval, seconds)) return interval.to;
-  return std::clamp(checked_time(seconds, what), interval.from, interval.to);
+  if (!seconds || !is_within(interval, *seconds)) return std::nullopt;
+  if (is_end(interval, *seconds)) return interval.to;
+  return std::clamp(checked_time(*seconds, what), interval.from, interval.to);
+}
+
+std::string FmuInstance::how_far(const core::StepInterval& interval, std::optional<double> seconds,
+                                 const char* what) {
+  if (!seconds) return fmt::format("does not report how far it came ({})", what);
+  if (is_within(interval, *seconds)) {
+    return fmt::format("reports that it came no further than where the step began ({})", what);
+  }
+  return fmt::format("reports that it came to {} s, which is not in the step ({})", *seconds, what);
 }
 
 bool FmuInstance::is_end(const core::StepInterval& interval, double seconds) {

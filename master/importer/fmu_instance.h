@@ -238,8 +238,9 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics, public Call
   /// take_messages() of a rejected step; empty if the unit gave none.
   void take_rejection_reason(const char* function);
   /// What helps where the unit does not accept its present step since it is shorter than the
-  /// others; empty if it is not.
-  std::string short_step_hint() const;
+  /// others, or of another size than the one that the unit was made for; empty if it is not. A unit
+  /// that takes steps of any size, and has made one, has another reason.
+  std::string step_hint() const;
   /// Logs a warning of the importer itself.
   void warn(const std::string& message) const;
 
@@ -261,9 +262,13 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics, public Call
   /// a unit that adds up its own internal steps may have drifted.
   static bool is_within(const core::StepInterval& interval, double seconds);
   static bool is_end(const core::StepInterval& interval, double seconds);
-  /// The instant of the step that the unit names; nothing if it is not in the step.
-  std::optional<Time> instant_within(const core::StepInterval& interval, double seconds,
-                                     const char* what) const;
+  /// The instant of the step that the unit names; nothing if it is not in the step, or not known.
+  std::optional<Time> instant_within(const core::StepInterval& interval,
+                                     std::optional<double> seconds, const char* what) const;
+  /// What the unit says of how far it came in a step that it discarded: "reports that …". `what` is
+  /// the name of that time.
+  static std::string how_far(const core::StepInterval& interval, std::optional<double> seconds,
+                             const char* what);
 
   // What each call and each step need comes first, and close together.
   void* instance_ = nullptr;         ///< as the unit calls it
@@ -290,6 +295,7 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics, public Call
   [[noreturn]] void fail_missing(const char* name, const char* capability) const;
   static void note_fork() noexcept;
   [[noreturn]] void leave_fork() const;
+  std::string short_step_hint() const;
   void restore_mode();
   std::string status_name(Status status) const;
   std::string failure_of(const char* function, Status status);
@@ -309,7 +315,7 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics, public Call
   void warn_of_null_state(const char* saved_by);
 
   const char* prefix_;
-  std::optional<Time> stop_;
+  std::optional<Time> start_, stop_;
   std::string save_failure_;  ///< why the state cannot be saved
   std::shared_ptr<const SharedLibrary> library_;
   std::mutex messages_mutex_;

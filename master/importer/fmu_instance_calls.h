@@ -31,6 +31,7 @@ template <class Function, class... Arguments>
                                                                    Function* function,
                                                                    Arguments... arguments) {
   check_callable(name);
+  require(name, function, "values of this type");
   const auto status =
       static_cast<Status>(guarded(name, [&] { return function(instance_, arguments...); }));
   const bool is_quiet = !has_messages_.load(std::memory_order_relaxed);

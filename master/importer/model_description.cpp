@@ -1,5 +1,8 @@
 #include "master/importer/model_description.h"
 
+#include <string>
+#include <vector>
+
 #include <fmt/format.h>
 
 #include "master/importer/common_description.h"
@@ -27,6 +30,15 @@ void check_version(const xml::Element& root, const std::string& version) {
             "export the unit as FMI 3.0 or FMI 2.0 Co-Simulation");
 }
 
+/// "2" is taken for "2.0", with a warning.
+std::string read_version(const xml::Element& root, std::vector<std::string>& warnings) {
+  std::string version = root.required("fmiVersion");
+  if (version.size() != 1 || version < "1" || version > "3") return version;
+  warnings.push_back(core::to_text({.where = root.where()}) +
+                     fmt::format("fmiVersion=\"{0}\" is taken for {0}.0", version));
+  return version + ".0";
+}
+
 ModelDescription read(const xml::Document& document) {
   const xml::Element root = document.root();
   if (root.name().local != "fmiModelDescription") {
@@ -39,7 +51,7 @@ ModelDescription read(const xml::Document& document) {
   }
   ModelDescription unit;
   unit.warnings = document.warnings();
-  unit.fmi_version = root.required("fmiVersion");
+  unit.fmi_version = read_version(root, unit.warnings);
   check_version(root, unit.fmi_version);
   const std::string major = unit.fmi_version.substr(0, 2);
   unit.model_name = root.given("modelName");

@@ -15,6 +15,7 @@
 #include <fmt/format.h>
 
 #include "master/importer/fmu_instance_calls.h"
+#include "master/importer/log_references.h"
 
 namespace stride::importer {
 
@@ -55,6 +56,12 @@ class ScalarUnit : public FmuInstance {
     return into.data();
   }
 
+  /// A message with the names of the variables that it refers to.
+  std::string with_names(const std::string& message) const {
+    return name_variables(message,
+                          [&](char type, Reference reference) { return name_of(type, reference); });
+  }
+
   const Functions& fmi_;
   const Reference* unit_references_;
 
@@ -67,6 +74,7 @@ class ScalarUnit : public FmuInstance {
   void set_booleans(References references, std::span<const bool> values);
   void get_strings(References references, std::span<std::string> values);
   void set_strings(References references, std::span<const std::string> values);
+  std::string name_of(char type, Reference reference) const;
   static std::string no_event_mode() {
     return fmt::format("{} Co-Simulation has no Event Mode", Version::kName);
   }
@@ -79,6 +87,29 @@ class ScalarUnit : public FmuInstance {
   std::vector<typename Version::Boolean> booleans_;
   std::vector<typename Version::String> texts_;
 };
+
+/// The first of them, if there are aliases.
+template <class Version>
+std::string ScalarUnit<Version>::name_of(char type, Reference reference) const {
+  const auto is_of_type = [&](core::ValueType t) {
+    switch (type) {
+      case 'r':
+        return t == core::ValueType::Float64;
+      case 'i':
+        return t == core::ValueType::Int32 || t == core::ValueType::Enumeration;
+      case 'b':
+        return t == core::ValueType::Boolean;
+      default:
+        return t == core::ValueType::String;
+    }
+  };
+  for (const core::Variable& variable : parts_.description->variables) {
+    if (unit_references_[variable.reference] == reference && is_of_type(variable.type)) {
+      return variable.name;
+    }
+  }
+  return "";
+}
 
 template <class Version>
 void ScalarUnit<Version>::get(References references, core::ValueBlock& values) {

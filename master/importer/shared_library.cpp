@@ -5,10 +5,12 @@
 #include <list>
 #include <map>
 #include <mutex>
+#include <set>
 #include <utility>
 
 #include <dlfcn.h>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <unistd.h>
 
 #include "master/importer/binaries.h"
@@ -98,6 +100,25 @@ std::string missing_library(const std::string& reason, const std::string& opened
           : "get another copy of the unit, or export it again");
 }
 
+/// It is not where the loader looks, nor where units have the libraries that they bring along.
+[[noreturn]] void fail_without_companion(const SharedLibrary& library, const std::string& head,
+                                         const std::string& missing) {
+  const std::vector<std::string> namesakes = find_namesakes(library.path(), missing);
+  core::fail_input(
+      library.user(),
+      fmt::format("{}it needs the shared library '{}', which was not found{}", head, missing,
+                  namesakes.empty() ? ""
+                                    : fmt::format("; the FMU has a file of this name as {}",
+                                                  core::quoted(namesakes))),
+      namesakes.empty()
+          ? fmt::format("install the package that provides it (on Debian and Ubuntu mostly '{}'), "
+                        "put it beside the unit's library (pack --bundle), or name its folder in "
+                        "LD_LIBRARY_PATH",
+                        package_of(missing))
+          : "put it beside the unit's library, if it is for this platform, or name its folder in "
+            "LD_LIBRARY_PATH");
+}
+
 /// Turns the loader's message (glibc's dlerror) into what is missing and how to get it.
 [[noreturn]] void fail_to_load(const SharedLibrary& library, std::string reason) {
   const core::Context& context = library.user();
@@ -106,13 +127,7 @@ std::string missing_library(const std::string& reason, const std::string& opened
   if (const std::string missing = missing_library(reason, path); !missing.empty()) {
     const fs::path found = find_companion(library.path(), missing);
     if (!found.empty()) fail_with_companion(library, head, missing, found);
-    core::fail_input(
-        context,
-        fmt::format("{}it needs the shared library '{}', which was not found", head, missing),
-        fmt::format("install the package that provides it (on Debian and Ubuntu mostly '{}'), put "
-                    "it beside the unit's library (pack --bundle), or name its folder in "
-                    "LD_LIBRARY_PATH",
-                    package_of(missing)));
+    fail_without_companion(library, head, missing);
   }
   const std::string_view symbol = undefined_symbol(reason);
   if (!symbol.empty()) {
@@ -271,6 +286,28 @@ const LibraryWork& unfinished_library_work() noexcept {
   static constexpr LibraryWork kNone;
   const LibraryWork* const work = noted_work;
   return work == nullptr ? kNone : *work;
+}
+
+void SharedLibrary::require_values(const core::UnitDescription& unit, const std::string& prefix,
+                                   const char* (*word_of)(core::ValueType)) const {
+  std::set<std::string> needed;
+  for (const core::Variable& variable : unit.variables) {
+    const std::string word = word_of(variable.type);
+    if (variable.causality == core::Causality::Output) needed.insert(prefix + "Get" + word);
+    if (variable.causality == core::Causality::Input) needed.insert(prefix + "Set" + word);
+  }
+  std::erase_if(needed, [&](const std::string& symbol) { return has(symbol); });
+  if (needed.empty()) return;
+  fail_missing({needed.begin(), needed.end()}, "by which its outputs are read and its inputs set");
+}
+
+void SharedLibrary::fail_missing(const std::vector<std::string>& missing, const std::string& use,
+                                 const std::string& hint) const {
+  core::fail_input(
+      user_,
+      fmt::format("the library '{}' does not export {}, {}", shown_as_, fmt::join(missing, ", "),
+                  use),
+      hint.empty() ? "export it with C linkage, default visibility and exactly this name" : hint);
 }
 
 void* SharedLibrary::address(const std::string& symbol) const {

@@ -14,6 +14,7 @@
 #include <sys/types.h>
 
 #include "master/importer/status.h"
+#include "master/model/description.h"
 #include "master/util/error.h"
 #include "master/util/fixed_text.h"
 #include "master/util/process/remnants.h"
@@ -83,6 +84,15 @@ class SharedLibrary {
     function = reinterpret_cast<Function*>(address(symbol));
   }
   bool has(const std::string& symbol) const { return address(symbol) != nullptr; }
+
+  /// Throws core::Error (Input) where a function is missing by which outputs are read or inputs
+  /// set: those of a type are named by `prefix` + "Get" + its word. What is called for other
+  /// variables is looked at when it is.
+  void require_values(const core::UnitDescription& unit, const std::string& prefix,
+                      const char* (*word_of)(core::ValueType)) const;
+  /// Throws core::Error (Input), as all that miss functions do. `use`: ", which … must".
+  [[noreturn]] void fail_missing(const std::vector<std::string>& missing, const std::string& use,
+                                 const std::string& hint = "") const;
 
  private:
   struct Closer {

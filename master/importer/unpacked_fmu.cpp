@@ -1,24 +1,30 @@
 #include "master/importer/unpacked_fmu.h"
 
+#include <vector>
+
 #include <fmt/format.h>
 
-#include "master/util/input_file.h"
+#include "master/util/archive/displaced_file.h"
 
 namespace stride::importer {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// A frequent mistake: the folder was packed, not what is in it.
-std::string missing_description_hint(const fs::path& folder) {
-  for (const fs::path& entry : core::folder_entries(folder)) {
-    if (!core::path_exists(entry / "modelDescription.xml")) continue;
-    return fmt::format(
-        "it is in the folder '{0}' there; the contents of '{0}' belong at the "
-        "top",
-        entry.filename().string());
-  }
-  return "expected an FMU; an SSP package or another kind of archive cannot be used as a unit";
+constexpr const char* kDescription = "modelDescription.xml";
+
+[[noreturn]] void fail_without_description(const std::string& shown_as, const fs::path& folder,
+                                           const std::vector<fs::path>& found,
+                                           const core::Location& where) {
+  std::vector<std::string> names;
+  for (const fs::path& file : found) names.push_back(file.lexically_relative(folder).string());
+  core::fail_input(
+      {.where = where},
+      fmt::format("'{}' has no {} at its top{}", shown_as, kDescription,
+                  names.empty() ? "" : ", and several below: " + core::quoted(names)),
+      names.empty()
+          ? "expected an FMU; an SSP package or another kind of archive cannot be used as a unit"
+          : "these are several FMUs: pack the contents of each folder as one of its own");
 }
 
 }  // namespace
@@ -27,11 +33,13 @@ UnpackedFmu::UnpackedFmu(const fs::path& path, const core::Location& where,
                          const fs::path& shown_as)
     : archive_(path, "an FMU: a .fmu archive (zip), or the folder that such an archive unpacks to",
                where, {}, shown_as.string()) {
-  if (core::path_exists(folder() / "modelDescription.xml")) return;  // reading it checks the rest
-  core::fail_input({.where = where},
-                   fmt::format("'{}' has no modelDescription.xml at its top",
-                               (shown_as.empty() ? path : shown_as).string()),
-                   missing_description_hint(folder()));
+  const std::string shown = (shown_as.empty() ? path : shown_as).string();
+  const std::vector<fs::path> found = archive::find_files(archive_.folder(), kDescription);
+  if (found.size() != 1) fail_without_description(shown, archive_.folder(), found, where);
+  description_ = found.front();  // reading it checks the rest
+  if (description_ == archive_.folder() / kDescription) return;
+  warning_ = core::to_text({.where = where}) +
+             archive::displaced_text(shown, kDescription, archive_.folder(), description_);
 }
 
 }  // namespace stride::importer

@@ -137,10 +137,19 @@ class Composer {
                          ? fmt::format("not every {} is {}", core::name(*from.type),
                                        name_with_article(*to.type))
                          : "one is not converted into the other"),
-         is_integer(*from.type) && is_integer(*to.type)
-             ? "an <ssc:IntegerMappingTransformation> whose targets all fit defines which become "
-               "which; otherwise put a unit between them that converts the value"
-             : "put a unit between them that converts the value, or use one with another type");
+         hint_for(*from.type, *to.type));
+  }
+
+  static const char* hint_for(ValueType from, ValueType to) {
+    if (is_integer(from) && is_integer(to)) {
+      return "an <ssc:IntegerMappingTransformation> whose targets all fit defines which become "
+             "which; otherwise put a unit between them that converts the value";
+    }
+    if (is_real(from) && is_integer(to)) {
+      return "SSP does not define how a number with a fraction becomes an integer, and has no "
+             "transformation for it: put a unit between them that rounds the value";
+    }
+    return "put a unit between them that converts the value, or use one with another type";
   }
 
   /// What is behind a number that became a Boolean must be one, too: the number goes to the end.

@@ -1,6 +1,12 @@
 #include "master/model/meant_value.h"
 
-#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <string_view>
+#include <system_error>
+
+#include <fmt/format.h>
 
 #include "master/model/number_range.h"
 #include "master/util/lower_case.h"
@@ -9,14 +15,27 @@
 namespace stride::core {
 namespace {
 
-/// The "2" of "2" and "2.0"; empty for what is no whole number.
-std::string whole_number(const std::string& word) {
-  const std::size_t digits = word.starts_with('-') ? 1 : 0;
-  const std::size_t end = std::min(word.find_first_not_of("0123456789", digits), word.size());
-  if (end == digits) return "";
-  const bool is_whole =
-      end == word.size() || (word[end] == '.' && word.find_first_not_of('0', end + 1) == word.npos);
-  return is_whole ? word.substr(0, end) : "";
+/// Written with a fraction or an exponent.
+std::string whole_decimal(std::string_view word) {
+  constexpr double kLastExact = 9007199254740992;  // 2^53: beyond it, doubles leave integers out
+  constexpr std::string_view kCharacters = "0123456789.eE+-";
+  double number = 0;
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
+  const bool is_number = word.find_first_not_of(kCharacters) == word.npos &&
+                         end == word.data() + word.size() && error == std::errc{};
+  const bool is_whole = is_number && std::abs(number) < kLastExact && std::trunc(number) == number;
+  return is_whole ? fmt::format("{}", static_cast<std::int64_t>(number)) : "";
+}
+
+/// The "2" of "2", "+2", "2.0" and "2e0"; empty for what is no whole number.
+std::string whole_number(std::string_view word) {
+  constexpr std::string_view kDigits = "0123456789";
+  const bool has_plus = word.starts_with('+');
+  if (has_plus) word.remove_prefix(1);
+  const std::size_t digits = !has_plus && word.starts_with('-') ? 1 : 0;
+  if (word.size() == digits || kDigits.find(word[digits]) == kDigits.npos) return "";
+  const bool is_plain = word.find_first_not_of(kDigits, digits) == word.npos;
+  return is_plain ? std::string(word) : whole_decimal(word);
 }
 
 std::string meant_boolean(const std::string& word) {
@@ -34,7 +53,7 @@ std::string meant_word(ValueType type, const std::string& word) {
   if (lower == "true" || lower == "false") return lower == "true" ? "1" : "0";
   if (is_real(type)) return word;
   const std::string number = whole_number(word);
-  return number.empty() ? word : number;
+  return number.empty() || word == "+" + number ? word : number;
 }
 
 }  // namespace

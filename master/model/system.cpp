@@ -1,6 +1,7 @@
 #include "master/model/system.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <limits>
 #include <map>
@@ -56,6 +57,7 @@ void check_range(const Variable& variable, const ValueBlock& value, const Contex
       for (const auto element : elements) {
         const double number = static_cast<double>(element);
         if (number >= least && number <= most) continue;
+        if (std::isnan(number) && variable.min.empty() && variable.max.empty()) continue;
         fail_input(context, fmt::format("the value {} is out of range, expected {}", element,
                                         bound_text(variable, number, least, most)));
       }

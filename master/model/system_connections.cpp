@@ -21,6 +21,24 @@ bool is_source(const Variable& variable) {
          variable.causality == Causality::CalculatedParameter;
 }
 
+/// In SSP, start and end do not define which way a value goes; where connectors are not declared,
+/// the variables do.
+bool is_from_input_to_source(const Variable& start, const Variable& end) {
+  return start.causality == Causality::Input && !is_source(start) && is_source(end);
+}
+
+/// What to do about ends of which none gives a value, or none takes it.
+const char* direction_hint(const Variable& source, const Variable& target) {
+  if (source.causality == Causality::Input && target.causality == Causality::Input) {
+    return "connect the output that both are to follow to each of them";
+  }
+  if (is_source(source) && is_source(target)) return "end the connection at an input";
+  if (is_from_input_to_source(source, target)) {
+    return "swap start and end of the connections, or declare the connectors with their kinds";
+  }
+  return "a connection starts at an output and ends at an input";
+}
+
 std::string shape(const Variable& variable) {
   if (variable.dimensions.empty()) return "a scalar";
   return fmt::format("an array of {} elements", variable.size);
@@ -157,7 +175,18 @@ std::optional<System::Ends> System::find_ends(const SystemDeclaration& declarati
   const auto from = find(wanted.from_component, wanted.from_connector);
   const auto to = find(wanted.to_component, wanted.to_connector);
   if (!from || !to) return std::nullopt;
-  return is_backwards(*from, *to) ? Ends{*to, *from} : Ends{*from, *to};
+  if (is_backwards(*from, *to)) return Ends{*to, *from};
+  if (!wanted.via.empty() || !is_from_input_to_source(variable(*from), variable(*to))) {
+    return Ends{*from, *to};
+  }
+  warnings_.push_back(to_text({.where = wanted.where}) +
+                      fmt::format("the connection starts at '{0}', which is {1}, and ends at "
+                                  "'{2}', which is {3}: it is taken for one from '{2}' to '{0}'"
+                                  "\n  hint: swap start and end, or declare both connectors with "
+                                  "their kinds",
+                                  full_name(*from), core::name(variable(*from).causality),
+                                  full_name(*to), core::name(variable(*to).causality)));
+  return Ends{*to, *from};
 }
 
 /// A time-based and a triggered clock are inputs both, so connectors do not tell the direction.
@@ -178,11 +207,11 @@ void System::add_second(const ConnectionDeclaration& wanted, const Connection& c
                                     first.where.line));
     return;
   }
-  fail_input({wanted.where, wanted.to_component, wanted.to_connector, {}},
-             fmt::format("this input has two sources: '{}.{}' here and '{}.{}' in line {}",
-                         wanted.from_component, wanted.from_connector, first.from_component,
-                         first.from_connector, first.where.line),
-             "remove one of the two connections");
+  fail_input(
+      {wanted.where, components_[connection.to.component].name, variable(connection.to).name, {}},
+      fmt::format("this input has two sources: '{}' here and '{}' in line {}",
+                  full_name(connection.from), full_name(same.from), first.where.line),
+      "remove one of the two connections");
 }
 
 /// What carries a message from clock to clock needs its clock connected, too.
@@ -193,10 +222,11 @@ void System::check_message(const ConnectionDeclaration& wanted,
   for (const VariableId to_clock : clocks_of(*this, connection.to)) {
     const Connection* const clock = connection_to(to_clock);
     if (clock != nullptr && std::ranges::count(from_clocks, clock->from) > 0) continue;
-    fail_input({wanted.where, wanted.to_component, wanted.to_connector, {}},
-               fmt::format("its clock '{}' is not connected to the clock of '{}'",
-                           full_name(to_clock), full_name(connection.from)),
-               "a message needs two connections: one for its value, one for its clock");
+    fail_input(
+        {wanted.where, components_[connection.to.component].name, variable(connection.to).name, {}},
+        fmt::format("its clock '{}' is not connected to the clock of '{}'", full_name(to_clock),
+                    full_name(connection.from)),
+        "a message needs two connections: one for its value, one for its clock");
   }
 }
 
@@ -240,18 +270,20 @@ void System::check_ends(const ConnectionDeclaration& wanted, VariableId from, Va
   const Context context{wanted.where, {}, {}, {}};
   if (!is_source(source)) {
     fail_input(context,
-               fmt::format("cannot connect {}: '{}' is not an output but {}", wire, full_name(from),
-                           core::name(source.causality)),
-               "a connection starts at an output and ends at an input");
+               fmt::format("cannot connect {}: '{}' is not an output but {}, and '{}' is {}", wire,
+                           full_name(from), core::name(source.causality), full_name(to),
+                           core::name(target.causality)),
+               direction_hint(source, target));
   }
   if (target.causality != Causality::Input) {
     const bool is_parameter = target.causality == Causality::Parameter ||
                               target.causality == Causality::StructuralParameter;
     fail_input(context,
-               fmt::format("cannot connect {}: '{}' is not an input but {}", wire, full_name(to),
-                           core::name(target.causality)),
+               fmt::format("cannot connect {}: '{}' is not an input but {}, and '{}' is {}", wire,
+                           full_name(to), core::name(target.causality), full_name(from),
+                           core::name(source.causality)),
                is_parameter ? "give the parameter its value in a <ssd:ParameterBinding>"
-                            : "a connection starts at an output and ends at an input");
+                            : direction_hint(source, target));
   }
   check_clocked(wanted, from, to);
   for (const VariableId end : {from, to}) check_event_mode(wanted, end);

@@ -4,6 +4,8 @@
 #include <map>
 #include <set>
 #include <stdexcept>
+#include <string_view>
+#include <system_error>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -19,6 +21,7 @@
 #include "master/scenario/film.h"
 #include "master/scenario/signal_selection.h"
 #include "master/scenario/unit_path.h"
+#include "master/util/input_file.h"
 #include "master/util/message_text.h"
 #include "master/util/suggest.h"
 #include "master/util/time_text.h"
@@ -51,6 +54,18 @@ std::vector<ssp::ParameterValue> set_values(const std::vector<std::string>& sets
   return values;
 }
 
+/// Where a unit was looked for: that of a linked scenario also beside what the link leads to.
+std::string shown_places(const Scenario& scenario, const std::filesystem::path& source) {
+  std::string shown = scenario.files->shown(source);
+  std::error_code error;
+  if (core::path_exists(source) || !std::filesystem::is_symlink(scenario.path, error)) return shown;
+  const std::filesystem::path folder = scenario.path.parent_path();
+  const auto inside = source.lexically_relative(folder.empty() ? "." : folder);
+  const std::filesystem::path target = std::filesystem::canonical(scenario.path, error);
+  if (error || inside.empty()) return shown;
+  return shown + ", or " + (target.parent_path() / inside).lexically_normal().string();
+}
+
 /// Each element of an array is a column.
 void check_column_count(const core::System& system, std::span<const core::VariableId> recorded) {
   constexpr std::size_t kMostColumns = 1'000'000;
@@ -64,13 +79,23 @@ void check_column_count(const core::System& system, std::span<const core::Variab
                    "choose fewer signals, with <stride:Record signals=\"…\"/> or --signals");
 }
 
+/// Of what is written with another sign than '='.
+std::string assignment_hint(const std::string& option, const std::string& text) {
+  constexpr std::string_view kSigns = " :\t";
+  const std::size_t sign = text.find_first_of(kSigns);
+  const std::size_t value = text.find_first_not_of(kSigns, sign);
+  if (sign == 0 || sign == text.npos || value == text.npos) return "";
+  return fmt::format("write {} {}={}", option, text.substr(0, sign), text.substr(value));
+}
+
 }  // namespace
 
 std::pair<std::string, std::string> split_option(const std::string& option, const std::string& text,
                                                  const std::string& form) {
   const std::size_t at = text.find('=');
   if (at == std::string::npos || at == 0) {
-    core::fail_input({}, fmt::format("{} {}: expected {}", option, text, form));
+    core::fail_input({}, fmt::format("{} {}: expected {}", option, text, form),
+                     assignment_hint(option, text));
   }
   return {text.substr(0, at), text.substr(at + 1)};
 }
@@ -96,7 +121,7 @@ std::vector<std::shared_ptr<importer::Fmu>> load_fmus(const Scenario& scenario) 
     const std::filesystem::path& source = scenario.sources[i];
     auto& named = by_source[source];
     if (!named) {
-      const auto path = find_unit_shown_as(source, scenario.files->shown(source), where);
+      const auto path = find_unit_shown_as(source, shown_places(scenario, source), where);
       auto& fmu = by_path[path];
       if (!fmu) fmu = importer::Fmu::load(path, where, scenario.files->shown(path));
       named = fmu;

@@ -25,13 +25,32 @@ std::optional<Time> read_instant(const xml::Element& element, const char* attrib
   }
 }
 
+/// Which the element of this name has in FMI, and not in SSP.
+void read_fmi_attributes(const xml::Element& experiment, Scenario& scenario) {
+  const auto step = read_instant(experiment, "stepSize");
+  if (step && *step <= Time{}) {
+    experiment.fail(fmt::format("stepSize=\"{}\" of {}: expected a number of seconds above 0",
+                                experiment.required("stepSize"), experiment.tag()));
+  }
+  if (step) {
+    scenario.vendor_step = {step->time_since_epoch(), "stepSize of " + experiment.tag(),
+                            experiment.where()};
+  }
+  if (!experiment.attribute("tolerance")) return;
+  scenario.warnings.push_back(
+      core::to_text({.where = experiment.where()}) +
+      fmt::format("the tolerance of {} is ignored: each unit has that of its own",
+                  experiment.tag()));
+}
+
 void read_default_experiment(const xml::Element& root, Scenario& scenario) {
   const auto experiment = root.child({ssp::kSsd, "DefaultExperiment"});
   if (!experiment) return;
-  experiment->allow_attributes({"startTime", "stopTime"});
+  experiment->allow_attributes({"startTime", "stopTime", "stepSize", "tolerance"});
   experiment->allow_children({{ssp::kSsd, "Annotations"}});
   scenario.start = read_instant(*experiment, "startTime");
   scenario.stop = read_instant(*experiment, "stopTime");
+  read_fmi_attributes(*experiment, scenario);
   if (scenario.stop && *scenario.stop < scenario.start.value_or(Time{})) {
     experiment->fail(
         fmt::format("the run would end at {} s, before it starts ({} s)",
@@ -53,7 +72,7 @@ Scenario read_scenario(const std::filesystem::path& path, const ReadOptions& opt
   Scenario scenario;
   scenario.path = path;
   scenario.files = options.files ? options.files : std::make_shared<ssp::Files>(options.find_unit);
-  const std::filesystem::path file = scenario.files->system_file(path);
+  const std::filesystem::path file = scenario.files->scenario_file(path);
   const xml::Document document = scenario.files->document(file);
   const xml::Element root = document.root();
   ssp::check_system_description(root);
@@ -69,7 +88,7 @@ Scenario read_scenario(const std::filesystem::path& path, const ReadOptions& opt
   scenario.warnings.insert(scenario.warnings.begin(), of_files.begin(), of_files.end());
   read_default_experiment(root, scenario);
   scenario.annotation = read_annotation(root);
-  scenario.vendor_step = find_vendor_step(root);
+  if (!scenario.vendor_step) scenario.vendor_step = find_vendor_step(root);
   return scenario;
 }
 

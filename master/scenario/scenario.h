@@ -45,10 +45,10 @@ struct ReadOptions {
 };
 
 /// Reads a system of SSP 1.0 or 2.0: a .ssd, a package (.ssp), or the folder that one unpacks to;
-/// and what it names, but for its FMUs. Throws core::Error (Input) with file and line for what is
-/// missing, malformed or unknown, and for those parts of SSP that stride does not support: nothing
-/// is ignored, except what has no influence on a simulation (geometry, graphics, meta data,
-/// other tools' annotations).
+/// and what it names, but for its FMUs. An FMU is a system with one component. Throws core::Error
+/// (Input) with file and line for what is missing, malformed or unknown, and for those parts of SSP
+/// that stride does not support: nothing is ignored, except what has no influence on a simulation
+/// (geometry, graphics, meta data, other tools' annotations).
 Scenario read_scenario(const std::filesystem::path& path, const ReadOptions& options = {});
 
 }  // namespace stride::scenario

@@ -60,6 +60,21 @@ class Completion {
     for (const auto& [name, items] : definitions.enumerations) enumerations_.insert(name);
   }
 
+  /// As they are understood, for tools that do not. `written`: the root as it is in the file.
+  void declare_namespaces(const xml::Element& written) {
+    for (const xml::Prefix& prefix : kPrefixes) {
+      const std::string name = fmt::format("xmlns:{}", prefix.name);
+      const auto meant = root_.attribute(name.c_str());
+      const auto before = written.attribute(name.c_str());
+      if (meant == before) continue;
+      if (before) {
+        editor_.set_attribute(root_.index(), name, *meant);
+      } else {
+        editor_.add_attribute(root_.index(), name, *meant);
+      }
+    }
+  }
+
   std::string result(std::span<const core::ConnectionDeclaration> connections) {
     const xml::Element system = *root_.child({kSsd, "System"});
     complete_elements(system, system.index(), "");
@@ -296,11 +311,13 @@ class Completion {
 std::string complete(const std::filesystem::path& path, const Descriptions& descriptions,
                      const std::string& shown_as,
                      std::span<const core::ConnectionDeclaration> connections) {
-  const xml::Document document(path, shown_as);
+  const xml::Document document(path, shown_as, kPrefixes);
   const xml::Element root = document.root();
   check_system_description(root);
   if (!root.child({kSsd, "System"})) root.fail(fmt::format("{} holds no <System>", root.tag()));
-  return Completion(document, descriptions).result(connections);
+  Completion completion(document, descriptions);
+  completion.declare_namespaces(xml::Document(path, shown_as).root());
+  return completion.result(connections);
 }
 
 }  // namespace stride::ssp

@@ -77,6 +77,10 @@ void read_child(const xml::Element& child, const SspFile& file,
 }
 
 Connector read_connector(const xml::Element& element, const SspFile& file) {
+  if (const auto type = element.attribute("type")) {
+    element.fail(fmt::format("{} has no attribute 'type'", element.tag()),
+                 fmt::format("its type is an element in it: <ssc:{}/>", *type));
+  }
   element.allow_attributes({"name", "kind"});
   Connector connector;
   connector.declared.name = element.required("name");

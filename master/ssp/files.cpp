@@ -7,9 +7,14 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <stride/xml_text.h>
+
 #include "master/ssp/ssp.h"
+#include "master/util/archive/displaced_file.h"
+#include "master/util/file_uri.h"
 #include "master/util/input_file.h"
 #include "master/util/loose_path.h"
+#include "master/util/lower_case.h"
 #include "master/util/suggest.h"
 
 namespace stride::ssp {
@@ -20,6 +25,7 @@ namespace fs = std::filesystem;
 constexpr const char* kSystemFile = "SystemStructure.ssd";
 constexpr const char* kPackage =
     "an SSP package (.ssp, zip), or the folder that such a package unpacks to";
+constexpr const char* kDescription = "modelDescription.xml";
 constexpr std::size_t kMostNames = 20;  // in a message
 
 /// As zip archives do.
@@ -43,26 +49,79 @@ std::vector<std::string> files_in(const fs::path& folder) {
   return names;
 }
 
-/// The .ssd of a package in which it is not at its top by this name: in another case, or in the
-/// folder that all is packed in.
+std::vector<fs::path> systems_in(const fs::path& folder) {
+  std::vector<fs::path> systems = archive::packed_entries(folder);
+  std::erase_if(systems, [](const fs::path& path) {
+    return core::lower_case(path.extension().string()) != ".ssd" || !core::is_file(path);
+  });
+  return systems;
+}
+
+/// The folder that was packed, and not what is in it; or the folder itself.
+fs::path packed_folder(const fs::path& folder) {
+  const std::vector<fs::path> entries = archive::packed_entries(folder);
+  return entries.size() == 1 && core::is_folder(entries.front()) ? entries.front() : folder;
+}
+
+/// The .ssd of a package in which it is not at its top by this name.
 std::optional<fs::path> find_displaced(const fs::path& folder, const std::string& name) {
   if (auto found = core::find_loosely(folder, name)) return found;
-  std::vector<fs::path> entries = core::folder_entries(folder);
-  std::erase_if(entries, [](const fs::path& path) { return path.filename() == "__MACOSX"; });
-  if (entries.size() != 1 || !core::is_folder(entries.front())) return std::nullopt;
-  return core::find_loosely(entries.front(), name);
+  if (name == kSystemFile) {
+    const std::vector<fs::path> systems = systems_in(packed_folder(folder));
+    if (systems.size() == 1) return systems.front();
+    if (!systems_in(folder).empty()) return std::nullopt;
+  }
+  const std::vector<fs::path> found = archive::find_files(folder, name);
+  return found.size() == 1 ? std::optional(found.front()) : std::nullopt;
+}
+
+/// How to name one of the systems that a package has.
+std::string system_hint(const fs::path& folder, const std::string& shown, const std::string& name) {
+  std::vector<std::string> names;
+  for (const fs::path& system : systems_in(folder)) names.push_back(system.filename().string());
+  if (name != kSystemFile) return core::suggestion(name, names);
+  if (!names.empty()) return fmt::format("name one of its systems: {}/{}", shown, names.front());
+  if (!archive::find_files(folder, name).empty()) {
+    return "it has several, in folders: pack the contents of each as a package of its own";
+  }
+  if (core::path_exists(folder / kDescription)) {
+    return "it is an FMU: 'stride run' runs it alone, and the source of a <ssd:Component> names it";
+  }
+  return fmt::format("a package has its system as {} at its top", kSystemFile);
 }
 
 [[noreturn]] void fail_without_file(const fs::path& folder, const std::string& shown,
                                     const std::string& name, const core::Location& where) {
   std::vector<std::string> names = files_in(folder);
   const std::size_t more = names.size() > kMostNames ? names.size() - kMostNames : 0;
-  std::string hint = core::suggestion(name, names);
   names.resize(names.size() - more);
   std::string held = names.empty() ? "nothing" : fmt::format("{}", fmt::join(names, ", "));
   if (more > 0) held += fmt::format(", and {} more files", more);
   core::fail_input({where, {}, {}, {}},
-                   fmt::format("'{}' has no {}; it holds {}", shown, name, held), hint);
+                   fmt::format("'{}' has no {}; it holds {}", shown, name, held),
+                   system_hint(folder, shown, name));
+}
+
+/// The same file or folder, with a name at its end.
+fs::path with_name(const fs::path& path) {
+  const fs::path normal = path.lexically_normal();
+  const fs::path named = normal.has_filename() ? normal : normal.parent_path();
+  std::error_code error;
+  const bool has_name = named.has_filename() && named.filename() != "." && named.filename() != "..";
+  const fs::path canonical = has_name ? named : fs::canonical(path, error);
+  return error ? path : canonical;
+}
+
+/// In one line, since there is no file in which another one could be looked up.
+std::string system_of(const fs::path& unit) {
+  const std::string name = (core::is_folder(unit) ? unit.filename() : unit.stem()).string();
+  return fmt::format(
+      "<ssd:SystemStructureDescription xmlns:ssd=\"{}\" version=\"2.0\" name=\"{}\">"
+      "<ssd:System name=\"{}\"><ssd:Elements><ssd:Component name=\"{}\" "
+      "type=\"application/x-fmu-sharedlibrary\" source=\"{}\"/></ssd:Elements></ssd:System>"
+      "</ssd:SystemStructureDescription>",
+      kSsd, xml_escaped(name), xml_escaped(name), xml_escaped(name),
+      xml_escaped(core::uri_path(unit.filename())));
 }
 
 }  // namespace
@@ -82,6 +141,20 @@ fs::path Files::system_file(const fs::path& path, const core::Location& where) {
   return path;  // reading it fails if it is not there
 }
 
+fs::path Files::scenario_file(const fs::path& path) {
+  if (!is_unit(path)) return system_file(path);
+  return *units_.insert(with_name(path)).first;
+}
+
+bool Files::is_unit(const fs::path& path) {
+  const std::string extension = core::lower_case(path.extension().string());
+  if (extension == ".fmu" || (extension == ".so" && core::is_file(path))) return true;
+  const bool is_packed = core::is_file(path) && begins_as_archive(path);
+  if (!is_packed && !core::is_folder(path)) return false;
+  const fs::path folder = is_packed ? unpack(path, kPackage, {}) : path;
+  return core::path_exists(folder / kDescription) && !find_displaced(folder, kSystemFile);
+}
+
 fs::path Files::system_file(const fs::path& package, const std::string& name,
                             const core::Location& where) {
   if (fs::path(name).has_parent_path()) {
@@ -96,15 +169,15 @@ fs::path Files::system_file(const fs::path& package, const std::string& name,
   const auto displaced = find_displaced(folder, name);
   if (!displaced) fail_without_file(folder, shown(package), name, where);
   warn_once(core::to_text({.where = where}) +
-            fmt::format("'{}' has its {} as '{}'; expected at its top, by this name",
-                        shown(package), name, displaced->lexically_relative(folder).string()));
+            archive::displaced_text(shown(package), name, folder, *displaced));
   return *displaced;
 }
 
 fs::path Files::unit_folder(const fs::path& source, const core::Location& where) {
   const fs::path path = find_unit_ ? find_unit_(source, where) : source;
-  if (core::is_folder(path)) return path;
-  return unpack(path, "an FMU (.fmu, zip)", where);
+  const fs::path folder = core::is_folder(path) ? path : unpack(path, "an FMU (.fmu, zip)", where);
+  const std::vector<fs::path> descriptions = archive::find_files(folder, kDescription);
+  return descriptions.size() == 1 ? descriptions.front().parent_path() : folder;
 }
 
 const fs::path& Files::unpack(const fs::path& archive, const std::string& expected,
@@ -143,7 +216,9 @@ void Files::warn_once(const std::string& warning) {
 }
 
 xml::Document Files::read(const fs::path& file) {
-  xml::Document document(file, shown(file), kPrefixes);
+  xml::Document document = units_.contains(file)
+                               ? xml::Document::parse(system_of(file), shown(file), kPrefixes)
+                               : xml::Document(file, shown(file), kPrefixes);
   warnings_.insert(warnings_.end(), document.warnings().begin(), document.warnings().end());
   return document;
 }

@@ -29,10 +29,14 @@ class Files {
 
   /// The .ssd that a path of the command line or a source names: itself, the SystemStructure.ssd of
   /// a package (.ssp) or of the folder that one unpacks to, or what is named in one,
-  /// "FILE.ssp/Variant.ssd". One in another case, or in a folder that is all that the package has,
-  /// is taken with a warning. Throws core::Error (Input).
+  /// "FILE.ssp/Variant.ssd". One in another case, in the only folder that has one, or of another
+  /// name, if it is the only .ssd, is taken with a warning. Throws core::Error (Input).
   std::filesystem::path system_file(const std::filesystem::path& path,
                                     const core::Location& where = {});
+  /// The .ssd of a scenario, which a path of the command line names: likewise. An FMU (.fmu, the
+  /// folder that one unpacks to, or a library, .so) is one itself: document() gives a system of it
+  /// alone, with a component of its name.
+  std::filesystem::path scenario_file(const std::filesystem::path& path);
   /// Likewise, this .ssd in a package.
   std::filesystem::path system_file(const std::filesystem::path& package, const std::string& name,
                                     const core::Location& where);
@@ -61,12 +65,14 @@ class Files {
   const std::filesystem::path& unpack(const std::filesystem::path& archive,
                                       const std::string& expected, const core::Location& where);
   xml::Document read(const std::filesystem::path& file);
+  bool is_unit(const std::filesystem::path& path);
   void warn_once(const std::string& warning);
 
   UnitFinder find_unit_;
   std::map<std::filesystem::path, std::unique_ptr<archive::UnpackedArchive>> archives_;
   std::vector<std::string> warnings_;
   std::set<std::filesystem::path> documents_;
+  std::set<std::filesystem::path> units_;  ///< that are scenarios
   std::map<std::filesystem::path, xml::Document> ahead_;
 };
 

@@ -61,7 +61,7 @@ class Packer {
   std::string packed(const fs::path& path, const std::string& resources) {
     const xml::Document document = files_.document(path);
     xml::Editor editor(document.text());
-    replace_sources(document.root(), path.parent_path(), resources, editor);
+    replace_sources(document.root(), source_folder(document.root(), path), resources, editor);
     return editor.result();
   }
 

@@ -68,6 +68,10 @@ ParameterValue read_value(const xml::Element& type, const Definitions& inside,
 
 ParameterValue read_parameter(const xml::Element& parameter, const Definitions& inside,
                               const Definitions& around) {
+  if (const auto type = parameter.attribute("type")) {
+    parameter.fail(fmt::format("{} has no attribute 'type'", parameter.tag()),
+                   fmt::format("its value is an element in it: <ssv:{} value=\"…\"/>", *type));
+  }
   parameter.allow_attributes({"name"});
   std::optional<ParameterValue> result;
   for (const xml::Element& child : parameter.children()) {
@@ -187,13 +191,13 @@ void check_entry(const xml::Element& entry) {
 
 /// Appends the values that the entry maps, with their new name; returns whether there are any.
 bool map_values_of(const xml::Element& entry, const std::vector<ParameterValue>& values,
-                   std::vector<ParameterValue>& mapped) {
+                   std::vector<std::string>& warnings, std::vector<ParameterValue>& mapped) {
   const std::size_t before = mapped.size();
   for (const ParameterValue& value : values) {
     if (value.name != entry.given("source")) continue;
     mapped.push_back(value);
     mapped.back().name = entry.required("target");
-    mapped.back().segment = read_path_segment(entry);
+    mapped.back().segment = read_path_segment(entry, warnings);
   }
   return mapped.size() > before;
 }
@@ -215,7 +219,7 @@ std::vector<ParameterValue> map_values(const xml::Element& mapping,
       entry.fail(fmt::format("two parameters are mapped to '{}'", target),
                  "keep one of the two entries");
     }
-    if (map_values_of(entry, values, mapped)) continue;
+    if (map_values_of(entry, values, context.warnings, mapped)) continue;
     if (!missing.count()) continue;
     missing.add(core::to_text({.where = entry.where()}) +
                 fmt::format("the parameter set has no '{}' to be mapped to '{}'", source, target));

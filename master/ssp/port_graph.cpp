@@ -36,6 +36,7 @@ bool does_the_same(const core::PathSegment& a, const core::PathSegment& b) {
 PortGraph::PortGraph(const SystemNode& root) {
   add_system(root, "", nullptr);
   for (std::size_t i = 0; i < connections_.size(); ++i) check_connection(i);
+  for (const auto& [key, port] : shared_) warn_without_source(ports_[port]);
 }
 
 // ---- Ports ----
@@ -240,6 +241,17 @@ void PortGraph::fail_direction(std::size_t start, std::size_t end, Role role,
                    "kind output, and that of a triggered clock that they go to of the kind input"
                  : "an input of a system leads to the inputs of its components, and their outputs "
                    "to its outputs");
+}
+
+/// Of a signal of a dictionary, which has no kind that would say so.
+void PortGraph::warn_without_source(const Port& port) {
+  if (port.is_component() || port.outgoing.empty() || !port.incoming.empty()) return;
+  const PortConnection& first = connections_[port.outgoing.front()];
+  warnings_.push_back(
+      core::to_text({.where = first.where}) +
+      fmt::format("the signal '{}' has no source, so '{}' gets no value from it\n  hint: end the "
+                  "connection of its source at it, or declare the connectors with their kinds",
+                  port.path, ports_[first.to].path));
 }
 
 void PortGraph::check_connection(std::size_t connection) const {

@@ -53,7 +53,7 @@ class PortGraph {
   const std::vector<Component>& components() const { return components_; }
   const std::vector<Port>& ports() const { return ports_; }
   const std::vector<PortConnection>& connections() const { return connections_; }
-  /// Of what is there twice, as text.
+  /// Of what is there twice, and of signals without a source, as text.
   const std::vector<std::string>& warnings() const { return warnings_; }
   /// The index of an FMU of the tree.
   std::size_t component(const ElementNode& node) const { return places_.at(&node); }
@@ -97,6 +97,7 @@ class PortGraph {
   bool is_there(const PortConnection& connection);
   [[noreturn]] void fail_direction(std::size_t start, std::size_t end, Role role,
                                    const core::Location& where) const;
+  void warn_without_source(const Port& port);
   void check_connection(std::size_t connection) const;
   void follow(std::size_t port, Way& way, const std::function<void(const Way&)>& found) const;
   [[noreturn]] static void fail_unknown(const System& system, const std::string& path,

@@ -58,7 +58,7 @@ class SystemReader {
  public:
   SystemReader(const xml::Element& root, const std::filesystem::path& path, Reading& reading)
       : root_(root),
-        folder_(path.parent_path()),
+        folder_(source_folder(root, path)),
         file_{root.required("version"), read_definitions(root, kSsd)},
         reading_(reading) {}
 
@@ -198,7 +198,7 @@ class SystemReader {
   static std::string type_of(const xml::Element& component) {
     const std::string type = core::lower_case(component.attribute_or("type"));
     if (type == kFmuType || type == kSystemType || type == kPackageType) return type;
-    const std::string source = core::lower_case(component.required("source"));
+    const std::string source = core::lower_case(source_text(component));
     if (!type.empty() && !source.ends_with(".fmu")) return type;
     if (source.starts_with('#') || source.ends_with(".ssd")) return kSystemType;
     if (source.ends_with(".ssp")) return kPackageType;
@@ -239,15 +239,15 @@ class SystemReader {
                      "take the component out that leads back");
     }
     reading_.open.push_back(component.where());
-    SystemNode system = component.required("source").starts_with('#') ? read_own_system(component)
-                                                                      : read_other_file(component);
+    SystemNode system = source_text(component).starts_with('#') ? read_own_system(component)
+                                                                : read_other_file(component);
     reading_.open.pop_back();
     return system;
   }
 
   /// A system in this file, used once more: source="#id".
   SystemNode read_own_system(const xml::Element& component) {
-    const std::string id = component.required("source").substr(1);
+    const std::string id = source_text(component).substr(1);
     if (own_systems_.empty()) collect_systems(root_);
     const auto found = own_systems_.find(id);
     if (found == own_systems_.end()) {
@@ -281,7 +281,7 @@ class SystemReader {
     return SystemReader(root, path, reading_).read();
   }
 
-  static SystemConnection read_connection(const xml::Element& element) {
+  SystemConnection read_connection(const xml::Element& element) {
     element.allow_attributes({"startElement", "startConnector", "startIndices", "endElement",
                               "endConnector", "endIndices", "suppressUnitConversion"});
     element.allow_children({{kSsc, "LinearTransformation"},
@@ -298,7 +298,7 @@ class SystemReader {
     }
     return {{element.attribute_or("startElement"), element.required("startConnector")},
             {element.attribute_or("endElement"), element.required("endConnector")},
-            read_path_segment(element),
+            read_path_segment(element, reading_.warnings),
             element.where()};
   }
 

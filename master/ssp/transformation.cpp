@@ -6,6 +6,7 @@
 #include <set>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -40,15 +41,21 @@ void add_entry(const xml::Element& element, std::set<std::string>& sources, Entr
   entries.emplace_back(std::move(source), std::move(target));
 }
 
+/// Which must be there.
+bool read_boolean(const xml::Element& entry, const char* attribute,
+                  std::vector<std::string>& warnings) {
+  entry.given(attribute);
+  return entry.lenient_flag(attribute, warnings);
+}
+
 void read_entry(const xml::Element& element, std::set<std::string>& sources,
-                Transformation& transformation) {
+                Transformation& transformation, std::vector<std::string>& warnings) {
   element.allow_attributes({"source", "target"});
   switch (transformation.kind) {
     case TransformationKind::BooleanMapping:
-      element.given("source");
-      element.given("target");
       return add_entry(element, sources, transformation.numbers,
-                       std::int64_t{element.flag("source")}, std::int64_t{element.flag("target")});
+                       std::int64_t{read_boolean(element, "source", warnings)},
+                       std::int64_t{read_boolean(element, "target", warnings)});
     case TransformationKind::IntegerMapping:
       return add_entry(element, sources, transformation.numbers,
                        element.required_number<std::int64_t>("source"),
@@ -59,11 +66,14 @@ void read_entry(const xml::Element& element, std::set<std::string>& sources,
   }
 }
 
-void read_mapping(const xml::Element& element, Transformation& transformation) {
+void read_mapping(const xml::Element& element, Transformation& transformation,
+                  std::vector<std::string>& warnings) {
   element.allow_attributes({});
   element.allow_children({{kSsc, "MapEntry"}});
   std::set<std::string> sources;
-  for (const xml::Element& entry : element.children()) read_entry(entry, sources, transformation);
+  for (const xml::Element& entry : element.children()) {
+    read_entry(entry, sources, transformation, warnings);
+  }
   std::sort(transformation.numbers.begin(), transformation.numbers.end());
   if (transformation.numbers.empty() && transformation.names.empty()) {
     element.fail(fmt::format("{} holds no <MapEntry>", element.tag()),
@@ -73,9 +83,9 @@ void read_mapping(const xml::Element& element, Transformation& transformation) {
 
 }  // namespace
 
-core::PathSegment read_path_segment(const xml::Element& owner) {
+core::PathSegment read_path_segment(const xml::Element& owner, std::vector<std::string>& warnings) {
   core::PathSegment segment;
-  segment.suppress_unit_conversion = owner.flag("suppressUnitConversion");
+  segment.suppress_unit_conversion = owner.lenient_flag("suppressUnitConversion", warnings);
   Transformation& transformation = segment.transformation;
   for (const TransformationKind kind :
        {TransformationKind::Linear, TransformationKind::BooleanMapping,
@@ -92,7 +102,7 @@ core::PathSegment read_path_segment(const xml::Element& owner) {
     if (kind == TransformationKind::Linear) {
       read_linear(*element, transformation);
     } else {
-      read_mapping(*element, transformation);
+      read_mapping(*element, transformation, warnings);
     }
   }
   return segment;

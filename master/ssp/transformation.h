@@ -2,6 +2,9 @@
 #ifndef STRIDE_MASTER_SSP_TRANSFORMATION_H
 #define STRIDE_MASTER_SSP_TRANSFORMATION_H
 
+#include <string>
+#include <vector>
+
 #include "master/model/conversion.h"
 #include "master/util/xml/element.h"
 
@@ -9,8 +12,8 @@ namespace stride::ssp {
 
 /// Reads the attribute suppressUnitConversion and the transformation of an <ssd:Connection> or an
 /// <ssm:MappingEntry>, whose other attributes and children are the caller's. Throws core::Error
-/// (Input).
-core::PathSegment read_path_segment(const xml::Element& owner);
+/// (Input); adds warnings of what is written in another way.
+core::PathSegment read_path_segment(const xml::Element& owner, std::vector<std::string>& warnings);
 
 }  // namespace stride::ssp
 

@@ -14,6 +14,8 @@
 namespace stride::ssp {
 namespace {
 
+namespace fs = std::filesystem;
+
 std::string take_scheme(std::string_view& uri) {
   const std::size_t end = uri.find_first_of(":/?#");
   if (end == std::string_view::npos || end == 0 || uri[end] != ':') return {};
@@ -94,10 +96,34 @@ bool has_drive(std::string_view path) {
                "download it, and name the file relative to this one");
 }
 
+/// Whether any file that the element, or one below it, names is there.
+bool has_source_in(const xml::Element& element, const fs::path& folder) {
+  try {
+    const std::string source = xml::without_blanks(element.attribute_or("source"));
+    const bool names_file = !source.empty() && !source.starts_with('#');
+    if (names_file && core::path_exists(source_of(element, folder).path)) return true;
+  } catch (const core::Error&) {  // reported where it is read
+  }
+  return std::ranges::any_of(
+      element.children(), [&](const xml::Element& child) { return has_source_in(child, folder); });
+}
+
 }  // namespace
 
+std::string source_text(const xml::Element& element) {
+  return xml::without_blanks(element.required("source"));
+}
+
+fs::path source_folder(const xml::Element& root, const fs::path& file) {
+  std::error_code error;
+  if (!fs::is_symlink(file, error)) return file.parent_path();
+  const fs::path target = fs::canonical(file, error);
+  if (error || has_source_in(root, file.parent_path())) return file.parent_path();
+  return has_source_in(root, target.parent_path()) ? target.parent_path() : file.parent_path();
+}
+
 Source source_of(const xml::Element& element, const std::filesystem::path& folder) {
-  const std::string source = element.required("source");
+  const std::string source = source_text(element);
   if (source.find_first_of("%?#:") != source.npos) {
     if (const FoundFile literal = if_there(folder / source)) return {*literal, ""};
   }

@@ -17,6 +17,13 @@ struct Source {
   std::string warning{};  ///< where a file is named in another way than it should be
 };
 
+/// The attribute `source`, which must be there, as it is written but for blanks around it.
+std::string source_text(const xml::Element& element);
+
+/// The folder that the sources in a file are relative to: its own. Of a symbolic link this is the
+/// folder of the link, or else, where none of them is there, that of the file that it leads to.
+std::filesystem::path source_folder(const xml::Element& root, const std::filesystem::path& file);
+
 /// A URI (RFC 3986) relative to `folder`, or with the scheme file. What is no such URI, and names a
 /// file as it is written, is this file; a path that leads to none is also looked for with '\\' as
 /// its separator, in the folder `resources`, and by names that differ by case only or by the form

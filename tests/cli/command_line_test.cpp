@@ -100,6 +100,11 @@ TEST_CASE("--set explains what is wrong with it") {
   };
   CHECK_THAT(error("first.u"), Contains("expected component.variable=value"));
   CHECK_THAT(error("=1"), Contains("expected component.variable=value"));
+  CHECK_THAT(error("first.u:  3"), Contains("hint: write --set first.u=3"));
+  CHECK_THAT(input_error_of(workspace.run({"--set", "first.u", "3"})),
+             Contains("hint: the value follows '=', as in --set first.u=3"));
+  CHECK_THAT(input_error_of(workspace.run({"--swap", "first", "test.ssd"})),
+             Contains("as in --swap first=VALUE"));
   CHECK_THAT(error("frist.u=1"),
              Contains("no component 'frist'") && Contains("did you mean 'first'?"));
   CHECK_THAT(error("first.time_constnat=1"), Contains("unit 'first', variable 'time_constnat'") &&

@@ -121,3 +121,17 @@ TEST_CASE(
                                    "channel #4"));
   CHECK(workspace.signals().numbers("time") == std::vector<double>{0});
 }
+
+TEST_CASE("others go back to where a unit of FMI 1.0 came in a step that it discarded") {
+  const Workspace workspace(
+      Parts{component("filter", "minimal.fmu") + component("tank", "fmi1_hasty_tank.fmu"),
+            connection("tank.level", "filter.u")});
+  const Outcome outcome = workspace.run({"--quiet", "--step", "0.5", "--set", "tank.mood=3"});
+  INFO(outcome.err);
+  REQUIRE(outcome.exit_code == 0);
+  const Csv signals = workspace.signals();
+  CHECK(signals.numbers("time") == std::vector<double>{0, 0.25, 0.5, 0.75, 1});
+  CHECK(signals.numbers("tank.level [m]").back() == 1);
+  CHECK_THAT(workspace.stride({"check", "test.ssd"}).out,
+             Contains("might complete a step in part, and discard the rest"));
+}

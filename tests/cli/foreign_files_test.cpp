@@ -224,3 +224,103 @@ TEST_CASE("a run of a system that ends where it starts has initial values, howev
   CHECK(outcome.exit_code == 0);
   CHECK_THAT(outcome.err, Contains("the run ends where it starts, at 1 s"));
 }
+
+TEST_CASE("an FMU runs alone, with its own stop time, and is checked") {
+  const Workspace workspace("");
+  fs::copy_file(test_fmu("fmi2_relaxation"), workspace / "my unit.fmu");
+  const auto [file, hosting] =
+      GENERATE(table<std::string, std::string>({{"my unit.fmu", "--no-report"},
+                                                {"my unit.fmu", "--isolate"},
+                                                {"fmi2_relaxation.fmu", "--no-report"}}));
+  const std::string name = fs::path(file).stem();
+  const Outcome outcome =
+      workspace.stride({"run", file, hosting, "--set", name + ".u=3", "--out", "out", "--quiet"});
+  INFO(outcome.err);
+  REQUIRE(outcome.exit_code == 0);
+  CHECK(outcome.err == "");
+  CHECK(workspace.signals().numbers(name + ".x").back() == Approx(3 - 2 * std::exp(-2)));
+  const Outcome check = workspace.stride({"check", file});
+  CHECK(check.exit_code == 0);
+  CHECK_THAT(check.out, Contains(name));
+}
+
+TEST_CASE("an FMU is no scenario that could be completed, or packed from its folder") {
+  const Workspace workspace("");
+  fs::copy(stride::importer::UnpackedFmu(test_fmu("fmi2_relaxation")).folder(), workspace / "unit",
+           fs::copy_options::recursive);
+  fs::copy_file(test_fmu("fmi2_relaxation"), workspace / "unit.fmu");
+  const std::string before = read(workspace / "unit.fmu");
+  CHECK_THAT(input_error_of(workspace.stride({"complete", "unit.fmu"})), Contains("it is an FMU"));
+  CHECK(read(workspace / "unit.fmu") == before);
+  CHECK_THAT(input_error_of(workspace.stride({"pack", "unit", "-o", "unit.ssp"})),
+             Contains("it is an FMU"));
+  CHECK_THAT(workspace.stride({"run", "unit", "--out", "unit.fmu"}).err, Contains("unit.fmu"));
+  CHECK(read(workspace / "unit.fmu") == before);
+}
+
+TEST_CASE("an FMU whose folder was packed runs, with a warning that names it") {
+  const Workspace workspace(Parts{component("unit", "outer")});
+  fs::create_directories(workspace / "outer/__MACOSX");
+  fs::copy(stride::importer::UnpackedFmu(test_fmu("fmi2_relaxation")).folder(),
+           workspace / "outer/inner", fs::copy_options::recursive);
+  const Outcome outcome = workspace.run({"--quiet", "--stop", "0.1"});
+  CHECK(outcome.exit_code == 0);
+  CHECK_THAT(outcome.err,
+             Contains(workspace.at("outer") + "'outer' has its modelDescription.xml as "
+                                              "'inner/modelDescription.xml'; expected at its top"));
+}
+
+TEST_CASE("a linked system file finds its units beside the link, or beside the file itself") {
+  const Workspace workspace(Parts{component("unit", "my.fmu")});
+  fs::create_directories(workspace / "links");
+  fs::create_symlink("../test.ssd", workspace / "links/linked.ssd");
+  const Arguments missing{"run", "links/linked.ssd"};
+  CHECK_THAT(input_error_of(workspace.stride(missing)),
+             Contains("there is no unit 'links/my.fmu, or ") &&
+                 Contains((workspace / "my.fmu").string() + "'"));
+  const std::string place = GENERATE(as<std::string>(), "my.fmu", "links/my.fmu");
+  fs::copy_file(test_fmu("fmi2_relaxation"), workspace / place);
+  const Outcome outcome =
+      workspace.stride({"run", "links/linked.ssd", "--quiet", "--stop", "0.1", "--out", "out"});
+  INFO(outcome.err);
+  CHECK(outcome.exit_code == 0);
+  CHECK(workspace.stride({"pack", "links/linked.ssd", "-o", "p.ssp"}).exit_code == 0);
+}
+
+TEST_CASE("a system with namespaces, flags and an experiment as they are written by mistake runs") {
+  std::string text = scenario_text(
+      Parts{component("first", " minimal.fmu ") + component("second", "minimal.fmu"),
+            connection("first.y", "second.u"), "",
+            "<ssd:DefaultExperiment stopTime=\"1\" stepSize=\"0.25\" tolerance=\"1e-4\"/>\n"});
+  text = Umlaut::replaced(text, "http://ssp-standard.org/SSP1/SystemStructureDescription",
+                          "https://ssp-standard.org/SSP1/SystemStructureDescription");
+  text = Umlaut::replaced(text, "<ssd:Connection ",
+                          "<ssd:Connection suppressUnitConversion=\"True\" ");
+  const Workspace workspace(text);
+  const Outcome outcome = workspace.run({"--quiet"});
+  INFO(outcome.err);
+  REQUIRE(outcome.exit_code == 0);
+  CHECK_THAT(
+      outcome.err,
+      Contains("SystemStructureDescription\" is taken for http://") &&
+          Contains("suppressUnitConversion=\"True\" of <ssd:Connection> is taken for true") &&
+          Contains("the step is 0.25 s, as stepSize of <ssd:DefaultExperiment>") &&
+          Contains("the tolerance of <ssd:DefaultExperiment> is ignored"));
+  CHECK(workspace.signals().numbers("time").size() == 5);
+  const Outcome completed = workspace.stride({"complete", "test.ssd", "-o", "completed.ssd"});
+  INFO(completed.err);
+  CHECK(completed.exit_code == 0);
+  CHECK_THAT(read(workspace / "completed.ssd"), !Contains("https:"));
+  CHECK(workspace.stride({"run", "completed.ssd", "--quiet", "--out", "again"}).exit_code == 0);
+}
+
+TEST_CASE("a connection against the direction of its variables is used, with a warning") {
+  const Workspace workspace(
+      Parts{component("first", "minimal.fmu") + component("second", "minimal.fmu"),
+            connection("second.u", "first.y")});
+  const Outcome outcome = workspace.run({"--set", "first.u=1"});
+  CHECK(outcome.exit_code == 0);
+  CHECK_THAT(outcome.err, Contains(workspace.at("<ssd:Connection ") +
+                                   "the connection starts at 'second.u', which is input"));
+  CHECK(workspace.signals().numbers("second.y").back() > 0.1);
+}

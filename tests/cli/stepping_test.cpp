@@ -201,3 +201,16 @@ TEST_CASE("a run with a unit of one step size ends with its last whole step") {
   CHECK_THAT(input_error_of(workspace.run({"--stop", "0.06", "--step", "0.1"})),
              Contains("stop at a multiple of them, at 0.1 s or later"));
 }
+
+TEST_CASE("the error of a unit in a step of another size than its own has that size") {
+  const auto [unit, words] = GENERATE(table<std::string, std::string>(
+      {{"fmi2_stickler.fmu", "was made for steps of 0.1 s (its DefaultExperiment), and this one"},
+       {"fmi2_rigid_stickler.fmu", "takes steps of one size only, and this one is of 0.05 s"}}));
+  const auto hosting = GENERATE(as<std::string>(), "--no-report", "--isolate");
+  const Workspace workspace(Parts{component("unit", unit)});
+  const Outcome outcome = workspace.run({"--quiet", "--step", "0.05", hosting});
+  CHECK(outcome.exit_code == 1);
+  CHECK_THAT(outcome.err, Contains("the step is 0.05") && Contains("hint: the unit") &&
+                              Contains(words) &&
+                              Contains("use --step 0.1, or <stride:Step size=\"0.1\"/>"));
+}

@@ -54,7 +54,8 @@ offers "" run --stop ''
 offers "scenario.ssd" run sce
 offers "folder" run fo
 offers "with blank.ssd" run wi
-offers "" run un
+offers "unit.fmu" run un
+offers "" complete un
 offers "notes.txt" run --capture sensor = no
 offers "compress expand info" trace ''
 offers "--min-gap" trace info --m

@@ -58,6 +58,9 @@ std::string reason(const Component& component, StepRole role, bool saves_state) 
     return "may return early and cannot be rolled back: what it reaches is final";
   }
   std::string text = "cannot be rolled back; ";
+  const bool is_before_fmi3 =
+      unit.fmi_version.starts_with("1.") || unit.fmi_version.starts_with("2.");
+  if (is_before_fmi3) return text + "might complete a step in part, and discard the rest";
   if (unit.may_return_early) text += "is not allowed to return early; ";
   return text +
          (unit.may_reject ? "does not return early, but might reject a step" : "never stops");

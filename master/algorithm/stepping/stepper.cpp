@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "master/algorithm/capabilities/unit_diagnostics.h"
+#include "master/model/own_step.h"
 #include "master/util/time_text.h"
 
 namespace stride::core {
@@ -345,11 +346,14 @@ void Stepper::fail_size(const UnitStep& unit_step, const StepInterval& interval)
       "use a unit with canHandleVariableCommunicationStepSize, or none that has events or stops "
       "early";
   if (early_stop_.by == &unit_step) {
-    fail_run({{}, name(unit_step), {}, interval.from},
-             fmt::format("the unit rejected its step, and takes steps of one size only, {} s, so "
-                         "no shorter one can be tried{}",
-                         to_text(regular_), reason(early_stop_)),
-             "look at what the unit received before this instant");
+    const std::string other_step =
+        own_step_hint(*system_.components()[unit_step.component].description, regular_);
+    fail_run(
+        {{}, name(unit_step), {}, interval.from},
+        fmt::format("the unit rejected its step, and takes steps of one size only, {} s, so "
+                    "no shorter one can be tried{}",
+                    to_text(regular_), reason(early_stop_)),
+        other_step.empty() ? "look at what the unit received before this instant" : other_step);
   }
   const std::string cause =
       early_stop_.by == nullptr

@@ -11,6 +11,9 @@ namespace stride::importer {
 /// As in FMI 2.0, see Fmi2Attributes.
 struct Fmi1Attributes {
   std::vector<fmi1ValueReference> references;  ///< of the variables, in order
+  /// Which of them are negated aliases: -v of a number v, and the other one of a Boolean.
+  std::vector<bool> negated;
+  bool can_reject_steps = false;  ///< it can repeat a step of which it has completed nothing
 };
 
 }  // namespace stride::importer

@@ -46,15 +46,15 @@ xml::Element find_stand_alone(const xml::Element& root) {
                        "export the unit for stand-alone Co-Simulation");
 }
 
-void read_fmi1_capabilities(const xml::Element& stand_alone, core::UnitDescription& unit) {
-  unit.may_reject = false;
+/// Returns whether it can reject steps. Any unit may complete a step in part.
+bool read_fmi1_capabilities(const xml::Element& stand_alone, core::UnitDescription& unit) {
   const auto capabilities = stand_alone.child("Capabilities");
-  if (!capabilities) return;
+  if (!capabilities) return false;
   unit.can_vary_step =
       capabilities->lenient_flag("canHandleVariableCommunicationStepSize", unit.warnings);
   unit.single_instance =
       capabilities->lenient_flag("canBeInstantiatedOnlyOncePerProcess", unit.warnings);
-  unit.may_reject = capabilities->lenient_flag("canRejectSteps", unit.warnings);
+  return capabilities->lenient_flag("canRejectSteps", unit.warnings);
 }
 
 /// Reads <ModelVariables>.
@@ -70,8 +70,7 @@ class Fmi1Variables {
     for (const xml::Element& element : elements) add_output(element);
   }
 
-  /// Those of the unit, in the order of the variables.
-  const std::vector<fmi1ValueReference>& references() const { return references_; }
+  const Fmi1Attributes& attributes() const { return attributes_; }
 
  private:
   void read_types(const xml::Element& root) {
@@ -85,18 +84,24 @@ class Fmi1Variables {
   }
 
   void add(const xml::Element& element) {
-    if (element.attribute("alias") == "negatedAlias") {
-      unit_.warnings.push_back(
-          core::to_text({.where = element.where()}) +
-          fmt::format("'{}', a negatedAlias, is left out", element.attribute_or("name")));
+    core::Variable variable = read(element);
+    const bool is_negated = element.attribute("alias") == "negatedAlias";
+    if (is_negated && !can_be_negated(variable.type)) {
+      unit_.warnings.push_back(core::to_text({.where = element.where()}) +
+                               fmt::format("'{}' is left out: no {} can be a negatedAlias",
+                                           variable.name, core::name(variable.type)));
       return;
     }
-    core::Variable variable = read(element);
     variable.reference = static_cast<core::ValueReference>(unit_.variables.size());
     names_.add(variable.name, element);
     places_.emplace(variable.name, variable.reference);
-    references_.push_back(element.required_number<fmi1ValueReference>("valueReference"));
+    attributes_.references.push_back(element.required_number<fmi1ValueReference>("valueReference"));
+    attributes_.negated.push_back(is_negated);
     unit_.variables.push_back(std::move(variable));
+  }
+
+  static bool can_be_negated(ValueType type) {
+    return type == ValueType::Float64 || type == ValueType::Int32 || type == ValueType::Boolean;
   }
 
   core::Variable read(const xml::Element& element) const {
@@ -168,7 +173,7 @@ class Fmi1Variables {
   }
 
   core::UnitDescription& unit_;
-  std::vector<fmi1ValueReference> references_;
+  Fmi1Attributes attributes_;
   TypeDefinitions types_;
   VariableNames names_;
   std::map<std::string, core::ValueReference> places_;
@@ -179,8 +184,10 @@ class Fmi1Variables {
 Fmi1Attributes read_fmi1_description(const xml::Element& root, core::UnitDescription& unit) {
   unit.instantiation_token = root.given("guid");
   unit.model_identifier = read_model_identifier(root);
-  read_fmi1_capabilities(find_stand_alone(root), unit);
-  return {Fmi1Variables(root, unit).references()};
+  const bool can_reject_steps = read_fmi1_capabilities(find_stand_alone(root), unit);
+  Fmi1Attributes attributes = Fmi1Variables(root, unit).attributes();
+  attributes.can_reject_steps = can_reject_steps;
+  return attributes;
 }
 
 }  // namespace stride::importer

@@ -10,7 +10,8 @@ namespace stride::importer {
 
 /// Each <ScalarVariable> becomes a variable whose reference is its index, see Fmi1Attributes, which
 /// are returned; those of the causality "internal" or "none" are parameters if their variability is
-/// "parameter", else local. Variables with alias="negatedAlias" are left out, with a warning.
+/// "parameter", else local. A text or an Enumeration with alias="negatedAlias" is left out, with a
+/// warning.
 /// Throws as read_model_description() does, and for units that are coupled to a tool.
 Fmi1Attributes read_fmi1_description(const xml::Element& root, core::UnitDescription& unit);
 

@@ -5,13 +5,16 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
+
+#include "master/importer/scalar_types.h"
 
 namespace stride::importer {
 namespace {
 
-/// What is asked only where a unit knows more.
-constexpr std::string_view kFmi1Optional[] = {"ResetSlave", "GetRealStatus", "GetTypesPlatform"};
+/// What Fmi1Unit may call for any unit. What depends on the description's variables, or is asked
+/// only where a unit knows more, is not here.
+constexpr std::string_view kFmi1Needed[] = {"InstantiateSlave", "InitializeSlave", "TerminateSlave",
+                                            "FreeSlaveInstance", "DoStep"};
 
 }  // namespace
 
@@ -20,21 +23,17 @@ Fmi1Library::Fmi1Library(const std::filesystem::path& path, const std::string& m
     : SharedLibrary(path, std::move(user), shown_as) {
   // a library that is called otherwise than the model description has it is taken, too
   const std::string own_name = path.stem().string();
-  const std::string& prefix = has(own_name + "_fmiDoStep") ? own_name : model_identifier;
+  prefix_ = (has(own_name + "_fmiDoStep") ? own_name : model_identifier) + "_fmi";
   std::vector<std::string> missing;
-#define STRIDE_FIND(name)                                              \
-  find(functions_.name, prefix + "_fmi" #name);                        \
-  if (functions_.name == nullptr && !contains(kFmi1Optional, #name)) { \
-    missing.push_back(prefix + "_fmi" #name);                          \
+#define STRIDE_FIND(name)                                           \
+  find(functions_.name, prefix_ + #name);                           \
+  if (functions_.name == nullptr && contains(kFmi1Needed, #name)) { \
+    missing.push_back(prefix_ + #name);                             \
   }
   FMI1_FUNCTIONS(STRIDE_FIND)
 #undef STRIDE_FIND
   if (!missing.empty()) {
-    core::fail_input(
-        SharedLibrary::user(),
-        fmt::format("the library '{}' does not export {}, which an FMI 1.0 Co-Simulation unit must",
-                    SharedLibrary::shown_as(), fmt::join(missing, ", ")),
-        "export it with C linkage, default visibility and exactly this name");
+    SharedLibrary::fail_missing(missing, "which an FMI 1.0 Co-Simulation unit must");
   }
   const std::string types = functions_.GetTypesPlatform != nullptr
                                 ? answer_of("question for the types", functions_.GetTypesPlatform)
@@ -46,6 +45,10 @@ Fmi1Library::Fmi1Library(const std::filesystem::path& path, const std::string& m
                   "'" FMI1_TYPES_PLATFORM "'",
                   SharedLibrary::shown_as(), types),
       "compile it with the fmiPlatformTypes.h of the standard");
+}
+
+void Fmi1Library::require_functions(const core::UnitDescription& unit) const {
+  require_values(unit, prefix_, &scalar_type_word);
 }
 
 }  // namespace stride::importer

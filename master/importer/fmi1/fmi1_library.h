@@ -28,8 +28,11 @@ class Fmi1Library : public SharedLibrary {
               core::Context user = {}, const std::filesystem::path& shown_as = {});
 
   const Fmi1Functions& functions() const { return functions_; }
+  /// Throws core::Error (Input) where it does not export what this unit needs further.
+  void require_functions(const core::UnitDescription& unit) const;
 
  private:
+  std::string prefix_;  ///< of its functions
   Fmi1Functions functions_;
 };
 

@@ -1,7 +1,10 @@
 #include "master/importer/fmi1/fmi1_unit.h"
 
+#include <algorithm>
 #include <cstdarg>
+#include <cstdint>
 #include <cstdlib>
+#include <functional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -10,6 +13,11 @@
 #include "master/util/time_text.h"
 
 namespace stride::importer {
+namespace {
+
+constexpr const char* kFmi1LastSuccessfulTime = "fmiLastSuccessfulTime";
+
+}  // namespace
 
 // ---- Life cycle ----
 
@@ -68,11 +76,49 @@ void Fmi1Unit::on_log(fmi1Component component, fmi1String, fmi1Status status, fm
   try {
     const std::string text = message != nullptr ? printf_text(message, arguments) : "";
     with_receiver<Fmi1Unit>(component, [&](Fmi1Unit& unit) {
-      unit.receive(status_of(status), category, text.c_str());
+      unit.receive(status_of(status), category, unit.with_names(text).c_str());
     });
   } catch (...) {  // nothing may cross the unit's C code
   }
   va_end(arguments);
+}
+
+// ---- Values ----
+
+void Fmi1Unit::get(References references, core::ValueBlock& values) {
+  ScalarUnit::get(references, values);
+  if (has_negated(references)) negate(references, values);
+}
+
+void Fmi1Unit::set(References references, const core::ValueBlock& values) {
+  if (!has_negated(references)) return ScalarUnit::set(references, values);
+  core::ValueBlock negated = values;
+  negate(references, negated);
+  ScalarUnit::set(references, negated);
+}
+
+bool Fmi1Unit::has_negated(References references) const {
+  return std::ranges::any_of(references, [&](auto r) { return attributes_->negated[r]; });
+}
+
+void Fmi1Unit::negate(References references, core::ValueBlock& values) const {
+  const auto apply = [&](auto elements, auto&& negative) {
+    for (std::size_t i = 0; i < references.size(); ++i) {
+      if (attributes_->negated[references[i]]) elements[i] = negative(elements[i]);
+    }
+  };
+  switch (values.type()) {
+    case core::ValueType::Float64:
+      return apply(values.numbers<double>(), [](double value) { return 0 - value; });  // no "-0"
+    case core::ValueType::Int32:  // the least has no negative
+      return apply(values.numbers<std::int32_t>(), [](std::int32_t value) {
+        return static_cast<std::int32_t>(0U - static_cast<std::uint32_t>(value));
+      });
+    case core::ValueType::Boolean:
+      return apply(values.numbers<bool>(), std::logical_not<>());
+    default:
+      return;
+  }
 }
 
 // ---- Steps ----
@@ -99,32 +145,31 @@ core::StepResult Fmi1Unit::step(const core::StepInterval& interval,
 
 core::StepResult Fmi1Unit::handle_discard(const core::StepInterval& interval) {
   take_rejection_reason("fmiDoStep");
-  const auto reached = last_successful_time(interval);
+  const std::optional<double> seconds = last_successful_time();
+  const auto reached = instant_within(interval, seconds, kFmi1LastSuccessfulTime);
   if (reached && *reached > interval.from) {
     return {.early_return = *reached != interval.to, .reached = *reached};
   }
-  if (parts_.description->may_reject) {
+  if (attributes_->can_reject_steps) {
     is_new_step_ = false;
     return {.rejected = true, .reached = interval.from};
   }
-  const std::string hint = short_step_hint();
-  fail(
-      fmt::format("fmiDoStep returned fmiDiscard in the step to {} s, and the unit does not report "
-                  "how far it came (fmiLastSuccessfulTime){}{}",
-                  core::to_text(interval.to),
-                  rejection_reason_.empty() ? "" : "; message of the unit: ", rejection_reason_),
-      hint.empty() ? "try a smaller step" : hint);
+  const std::string hint = step_hint();
+  fail(fmt::format("fmiDoStep returned fmiDiscard in the step to {} s, the unit {}, and it cannot "
+                   "repeat a step (canRejectSteps){}{}",
+                   core::to_text(interval.to), how_far(interval, seconds, kFmi1LastSuccessfulTime),
+                   rejection_reason_.empty() ? "" : "; message of the unit: ", rejection_reason_),
+       hint.empty() ? "try a smaller step (--step)" : hint);
 }
 
-/// Nothing if it is not known, or not in the step.
-std::optional<Time> Fmi1Unit::last_successful_time(const core::StepInterval& interval) {
+std::optional<double> Fmi1Unit::last_successful_time() {
   if (fmi_.GetRealStatus == nullptr) return std::nullopt;
   double seconds = 0;
   const Status status =
       call_discardable("fmiGetRealStatus", fmi_.GetRealStatus, fmi1LastSuccessfulTime, &seconds);
   if (has_messages_) drop_messages();
   const bool is_known = status == Status::Ok || status == Status::Warning;
-  return is_known ? instant_within(interval, seconds, "fmiLastSuccessfulTime") : std::nullopt;
+  return is_known ? std::optional(seconds) : std::nullopt;
 }
 
 }  // namespace stride::importer

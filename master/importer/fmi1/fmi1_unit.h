@@ -41,6 +41,8 @@ class Fmi1Unit final : public ScalarUnit<Fmi1Version>, public core::Capabilities
 
   void enter_initialization(Time start, std::optional<Time> stop) override;
   void exit_initialization() override {}
+  void get(References references, core::ValueBlock& values) override;
+  void set(References references, const core::ValueBlock& values) override;
   using FmuInstance::step;
   core::StepResult step(const core::StepInterval& interval,
                         const core::StepValues& values) override;
@@ -54,8 +56,12 @@ class Fmi1Unit final : public ScalarUnit<Fmi1Version>, public core::Capabilities
   static void on_log(fmi1Component component, fmi1String instance, fmi1Status status,
                      fmi1String category, fmi1String message, ...);
 
+  bool has_negated(References references) const;
+  void negate(References references, core::ValueBlock& values) const;
+
   core::StepResult handle_discard(const core::StepInterval& interval);
-  std::optional<Time> last_successful_time(const core::StepInterval& interval);
+  /// In seconds; nothing if it is not known.
+  std::optional<double> last_successful_time();
 
   bool is_new_step_ = true;
   std::shared_ptr<const Fmi1Library> library_;

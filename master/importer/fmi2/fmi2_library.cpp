@@ -5,15 +5,16 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
+
+#include "master/importer/scalar_types.h"
 
 namespace stride::importer {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// What Fmi2Unit may call for any Co-Simulation unit. What depends on a capability flag of the
-/// description, or is asked only where a unit knows more, is not here.
+/// What Fmi2Unit may call for any Co-Simulation unit. What depends on the description's capability
+/// flags or variables, or is asked only where a unit knows more, is not here.
 constexpr std::string_view kFmi2Needed[] = {
     "Instantiate",
     "FreeInstance",
@@ -21,14 +22,6 @@ constexpr std::string_view kFmi2Needed[] = {
     "EnterInitializationMode",
     "ExitInitializationMode",
     "Terminate",
-    "GetReal",
-    "SetReal",
-    "GetInteger",
-    "SetInteger",
-    "GetBoolean",
-    "SetBoolean",
-    "GetString",
-    "SetString",
     "DoStep",
 };
 
@@ -55,14 +48,12 @@ Fmi2Library::Fmi2Library(const fs::path& path, const std::string& model_identifi
 #undef STRIDE_FIND
   if (!missing.empty()) {
     const bool has_prefix = has(model_identifier + "_fmi2DoStep");
-    core::fail_input(
-        SharedLibrary::user(),
-        fmt::format("the library '{}' does not export {}, which an FMI 2.0 Co-Simulation unit must",
-                    SharedLibrary::shown_as(), fmt::join(missing, ", ")),
+    SharedLibrary::fail_missing(
+        missing, "which an FMI 2.0 Co-Simulation unit must",
         has_prefix ? fmt::format("its functions have the prefix '{}_' of a static library; compile "
                                  "it with FMI2_OVERRIDE_FUNCTION_PREFIX defined",
                                  model_identifier)
-                   : "export it with C linkage, default visibility and exactly this name");
+                   : "");
   }
   const std::string types = functions_.GetTypesPlatform != nullptr
                                 ? answer_of("question for the types", functions_.GetTypesPlatform)
@@ -74,6 +65,10 @@ Fmi2Library::Fmi2Library(const fs::path& path, const std::string& model_identifi
                   "'" FMI2_TYPES_PLATFORM "'",
                   SharedLibrary::shown_as(), types),
       "compile it with the fmi2TypesPlatform.h of the standard");
+}
+
+void Fmi2Library::require_functions(const core::UnitDescription& unit) const {
+  require_values(unit, "fmi2", &scalar_type_word);
 }
 
 }  // namespace stride::importer

@@ -27,6 +27,8 @@ class Fmi2Library : public SharedLibrary {
               core::Context user = {}, const std::filesystem::path& shown_as = {});
 
   const Fmi2Functions& functions() const { return functions_; }
+  /// Throws core::Error (Input) where it does not export what this unit needs further.
+  void require_functions(const core::UnitDescription& unit) const;
 
  private:
   Fmi2Functions functions_;

@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include "master/importer/fmi2/fmi2_log.h"
 #include "master/importer/printf_text.h"
 
 namespace stride::importer {
@@ -85,33 +84,6 @@ void Fmi2Unit::on_log(fmi2ComponentEnvironment environment, fmi2String, fmi2Stat
   } catch (...) {  // nothing may cross the unit's C code
   }
   va_end(arguments);
-}
-
-std::string Fmi2Unit::with_names(const std::string& message) const {
-  return name_variables(message,
-                        [&](char type, fmi2ValueReference r) { return variable_name(type, r); });
-}
-
-/// The first of them, if there are aliases.
-std::string Fmi2Unit::variable_name(char type, fmi2ValueReference reference) const {
-  const auto is_of_type = [&](core::ValueType t) {
-    switch (type) {
-      case 'r':
-        return t == core::ValueType::Float64;
-      case 'i':
-        return t == core::ValueType::Int32 || t == core::ValueType::Enumeration;
-      case 'b':
-        return t == core::ValueType::Boolean;
-      default:
-        return t == core::ValueType::String;
-    }
-  };
-  for (const core::Variable& variable : parts_.description->variables) {
-    if (unit_references_[variable.reference] == reference && is_of_type(variable.type)) {
-      return variable.name;
-    }
-  }
-  return "";
 }
 
 // ---- Values ----

@@ -101,8 +101,6 @@ class Fmi2Unit final
   static void on_log(fmi2ComponentEnvironment environment, fmi2String instance, fmi2Status status,
                      fmi2String category, fmi2String message, ...);
   static void on_step_finished(fmi2ComponentEnvironment environment, fmi2Status status);
-  std::string with_names(const std::string& message) const;
-  std::string variable_name(char type, fmi2ValueReference reference) const;
 
   void get(const core::BoundValues& values);
   void set(const core::BoundValues& values);
@@ -121,11 +119,12 @@ class Fmi2Unit final
   core::StepResult handle_discard(const core::StepInterval& interval);
   core::StepResult accept_termination(const core::StepInterval& interval,
                                       std::optional<Time> reached);
-  core::StepResult accept_partial_step(const core::StepInterval& interval,
-                                       std::optional<Time> reached);
+  core::StepResult accept_partial_step(const core::StepInterval& interval, Time reached);
+  [[noreturn]] void fail_partial_step(const core::StepInterval& interval,
+                                      std::optional<double> seconds) const;
   template <class Function, class Value>
   bool query_status(const char* name, Function* function, fmi2StatusKind kind, Value* value);
-  std::optional<Time> last_successful_time(const core::StepInterval& interval);
+  std::optional<double> last_successful_time();
   bool requests_termination();
 
   bool saves_each_step_;

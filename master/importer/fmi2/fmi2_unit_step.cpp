@@ -8,6 +8,12 @@
 #include "master/util/time_text.h"
 
 namespace stride::importer {
+namespace {
+
+constexpr const char* kFmi2LastSuccessfulTime = "fmi2LastSuccessfulTime";
+
+}  // namespace
+
 Status Fmi2Unit::do_step(const core::StepInterval& interval, double size) {
   if (callbacks_.stepFinished != nullptr) asynchronous_.begin();
   // noSetFMUStatePriorToCurrentPoint
@@ -98,9 +104,13 @@ std::string Fmi2Unit::pending_text() {
 
 core::StepResult Fmi2Unit::handle_discard(const core::StepInterval& interval) {
   take_rejection_reason("fmi2DoStep");
-  const std::optional<Time> reached = last_successful_time(interval);
+  const std::optional<double> seconds = last_successful_time();
+  const std::optional<Time> reached = instant_within(interval, seconds, kFmi2LastSuccessfulTime);
   if (requests_termination()) return accept_termination(interval, reached);
-  if (!saves_each_step_) return accept_partial_step(interval, reached);
+  if (!saves_each_step_) {
+    if (!reached || *reached == interval.from) fail_partial_step(interval, seconds);
+    return accept_partial_step(interval, *reached);
+  }
   restore(is_as_saved_ ? states_.chosen() : before_step_);
   return {.rejected = true, .reached = reached.value_or(interval.from)};
 }
@@ -123,27 +133,26 @@ core::StepResult Fmi2Unit::accept_termination(const core::StepInterval& interval
       .early_return = *reached != interval.to, .terminate_simulation = true, .reached = *reached};
 }
 
+void Fmi2Unit::fail_partial_step(const core::StepInterval& interval,
+                                 std::optional<double> seconds) const {
+  const std::string hint = step_hint();
+  fail(fmt::format("fmi2DoStep returned fmi2Discard in the step to {} s, the unit {}, and its "
+                   "state was not saved, since it cannot be (canGetAndSetFMUstate){}{}",
+                   core::to_text(interval.to), how_far(interval, seconds, kFmi2LastSuccessfulTime),
+                   rejection_reason_.empty() ? "" : "; message of the unit: ", rejection_reason_),
+       hint.empty() ? "try a smaller step, or use a unit that can save its state" : hint);
+}
+
 /// For a unit whose state before the step was not saved.
-core::StepResult Fmi2Unit::accept_partial_step(const core::StepInterval& interval,
-                                               std::optional<Time> reached) {
-  if (!reached || *reached == interval.from) {
-    const std::string hint = short_step_hint();
-    fail(fmt::format("fmi2DoStep returned fmi2Discard in the step to {} s, the unit {}, and its "
-                     "state was not saved, since it cannot be (canGetAndSetFMUstate){}{}",
-                     core::to_text(interval.to),
-                     reached ? "reports that it came no further than where the step began"
-                             : "does not report how far it came (fmi2LastSuccessfulTime)",
-                     rejection_reason_.empty() ? "" : "; message of the unit: ", rejection_reason_),
-         hint.empty() ? "try a smaller step, or use a unit that can save its state" : hint);
-  }
+core::StepResult Fmi2Unit::accept_partial_step(const core::StepInterval& interval, Time reached) {
   if (!std::exchange(has_discard_warning_, true)) {
     warn(
         fmt::format("the step to {} s ended at {} s (fmi2Discard), and the unit's state cannot be "
                     "restored (canGetAndSetFMUstate), so all go on from there, here and in later "
                     "steps; FMI 2.0 allows such a unit to be ended only, so look at its results",
-                    core::to_text(interval.to), core::to_text(*reached)));
+                    core::to_text(interval.to), core::to_text(reached)));
   }
-  return {.early_return = *reached != interval.to, .reached = *reached};
+  return {.early_return = reached != interval.to, .reached = reached};
 }
 
 /// Returns whether the unit has an answer.
@@ -156,12 +165,12 @@ bool Fmi2Unit::query_status(const char* name, Function* function, fmi2StatusKind
   return status == Status::Ok || status == Status::Warning;
 }
 
-/// Nothing if it is not known, or not in the step.
-std::optional<Time> Fmi2Unit::last_successful_time(const core::StepInterval& interval) {
+/// In seconds; nothing if it is not known.
+std::optional<double> Fmi2Unit::last_successful_time() {
   double seconds = 0;
   const bool is_known =
       query_status("fmi2GetRealStatus", fmi_.GetRealStatus, fmi2LastSuccessfulTime, &seconds);
-  return is_known ? instant_within(interval, seconds, "fmi2LastSuccessfulTime") : std::nullopt;
+  return is_known ? std::optional(seconds) : std::nullopt;
 }
 
 bool Fmi2Unit::requests_termination() {

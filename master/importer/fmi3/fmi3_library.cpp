@@ -16,29 +16,22 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What Fmi3Unit may call for any Co-Simulation unit. What depends on a capability flag of the
-/// description, and what belongs to another interface type, is not here.
+/// What Fmi3Unit may call for any Co-Simulation unit. What depends on the description's capability
+/// flags or variables, and what belongs to another interface type, is not here.
 constexpr std::string_view kFmi3Needed[] = {
-    "GetVersion",    "InstantiateCoSimulation",
-    "FreeInstance",  "EnterInitializationMode",
-    "DoStep",        "ExitInitializationMode",
-    "Terminate",     "EnterEventMode",
-    "EnterStepMode", "UpdateDiscreteStates",
-    "GetFloat32",    "SetFloat32",
-    "GetFloat64",    "SetFloat64",
-    "GetInt8",       "SetInt8",
-    "GetUInt8",      "SetUInt8",
-    "GetInt16",      "SetInt16",
-    "GetUInt16",     "SetUInt16",
-    "GetInt32",      "SetInt32",
-    "GetUInt32",     "SetUInt32",
-    "GetInt64",      "SetInt64",
-    "GetUInt64",     "SetUInt64",
-    "GetBoolean",    "SetBoolean",
-    "GetString",     "SetString",
-    "GetBinary",     "SetBinary",
-    "GetClock",      "SetClock",
+    "GetVersion",
+    "InstantiateCoSimulation",
+    "FreeInstance",
+    "EnterInitializationMode",
+    "ExitInitializationMode",
+    "DoStep",
+    "Terminate",
 };
+
+/// FMI has no functions of its own for Enumerations.
+const char* fmi3_type_word(core::ValueType type) {
+  return core::name(type == core::ValueType::Enumeration ? core::ValueType::Int64 : type);
+}
 
 constexpr std::size_t kFmi3NeededFound = 0
 #define STRIDE_COUNT(name) +(contains(kFmi3Needed, #name) ? 1 : 0)
@@ -69,11 +62,19 @@ Fmi3Library::Fmi3Library(const fs::path& path, core::Context user, const fs::pat
   find(self_description_, "strideModelDescription");
   find(idle_manifest_, "strideIdleManifest");
   if (missing.empty()) return;
-  core::fail_input(SharedLibrary::user(),
-                   fmt::format("the library '{}' does not export {}, which an FMI 3.0 "
-                               "Co-Simulation unit must",
-                               SharedLibrary::shown_as(), fmt::join(missing, ", ")),
-                   "export it with C linkage, default visibility and exactly this name");
+  SharedLibrary::fail_missing(missing, "which an FMI 3.0 Co-Simulation unit must");
+}
+
+void Fmi3Library::require_functions(const core::UnitDescription& unit) const {
+  require_values(unit, "fmi3", &fmi3_type_word);
+  if (!unit.has_event_mode) return;
+  std::vector<std::string> missing;
+  for (const char* function :
+       {"fmi3EnterEventMode", "fmi3EnterStepMode", "fmi3UpdateDiscreteStates"}) {
+    if (!has(function)) missing.emplace_back(function);
+  }
+  if (missing.empty()) return;
+  SharedLibrary::fail_missing(missing, "which a unit with Event Mode (hasEventMode) must");
 }
 
 std::string Fmi3Library::describe(const fs::path& resources, const core::Location& where) const {

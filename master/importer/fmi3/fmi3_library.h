@@ -45,6 +45,8 @@ class Fmi3Library : public SharedLibrary {
                        const std::filesystem::path& shown_as = {});
 
   const Fmi3Functions& functions() const { return functions_; }
+  /// Throws core::Error (Input) where it does not export what this unit needs further.
+  void require_functions(const core::UnitDescription& unit) const;
   const IdleFunctions& idle_functions() const { return idle_functions_; }
   const DescribeFunctions& describe_functions() const { return describe_functions_; }
   /// Throws core::Error of the kind Input that names the functions of idle skipping that are

@@ -14,6 +14,7 @@
 #include <locale.h>
 #include <unistd.h>
 
+#include "master/util/archive/entry_name.h"
 #include "master/util/archive/zip_directory.h"
 #include "master/util/input_file.h"
 
@@ -162,7 +163,7 @@ class Extraction {
   void unpack_entry() {
     const char* name = archive_entry_pathname_utf8(entry_);
     if (name == nullptr) name = archive_entry_pathname(entry_);
-    name_ = name != nullptr ? name : "";
+    name_ = entry_name(name != nullptr ? name : "");
     const fs::path target = folder_ / checked_name();
     const mode_t type = archive_entry_filetype(entry_);
     if (archive_entry_hardlink(entry_) != nullptr) fail_entry("a hard link");

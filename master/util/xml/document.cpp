@@ -164,6 +164,16 @@ const tinyxml2::XMLElement* find_undeclared(const tinyxml2::XMLElement& below,
   return nullptr;
 }
 
+/// Whether a tool that writes this means the namespace: with https, or with a '/' at its end.
+bool means(std::string_view written, std::string_view name_space) {
+  constexpr std::string_view kSecure = "https://";
+  constexpr std::string_view kPlain = "http://";
+  std::string plain = without_blanks(written);
+  if (plain.ends_with('/')) plain.pop_back();
+  if (plain.starts_with(kSecure)) plain.replace(0, kSecure.size(), kPlain);
+  return plain == name_space && written != name_space;
+}
+
 }  // namespace
 
 struct Document::Content {
@@ -172,6 +182,23 @@ struct Document::Content {
   std::vector<std::string> warnings;
   tinyxml2::XMLDocument document;
 };
+
+/// Puts the namespace in place of what means it, in the element and all below it.
+void Document::respell(const Prefix& prefix, tinyxml2::XMLElement& below, Content& content) {
+  for (const auto* own = below.FirstAttribute(); own != nullptr; own = own->Next()) {
+    const std::string name = own->Name();
+    const bool declares = name == "xmlns" || name.starts_with("xmlns:");
+    if (!declares || !means(own->Value(), prefix.name_space)) continue;
+    content.warnings.push_back(
+        core::to_text({.where = {content.file, below.GetLineNum()}}) +
+        fmt::format("{}=\"{}\" is taken for {}", name, own->Value(), prefix.name_space));
+    below.SetAttribute(name.c_str(), prefix.name_space);
+  }
+  for (auto* child = below.FirstChildElement(); child != nullptr;
+       child = child->NextSiblingElement()) {
+    respell(prefix, *child, content);
+  }
+}
 
 /// Where it is used without a declaration, the root gets one.
 void Document::declare(const Prefix& prefix, tinyxml2::XMLElement& root, Content& content) {
@@ -222,7 +249,10 @@ Document Document::parse(std::string bytes, const std::string& shown_as,
     fail(shown_as, "this is not well-formed XML: there is an end tag with a '/' at its end",
          "write </name> to end an element, and <name/> for an empty one");
   }
-  for (const Prefix& prefix : known) declare(prefix, *root, *content);
+  for (const Prefix& prefix : known) {
+    respell(prefix, *root, *content);
+    declare(prefix, *root, *content);
+  }
   return Document(std::move(content));
 }
 

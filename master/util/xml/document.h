@@ -26,7 +26,7 @@ class Document {
   explicit Document(const std::filesystem::path& path, const std::string& shown_as = "",
                     std::span<const Prefix> known = {});
   /// The same from what the file holds. Prefixes that are `known` may be used without a
-  /// declaration.
+  /// declaration, and their namespaces be written with https, or with a '/' at the end.
   static Document parse(std::string bytes, const std::string& shown_as,
                         std::span<const Prefix> known = {});
   ~Document();
@@ -35,14 +35,15 @@ class Document {
 
   /// In UTF-8, whatever the encoding of the file; its lines and elements are those of the file.
   const std::string& text() const;
-  /// Of bytes that are no characters in the encoding that the file declares, and of prefixes that
-  /// it does not declare.
+  /// Of bytes that are no characters in the encoding that the file declares, of prefixes that it
+  /// does not declare, and of namespaces that are written in another way.
   const std::vector<std::string>& warnings() const;
   /// Valid as long as the document, also when that is moved.
   Element root() const;
 
  private:
   struct Content;
+  static void respell(const Prefix& prefix, tinyxml2::XMLElement& below, Content& content);
   static void declare(const Prefix& prefix, tinyxml2::XMLElement& root, Content& content);
   explicit Document(std::unique_ptr<Content> content);
 

@@ -50,6 +50,12 @@ std::vector<std::string_view> split(std::string_view list) {
   }
 }
 
+std::string without_blanks(std::string_view text) {
+  const auto words = split(text);
+  if (words.empty()) return "";
+  return {words.front().data(), words.back().data() + words.back().size()};
+}
+
 Element::Element(const tinyxml2::XMLElement& element, const std::string& file)
     : element_(&element), file_(&file) {}
 
@@ -69,9 +75,7 @@ std::string Element::tag() const { return fmt::format("<{}>", element_->Name());
 
 std::string Element::text() const {
   const char* const characters = element_->GetText();
-  const auto words = split(characters != nullptr ? characters : "");
-  if (words.empty()) return "";
-  return {words.front().data(), words.back().data() + words.back().size()};
+  return without_blanks(characters != nullptr ? characters : "");
 }
 
 core::Location Element::where() const { return {*file_, element_->GetLineNum()}; }
@@ -137,7 +141,7 @@ std::string Element::required(const char* name) const {
 }
 
 bool Element::lenient_flag(const char* name, std::vector<std::string>& warnings) const {
-  const std::string value = attribute_or(name);
+  const std::string value = without_blanks(attribute_or(name));
   const std::string lower = core::lower_case(value);
   if (lower == value || (lower != "true" && lower != "false")) return flag(name);
   warnings.push_back(core::to_text({.where = where()}) +
@@ -148,8 +152,9 @@ bool Element::lenient_flag(const char* name, std::vector<std::string>& warnings)
 bool Element::flag(const char* name, bool otherwise) const {
   const auto value = attribute(name);
   if (!value) return otherwise;
-  if (*value == "true" || *value == "1") return true;
-  if (*value == "false" || *value == "0") return false;
+  const std::string word = without_blanks(*value);
+  if (word == "true" || word == "1") return true;
+  if (word == "false" || word == "0") return false;
   fail(fmt::format("{}=\"{}\" of {}: expected true or false", name, *value, tag()));
 }
 

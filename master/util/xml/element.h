@@ -24,6 +24,9 @@ namespace stride::xml {
 /// The words of a list (xs:list).
 std::vector<std::string_view> split(std::string_view list);
 
+/// What is between the blanks around a text, which count for nothing in most types of XML.
+std::string without_blanks(std::string_view text);
+
 /// The whole word as a number (xs:int and its kin, xs:float, xs:double).
 template <class T>
 std::optional<T> to_number(std::string_view word) {

@@ -3,15 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <cerrno>
 #include <optional>
 #include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
-#include <iconv.h>
 #include <utf8.h>
 
+#include "master/util/character_converter.h"
 #include "master/util/error.h"
 #include "master/util/lower_case.h"
 #include "master/util/readable_text.h"
@@ -77,55 +76,14 @@ bool counts_as_utf8(const std::string& encoding) {
          std::ranges::any_of(kWide, [&](auto wide) { return encoding.starts_with(wide); });
 }
 
-class Converter {
- public:
-  /// To UTF-8.
-  explicit Converter(const char* encoding) : handle_(::iconv_open("UTF-8", encoding)) {}
-  ~Converter() {
-    if (is_open()) ::iconv_close(handle_);
-  }
-  Converter(const Converter&) = delete;
-  Converter& operator=(const Converter&) = delete;
-
-  /// Whether iconv knows the encoding.
-  bool is_open() const { return handle_ != reinterpret_cast<iconv_t>(-1); }
-
-  /// Appends the characters up to the end or to the first bytes that are none, and takes them off.
-  void append(std::string_view& bytes, std::string& text) {
-    auto* from = const_cast<char*>(bytes.data());  // iconv does not write there
-    std::size_t left = bytes.size();
-    std::size_t result = 0;
-    do {
-      std::array<char, 4096> piece;
-      char* to = piece.data();
-      std::size_t room = piece.size();
-      result = ::iconv(handle_, &from, &left, &to, &room);
-      text.append(piece.data(), to);
-    } while (result == static_cast<std::size_t>(-1) && errno == E2BIG);
-    bytes.remove_prefix(bytes.size() - left);
-  }
-
-  /// Appends what it keeps back of encodings whose characters may be combined with the next one.
-  void append_rest(std::string& text) {
-    std::array<char, 64> piece;
-    char* to = piece.data();
-    std::size_t room = piece.size();
-    ::iconv(handle_, nullptr, nullptr, &to, &room);
-    text.append(piece.data(), to);
-  }
-
- private:
-  iconv_t handle_;
-};
-
 std::string place_at_end_of(std::string_view text, const std::string& file) {
   const auto line = 1 + static_cast<int>(std::ranges::count(text, '\n'));
   return core::to_text({.where = {file, line}});
 }
 
 /// `unit_size`: how many bytes are left out where they are no character.
-DecodedText convert(std::string_view bytes, Converter& converter, const std::string& encoding,
-                    std::size_t unit_size, const std::string& file) {
+DecodedText convert(std::string_view bytes, core::CharacterConverter& converter,
+                    const std::string& encoding, std::size_t unit_size, const std::string& file) {
   DecodedText decoded;
   for (converter.append(bytes, decoded.text); !bytes.empty();
        converter.append(bytes, decoded.text)) {
@@ -146,7 +104,7 @@ DecodedText convert(std::string_view bytes, Converter& converter, const std::str
 
 /// Of which only some bytes are no UTF-8.
 DecodedText repair(std::string_view bytes, const std::string& file) {
-  Converter windows("WINDOWS-1252");
+  core::CharacterConverter windows("WINDOWS-1252");
   DecodedText decoded;
   while (!bytes.empty()) {
     const auto* const invalid = utf8::find_invalid(bytes.begin(), bytes.end());
@@ -177,7 +135,7 @@ DecodedText declared_as_utf8(DecodedText decoded) {
 
 DecodedText decode(std::string bytes, const std::string& file) {
   if (const WideEncoding* const wide = find_wide_encoding(bytes)) {
-    Converter converter(wide->name);
+    core::CharacterConverter converter(wide->name);
     const std::string_view characters = std::string_view(bytes).substr(wide->mark_size);
     return declared_as_utf8(convert(characters, converter, wide->name, wide->unit_size, file));
   }
@@ -189,7 +147,7 @@ DecodedText decode(std::string bytes, const std::string& file) {
                ? DecodedText{std::move(bytes), ""}
                : repair(bytes, file);
   }
-  Converter converter(is_encoding_name(encoding) ? encoding.c_str() : "");
+  core::CharacterConverter converter(is_encoding_name(encoding) ? encoding.c_str() : "");
   if (!is_encoding_name(encoding) || !converter.is_open()) {
     core::fail_input({.where = {file, 1}}, fmt::format("the encoding '{}' is not known", encoding),
                      "save it as XML with the encoding UTF-8");

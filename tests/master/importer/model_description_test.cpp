@@ -116,6 +116,16 @@ Initial initial_of(const std::string& attributes, const std::string& type = "Flo
 
 }  // namespace
 
+TEST_CASE("a version of FMI without its minor number is the first one, with a warning") {
+  std::string text = kComplete;
+  const std::string version = "fmiVersion=\"3.0\"";
+  text.replace(text.find(version), version.size(), "fmiVersion=\"3\"");
+  const auto unit = importer::parse_model_description(text, "unit.xml");
+  CHECK(unit.fmi_version == "3.0");
+  REQUIRE(!unit.warnings.empty());
+  CHECK_THAT(unit.warnings[0], Contains("unit.xml:2: fmiVersion=\"3\" is taken for 3.0"));
+}
+
 TEST_CASE("the unit as a whole") {
   const auto unit = importer::parse_model_description(kComplete, "unit.xml");
   CHECK(unit.fmi_version == "3.0");

@@ -42,6 +42,20 @@ TEST_CASE("more arguments than fit into registers come in their order") {
              6., 7., 8., 9., 10., "end") == "12345678 12345678910 end");
 }
 
+TEST_CASE("arguments may be named by their places") {
+  CHECK(text("%2$s of %1$d: %3$.2f %%, %1$03d again", 3, "ten", 0.25) ==
+        "ten of 3: 0.25 %, 003 again");
+  CHECK(text("%2$lld %1$s", "x", -4LL) == "-4 x");
+}
+
+TEST_CASE("places without a known type, or beside arguments without places, are left") {
+  CHECK(text("%2$s", 1, "x") == "%2$s");
+  CHECK(text("%1$s %s", "x", "y") == "%1$s %s");
+  CHECK(text("%1$s %1$d", "x") == "%1$s %1$d");
+  CHECK(text("%1$*d", 1, 2) == "%1$*d");
+  CHECK(text("%0$d %d", 1) == "%0$d %d");
+}
+
 TEST_CASE("a text whose memory cannot be read is none") {
   CHECK(text("<%s> <%s> %d", nullptr, reinterpret_cast<const char*>(8), 3) ==
         "<(no text)> <(no text)> 3");

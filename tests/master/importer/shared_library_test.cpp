@@ -124,7 +124,8 @@ TEST_CASE("a library that is needed, in the FMU and damaged is named") {
 TEST_CASE("a library that is needed and in the FMU is loaded from there") {
   const Scratch scratch;
   const std::string folder = std::string("unit/binaries/") + importer::platform();
-  const std::string place = GENERATE(true, false) ? folder : "unit/resources";
+  const std::string place =
+      GENERATE_COPY(as<std::string>(), folder, folder + "/lib/deep", "unit/resources");
   fs::create_directories(scratch / folder);
   fs::create_directories(scratch / place);
   fs::copy_file(raw_library("raw_with_missing_library"), scratch / (folder + "/unit.so"));
@@ -133,6 +134,20 @@ TEST_CASE("a library that is needed and in the FMU is loaded from there") {
   const importer::Fmi3Library library(scratch / (folder + "/unit.so"));
   REQUIRE(library.companions().size() == 1);
   CHECK(fs::equivalent(library.companions()[0], needed));
+}
+
+TEST_CASE("a library that is needed and elsewhere in the FMU is named with its places") {
+  const Scratch scratch;
+  const std::string folder = std::string("unit/binaries/") + importer::platform();
+  fs::create_directories(scratch / folder);
+  fs::copy_file(raw_library("raw_with_missing_library"), scratch / (folder + "/unit.so"));
+  scratch.write("unit/resources/lib/libstride_test_absent.so", "x");
+  scratch.write("unit/binaries/aarch64-linux.old/libstride_test_absent.so", "x");
+  CHECK_THAT(error_of_loading(scratch / (folder + "/unit.so")),
+             Contains("which was not found; the FMU has a file of this name as "
+                      "'binaries/aarch64-linux.old/libstride_test_absent.so', "
+                      "'resources/lib/libstride_test_absent.so'") &&
+                 Contains("put it beside the unit's library"));
 }
 
 TEST_CASE("a pointer of Git LFS in place of a library is named") {

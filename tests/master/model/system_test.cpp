@@ -117,12 +117,40 @@ TEST_CASE("names that do not exist are named with the nearest that does") {
 }
 
 TEST_CASE("a connection goes from an output to an input of the same type and size") {
-  CHECK_THAT(reason({wire("u", "u")}), Contains("'alpha.u' is not an output but input"));
-  CHECK_THAT(reason({wire("y", "y")}), Contains("'beta.y' is not an input but output"));
+  CHECK_THAT(reason({wire("u", "u")}),
+             Contains("'alpha.u' is not an output but input, and 'beta.u' is input") &&
+                 Contains("connect the output that both are to follow to each of them"));
+  CHECK_THAT(reason({wire("y", "y")}),
+             Contains("'beta.y' is not an input but output, and 'alpha.y' is output") &&
+                 Contains("end the connection at an input"));
   CHECK_THAT(reason({wire("y", "gain")}), Contains("'beta.gain' is not an input but parameter"));
   CHECK_THAT(reason({wire("y", "n")}), Contains("Float64 and Int32 are different types"));
   CHECK_THAT(reason({wire("pair", "trio")}), Contains("an array of 2 elements and an array of 3"));
   CHECK_THAT(reason({wire("y", "trio")}), Contains("a scalar and an array of 3"));
+}
+
+TEST_CASE("a connection from an input to an output is one the other way round, with a warning") {
+  SystemDeclaration declared = declaration();
+  declared.connections = {wire("u", "y", 9), wire("frame_in", "frame_out", 10),
+                          wire("clock_in", "clock_out", 11)};
+  const System system(declared);
+  REQUIRE(system.connections().size() == 3);
+  CHECK(system.full_name(system.connections()[0].from) == "beta.y");
+  CHECK(system.full_name(system.connections()[0].to) == "alpha.u");
+  CHECK(system.connections()[0].conversion.linear.factor == Approx(1e-3));
+  REQUIRE(system.warnings().size() == 3);
+  CHECK_THAT(
+      system.warnings()[0],
+      Contains("s.ssd:9: the connection starts at 'alpha.u', which is input, and ends at "
+               "'beta.y', which is output: it is taken for one from 'beta.y' to 'alpha.u'") &&
+          Contains("hint: swap start and end"));
+  ConnectionDeclaration second = wire("t", "u", 12);
+  second.to_component = "alpha";
+  declared.connections.push_back(second);
+  CHECK_THAT(reason(declared), Contains("'alpha.t' is in 's'"));
+  declared.connections.back().suppress_unit_conversion = true;
+  CHECK_THAT(reason(declared), Contains("unit 'alpha', variable 'u': this input has two sources: "
+                                        "'alpha.t' here and 'beta.y' in line 9"));
 }
 
 TEST_CASE("units that do not fit are an error that can be overruled") {
@@ -405,6 +433,7 @@ TEST_CASE("start values are converted, parsed and refused where they cannot be s
   CHECK_THAT(with({"beta", "ranged", "nan", "", {}}),
              Contains("nan is out of range, expected a number"));
   CHECK(with({"beta", "ranged", "2", "", {}}) == "accepted");
+  CHECK(with({"beta", "gain", "NaN", "", {}}) == "accepted");
   CHECK_THAT(with({"beta", "u", "1", "s", {}}), Contains("the value is in 's'"));
   SystemDeclaration declared = declaration();
   declared.start_values = {{"beta", "u", "1500", "mm", {}}};

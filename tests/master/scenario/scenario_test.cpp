@@ -191,6 +191,9 @@ TEST_CASE("What is misspelt is refused, and the right word suggested") {
            "endConnector='y' suppressUnitConversions='true'/></ssd:Connections>"),
        "has no attribute 'suppressUnitConversions'", "did you mean 'suppressUnitConversion'?"},
       {ssd_with("<ssd:Component name='a' source='a.fmu'><ssd:Connectors><ssd:Connector name='x' "
+                "kind='output' type='Real'/></ssd:Connectors></ssd:Component>"),
+       "<ssd:Connector> has no attribute 'type'", "its type is an element in it: <ssc:Real/>"},
+      {ssd_with("<ssd:Component name='a' source='a.fmu'><ssd:Connectors><ssd:Connector name='x' "
                 "kind='ouput'/></ssd:Connectors></ssd:Component>"),
        "the kind 'ouput' is not known", "did you mean 'output'?"},
       {ssd_with("<ssd:Component name='a' source='a.fmu'><ssd:Connectors><ssd:Connector name='x' "
@@ -280,6 +283,20 @@ TEST_CASE("a component of another type is an FMU if its source is one, with a wa
   CHECK_THROWS_WITH(
       read(ssd_with("<ssd:Component name='a' source='a.dll' type='application/x-dll'/>")),
       Contains("components of the type 'application/x-dll'"));
+}
+
+TEST_CASE("the experiment of a system may have a step, as that of an FMU has, and must be right") {
+  const auto with = [](const std::string& attributes) {
+    return read(ssd("<ssd:System name='s'><ssd:Elements>" + std::string(kComponent) +
+                    "</ssd:Elements></ssd:System>\n<ssd:DefaultExperiment " + attributes + "/>"));
+  };
+  const Scenario scenario = with("stepSize='0.5' tolerance='1e-6'");
+  REQUIRE(scenario.vendor_step);
+  CHECK(scenario.vendor_step->size == std::chrono::milliseconds(500));
+  REQUIRE(scenario.warnings.size() == 1);
+  CHECK_THAT(scenario.warnings[0], Contains("the tolerance of <ssd:DefaultExperiment> is ignored"));
+  CHECK_THROWS_WITH(with("stepSize='0,5'"), Contains("stepSize='0,5' is not a number; expected"));
+  CHECK_THROWS_WITH(with("stepSize='0'"), Contains("expected a number of seconds above 0"));
 }
 
 TEST_CASE("the fixed step of another tool is found in any of its annotations") {

@@ -50,13 +50,45 @@ TEST_CASE("a package is read by its SystemStructure.ssd, or the one that is name
 TEST_CASE("the system of a package may be in another case, or in the folder that was packed") {
   const TemporaryFolder folder;
   const archive::Content system{system_named("one"), {}, false};
-  const auto name = GENERATE(as<std::string>(), "systemstructure.SSD", "pkg/SystemStructure.ssd");
-  const auto file = package(folder, {{name, system}, {"__MACOSX/._pkg", {"x", {}, false}}});
+  const auto name = GENERATE(as<std::string>(), "systemstructure.SSD", "pkg/SystemStructure.ssd",
+                             "crane.ssd", "pkg/crane.SSD", "a/b/SystemStructure.ssd");
+  const archive::Content other{"x", {}, false};
+  const auto file = package(
+      folder, {{name, system}, {"__MACOSX/pkg/SystemStructure.ssd", other}, {".DS_Store", other}});
   const Scenario scenario = read_scenario(file);
   CHECK(scenario.system.components.at(0).name == "one");
   REQUIRE(scenario.warnings.size() == 1);
   CHECK_THAT(scenario.warnings[0],
              Contains("p.ssp' has its SystemStructure.ssd as '" + name + "'"));
+}
+
+TEST_CASE("a package with several systems, none of which is called so, asks for the name of one") {
+  const TemporaryFolder folder;
+  const archive::Content system{system_named("one"), {}, false};
+  const auto file = package(folder, {{"a.ssd", system}, {"b.ssd", system}});
+  CHECK_THROWS_WITH(read_scenario(file),
+                    Contains("p.ssp' has no SystemStructure.ssd; it holds a.ssd, b.ssd") &&
+                        Contains("hint: name one of its systems: ") && Contains("p.ssp/a.ssd"));
+  CHECK(first_component(file / "b.ssd") == "one");
+  const auto nested = package(
+      folder, {{"a/SystemStructure.ssd", system}, {"b/SystemStructure.ssd", system}}, "q.ssp");
+  CHECK_THROWS_WITH(read_scenario(nested),
+                    Contains("pack the contents of each as a package of its own"));
+}
+
+TEST_CASE("an FMU is a scenario of itself") {
+  const TemporaryFolder folder;
+  const archive::Content content{"<x/>", {}, false};
+  const auto file = package(folder, {{"modelDescription.xml", content}},
+                            GENERATE(as<std::string>(), "my & unit.fmu", "my & unit.zip"));
+  const Scenario scenario = read_scenario(file);
+  CHECK(scenario.name == "my & unit");
+  CHECK(scenario.system.components.at(0).name == "my & unit");
+  CHECK(scenario.sources.at(0) == file);
+  folder.write("modelDescription.xml", "<x/>");
+  CHECK(std::filesystem::equivalent(read_scenario(folder / "").sources.at(0), folder / ""));
+  CHECK_THROWS_WITH(Files().system_file(file),
+                    Contains("hint: it is an FMU: 'stride run' runs it"));
 }
 
 TEST_CASE("a package in a package that is no archive is named by both") {

@@ -230,6 +230,15 @@ TEST_CASE("references to a signal dictionary share its signals, across systems")
   const Scenario scenario = read(with(wire("link.speed", "c.u")));
   CHECK(paths(scenario) == Strings{"a.y > s.link.speed > s.c.u"});
   CHECK(scenario.system.connections[0].via[0].connector.unit.name == "m/s");
+  std::string without_source = with(wire("link.speed", "c.u"));
+  const std::string source = wire("a.y", "link.speed");
+  without_source.replace(without_source.find(source), source.size(), wire("link.speed", "a.y"));
+  const Scenario open = read(without_source);
+  REQUIRE(open.warnings.size() == 1);
+  CHECK_THAT(
+      open.warnings[0],
+      Contains("the signal 's.link.speed' has no source, so 's.c.u' gets no value from it") &&
+          Contains("declare the connectors with their kinds"));
   CHECK_THROWS_WITH(read(with(wire("link.sped", "c.u"))),
                     Contains("has no entry 'sped'") && Contains("did you mean 'speed'?"));
   CHECK_THROWS_WITH(read(ssd(system("root", "", component("a") + reference, ""))),

@@ -304,6 +304,8 @@ TEST_CASE("Parameters that cannot be meant are refused") {
       {one("<ssv:String><ssv:Value value='a b'/><ssv:Value value='c'/></ssv:String>"),
        "does not support an array with an element that is empty or has blanks"},
       {one("<ssv:Real valeu='1'/>"), "has no attribute 'valeu'"},
+      {component_with(inline_binding("<ssv:Parameter name='x' type='Real' value='1'/>")),
+       "its value is an element in it: <ssv:Real value="},
       {component_with("<ssd:ParameterBinding/>"), "has neither a source nor <ParameterValues>"},
       {component_with("<ssd:ParameterBinding type='text/csv' source='a.csv'/>"),
        "does not support parameters of the type 'text/csv'"},

@@ -37,6 +37,12 @@ std::string map_entry(const std::string& source, const std::string& target) {
 
 }  // namespace
 
+TEST_CASE("True and FALSE of a mapping are taken, with a warning in the system's") {
+  const auto mapped =
+      with(mapping("Boolean", map_entry("True", "FALSE") + map_entry(" 0 ", "1"))).transformation;
+  CHECK(mapped.numbers == NumberMap{{0, 1}, {1, 0}});
+}
+
 TEST_CASE("each transformation of SSP is read") {
   CHECK(with("").transformation.kind == Kind::None);
   const auto linear = with("<ssc:LinearTransformation factor='-2.5' offset='1e3'/>").transformation;

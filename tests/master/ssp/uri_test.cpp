@@ -29,6 +29,7 @@ TEST_CASE("A source is a path relative to the scenario's folder") {
   CHECK(resolve("../units/unit.fmu") == "units/unit.fmu");
   CHECK(resolve("/opt/unit.fmu") == "/opt/unit.fmu");
   CHECK(resolve("my%20unit%2b.fmu") == "runs/my unit+.fmu");
+  CHECK(resolve(" unit.fmu\n") == "runs/unit.fmu");
 }
 
 TEST_CASE("The scheme file is understood") {

@@ -1,7 +1,8 @@
 /* A stand-alone Co-Simulation unit of FMI 1.0 in C99 against the ABI alone, as another tool's is: a
  * tank whose level rises by `inflow`, and values of all types that are handed on. A unit is strict
  * where the standard is. The parameter `mood` makes a step behave: 1 warns, 2 refuses steps longer
- * than `longest`, 3 completes `longest` of them, 4 returns fmiError, 5 fmiPending. */
+ * than `longest`, 3 completes `longest` of them, 4 returns fmiError, 5 fmiPending, 6 refuses
+ * each step and reports a time before it. */
 #include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
@@ -49,6 +50,8 @@ static void start(Unit* unit) {
   unit->is_initialized = unit->is_ended = false;
   memset(unit->real, 0, sizeof unit->real);
   memset(unit->integer, 0, sizeof unit->integer);
+  memset(unit->boolean, 0, sizeof unit->boolean);
+  memset(unit->string, 0, sizeof unit->string);
   unit->real[kInflow] = 1;
   unit->real[kLongest] = 0.25;
 }
@@ -147,7 +150,7 @@ EXPORT fmi1Status NAMED(DoStep)(fmi1Component c, fmi1Real point, fmi1Real size,
   unit->completed = point;
   switch (unit->integer[kMood]) {
     case 1:
-      LOG(unit, fmi1Warning, "it gets %s", "hot");
+      LOG(unit, fmi1Warning, "#r1# gets %s", "hot");
       return advance(unit, size, fmi1Warning);
     case 2:
       return size > longest ? fmi1Discard : advance(unit, size, fmi1OK);
@@ -158,6 +161,9 @@ EXPORT fmi1Status NAMED(DoStep)(fmi1Component c, fmi1Real point, fmi1Real size,
       return fmi1Error;
     case 5:
       return fmi1Pending;
+    case 6:
+      unit->completed = point - 1;
+      return fmi1Discard;
     default:
       return advance(unit, size, fmi1OK);
   }

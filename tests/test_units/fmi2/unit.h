@@ -232,7 +232,9 @@ static bool may_get(Unit* unit) {
 ACCESS(Real, real, STORE)
 ACCESS(Integer, integer, STORE)
 ACCESS(Boolean, boolean, STORE)
+#ifndef WITHOUT_STRINGS
 ACCESS(String, string, STORE_TEXT)
+#endif
 
 EXPORT fmi2Status fmi2SetRealInputDerivatives(fmi2Component c, const fmi2ValueReference vr[],
                                               size_t nvr, const fmi2Integer order[],

@@ -276,6 +276,17 @@ TEST_CASE("a unit of one step size that rejects is blamed itself") {
                                            Contains("one size only"));
 }
 
+TEST_CASE("a unit of one step size that rejects another one was made for its own") {
+  ScriptedSystem f;
+  auto description = std::make_shared<UnitDescription>(*Describe("rigid").fixed_step().done());
+  description->default_step = 5ms;
+  f.add("rigid", description).on_step = [](ScriptedUnit&, Time from, Time) {
+    return StepResult{.rejected = true, .reached = from};
+  };
+  CHECK_THAT(failure(f.build(1, 1ms)),
+             Contains("made for steps of 0.005 s") && Contains("use --step 0.005"));
+}
+
 TEST_CASE("the error of a unit that rejects the shortened last step has the way out") {
   ScriptedSystem f;
   auto& whole = f.add("whole", integrator().can_save_state().done());

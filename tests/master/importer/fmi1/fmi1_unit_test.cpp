@@ -1,5 +1,7 @@
 #include "master/importer/fmi1/fmi1_unit.h"
 
+#include <cmath>
+
 #include <dlfcn.h>
 
 #include "master/importer/fmu.h"
@@ -20,7 +22,7 @@ namespace {
 /// An instance of the tank, and what it logs.
 class Tank {
  public:
-  Tank() {
+  explicit Tank(const std::string& fmu = "fmi1_tank") : fmu_(importer::Fmu::load(test_fmu(fmu))) {
     importer::InstanceOptions options;
     options.log = [this](const std::string&, importer::Status, const std::string&,
                          const std::string& message) { messages.push_back(message); };
@@ -69,7 +71,7 @@ class Tank {
   std::vector<std::string> messages;
 
  private:
-  std::shared_ptr<importer::Fmu> fmu_ = importer::Fmu::load(test_fmu("fmi1_tank"));
+  std::shared_ptr<importer::Fmu> fmu_;
   std::unique_ptr<core::Unit> unit_;
 };
 
@@ -96,9 +98,10 @@ TEST_CASE("the description of an FMI 1.0 unit has causalities and types as those
   CHECK(variable("mood").variability == core::Variability::Fixed);
   CHECK(variable("mode").items ==
         std::vector<std::pair<std::string, std::int64_t>>{{"open", 1}, {"closed", 2}});
-  CHECK_FALSE(description.find("drop"));
+  CHECK_FALSE(description.find("label.negated"));
   REQUIRE(description.warnings.size() == 1);
-  CHECK_THAT(description.warnings[0], Contains("'drop', a negatedAlias, is left out"));
+  CHECK_THAT(description.warnings[0],
+             Contains("'label.negated' is left out: no String can be a negatedAlias"));
   REQUIRE(description.outputs.size() == 4);
   CHECK(description.outputs[0].dependencies == std::vector<ValueReference>{});
   CHECK(description.outputs[1].dependencies ==
@@ -139,6 +142,20 @@ TEST_CASE("values of all types of FMI 1.0 go in and out") {
              Contains("does not fit into an Enumeration of FMI 1.0"));
 }
 
+TEST_CASE("a negated alias of FMI 1.0 has the negative value, in both directions") {
+  Tank tank;
+  tank.set<double>(ValueType::Float64, "limit", -0.125);
+  tank.set<bool>(ValueType::Boolean, "is_on", true);
+  tank.start(3);
+  CHECK_FALSE(std::signbit(tank.get(ValueType::Float64, "drop").numbers<double>()[0]));
+  CHECK(tank.get(ValueType::Float64, "longest").numbers<double>()[0] == 0.125);
+  CHECK(tank->step({{}, at(0.5)}).reached == at(0.125));
+  CHECK(tank.level() == 0.125);
+  CHECK(tank.get(ValueType::Float64, "drop").numbers<double>()[0] == -0.125);
+  CHECK(tank.get(ValueType::Int32, "temper").numbers<std::int32_t>()[0] == -3);
+  CHECK_FALSE(tank.get(ValueType::Boolean, "is_off").numbers<bool>()[0]);
+}
+
 TEST_CASE("a step that an FMI 1.0 unit refuses is rejected, and repeated as such", "[here]") {
   Tank tank;
   tank.start(2);
@@ -160,11 +177,22 @@ TEST_CASE("a step that an FMI 1.0 unit completes in part is an early return") {
   CHECK(tank.level() == 0.25);
 }
 
+TEST_CASE("what an FMI 1.0 unit says of a step that it cannot repeat is in the error") {
+  const auto error = [](int mood) {
+    Tank tank("fmi1_hasty_tank");
+    tank.start(mood);
+    return run_error([&] { tank->step({{}, at(0.5)}); });
+  };
+  CHECK_THAT(error(2), Contains("it came no further than where the step began") &&
+                           Contains("cannot repeat a step (canRejectSteps)"));
+  CHECK_THAT(error(6), Contains("it came to -1 s, which is not in the step"));
+}
+
 TEST_CASE("messages and failures of an FMI 1.0 unit") {
   Tank warns;
   warns.start(1);
   CHECK(warns->step({{}, at(0.5)}).reached == at(0.5));
-  CHECK(warns.messages == std::vector<std::string>{"it gets hot"});
+  CHECK(warns.messages == std::vector<std::string>{"level gets hot"});
   Tank leaks;
   leaks.start(4);
   CHECK_THAT(run_error([&] {

@@ -47,3 +47,23 @@ TEST_CASE("a library of other platform types is refused") {
   CHECK_THAT(load_error("fmi2_of_other_platform"),
              Contains("the platform types 'other'; expected 'default'"));
 }
+
+TEST_CASE("a library need not have functions for types that its unit does not have") {
+  const auto fmu = importer::Fmu::load(test_fmu("fmi2_without_strings"));
+  CHECK(fmu->load_library());
+  CHECK_THAT(load_error("fmi2_types_without_strings"),
+             Contains("does not export fmi2GetString, fmi2SetString, by which its outputs are read "
+                      "and its inputs set"));
+}
+
+TEST_CASE("a function that a library does not have is named where it is called") {
+  const auto fmu = importer::Fmu::load(test_fmu("fmi2_without_strings"));
+  const auto unit = make_unit(fmu, "unit");
+  core::ValueBlock text(core::ValueType::String, 1);
+  const core::ValueReference first = 0;
+  unit->enter_initialization({}, std::nullopt);
+  CHECK_THAT(run_error([&] {
+               unit->get({&first, 1}, text);
+             }),
+             Contains("its library does not export fmi2GetString"));
+}

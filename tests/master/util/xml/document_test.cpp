@@ -126,6 +126,20 @@ TEST_CASE("known prefixes may be used without a declaration, with a warning") {
   CHECK_THAT(error_of([&] { plain.root().name(); }), Contains("the prefix 'a'"));
 }
 
+TEST_CASE("known namespaces may be written with https, or a slash at the end, with a warning") {
+  constexpr xml::Prefix known[] = {{"a", "http://a.org/A"}};
+  const auto document = xml::Document::parse(
+      "<a:x xmlns:a='https://a.org/A'>\n<y xmlns='http://a.org/A/'/>"
+      "<z xmlns='https://a.org/a'/></a:x>",
+      "x.ssv", known);
+  CHECK(document.root().is("http://a.org/A", "x"));
+  CHECK(document.root().children()[0].is("http://a.org/A", "y"));
+  CHECK(document.root().children()[1].is("https://a.org/a", "z"));
+  REQUIRE(document.warnings().size() == 2);
+  CHECK_THAT(document.warnings()[1],
+             Contains("x.ssv:2: xmlns=\"http://a.org/A/\" is taken for http://a.org/A"));
+}
+
 TEST_CASE("An entity that the document defines itself is refused, not taken as text") {
   const std::string text = "<!DOCTYPE a [<!ENTITY n 'motor'>]>\n<a>\n<b x='&n;'/></a>";
   CHECK_THAT(error_in(text), Contains("x.ssd:3: '&n;' is an entity that only a document type") &&

@@ -1,4 +1,4 @@
-#include "master/importer/fmi2/fmi2_log.h"
+#include "master/importer/log_references.h"
 
 #include <charconv>
 #include <string_view>
@@ -7,7 +7,7 @@
 namespace stride::importer {
 namespace {
 
-constexpr std::string_view kTypes = "ribs";
+constexpr std::string_view kReferenceTypes = "ribs";
 
 /// Where the reference that begins at `at` ends, behind its second #, and its variable's name; an
 /// empty name if it is none.
@@ -16,8 +16,8 @@ std::pair<std::size_t, std::string> read_reference(std::string_view message, std
   const std::size_t end = message.find('#', at + 1);
   if (end == std::string_view::npos || end < at + 3) return {at, ""};
   const char type = message[at + 1];
-  if (kTypes.find(type) == std::string_view::npos) return {at, ""};
-  fmi2ValueReference reference = 0;
+  if (kReferenceTypes.find(type) == std::string_view::npos) return {at, ""};
+  std::uint32_t reference = 0;
   const char* const last = message.data() + end;
   const auto [stop, error] = std::from_chars(message.data() + at + 2, last, reference);
   if (error != std::errc{} || stop != last) return {at, ""};

@@ -1,4 +1,4 @@
-#include "master/importer/fmi2/fmi2_log.h"
+#include "master/importer/log_references.h"
 
 #include <catch2/catch.hpp>
 
@@ -7,13 +7,12 @@ using namespace stride;
 namespace {
 
 std::string named(const std::string& message) {
-  return importer::name_variables(message,
-                                  [](char type, fmi2ValueReference reference) -> std::string {
-                                    if (type == 'r' && reference == 1365) return "body.m";
-                                    if (type == 'b' && reference == 0) return "is on";
-                                    if (type == 's' && reference == 4294967295u) return "#r1365#";
-                                    return "";
-                                  });
+  return importer::name_variables(message, [](char type, std::uint32_t reference) -> std::string {
+    if (type == 'r' && reference == 1365) return "body.m";
+    if (type == 'b' && reference == 0) return "is on";
+    if (type == 's' && reference == 4294967295u) return "#r1365#";
+    return "";
+  });
 }
 
 }  // namespace

@@ -1,0 +1,20 @@
+// The step that a unit was made for.
+#ifndef STRIDE_MASTER_MODEL_OWN_STEP_H
+#define STRIDE_MASTER_MODEL_OWN_STEP_H
+
+#include <string>
+
+#include <stride/time.h>
+
+#include "master/model/description.h"
+
+namespace stride::core {
+
+/// What to do where a unit does not accept a step of this size: the size that it was made for,
+/// which is that of its DefaultExperiment, or else its internal one, and how it is set. Empty if
+/// the unit names none, or this one.
+std::string own_step_hint(const UnitDescription& unit, Duration size);
+
+}  // namespace stride::core
+
+#endif
