@@ -1,5 +1,8 @@
 // stride inspect: the description of a unit.
 #include <memory>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -10,6 +13,7 @@
 #include "master/cli/output.h"
 #include "master/cli/table.h"
 #include "master/importer/fmu.h"
+#include "master/importer/terminals.h"
 #include "master/scenario/unit_path.h"
 #include "master/util/time_text.h"
 
@@ -87,6 +91,22 @@ std::string meaning(const core::Variable& variable) {
   return text;
 }
 
+/// Empty if there are none.
+std::string terminal_table(const importer::Fmu& fmu) {
+  Table table({{"terminal"}, {"kind"}, {"matching rule"}, {"member"}, {"variable"}});
+  for (const importer::Terminal& terminal :
+       importer::read_terminals(fmu.folder(), fmu.path().string())) {
+    std::vector<std::string> row{terminal.name, terminal.kind, terminal.matching_rule, "", ""};
+    for (const importer::TerminalMember& member : terminal.members) {
+      row[3] = member.name;
+      row[4] = member.variable;
+      table.add(std::exchange(row, std::vector<std::string>(row.size())));
+    }
+    if (terminal.members.empty()) table.add(row);
+  }
+  return table.size() == 0 ? "" : "\n" + table.text();
+}
+
 void inspect(const std::filesystem::path& file) {
   const CrashGuard guard;
   const auto fmu = importer::Fmu::load(scenario::find_unit(file, {}));
@@ -105,12 +125,14 @@ void inspect(const std::filesystem::path& file) {
                range(variable), meaning(variable)});
   }
   print_text("\n{}", table.text());
+  warn_of_failure([&] { print_text("{}", terminal_table(*fmu)); });
 }
 
 }  // namespace
 
 void add_inspect(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("inspect", "Show a unit's variables in a table");
+  CLI::App* command =
+      app.add_subcommand("inspect", "Show a unit's variables and terminals in tables");
   const auto file = std::make_shared<std::filesystem::path>();
   command
       ->add_option("FILE", *file, "An FMU: a .fmu, its unpacked folder, or a .so of the unit kit")

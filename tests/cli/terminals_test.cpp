@@ -50,6 +50,23 @@ TEST_CASE("terminals are connected from outputs to inputs, whichever is named fi
   }
 }
 
+TEST_CASE("'stride inspect' lists terminals with their members") {
+  const Integrators units("");
+  const Outcome outcome = units.workspace.stride({"inspect", "first"});
+  CHECK(outcome.err == "");
+  CHECK_THAT(outcome.out, Contains("terminal  kind  matching rule  member  variable\n") &&
+                              Contains("\n  Out             plug           signal  y\n"));
+}
+
+TEST_CASE("'stride inspect' shows the variables of a unit whose terminals are malformed") {
+  const Integrators units("");
+  units.workspace.scratch().write("first/terminalsAndIcons/terminalsAndIcons.xml", "<broken");
+  const Outcome outcome = units.workspace.stride({"inspect", "first"});
+  CHECK(outcome.exit_code == 0);
+  CHECK_THAT(outcome.out, Contains("variable"));
+  CHECK_THAT(outcome.err, Contains("warning: ") && Contains("terminalsAndIcons.xml"));
+}
+
 TEST_CASE("a terminal or a component that is not there has the nearest that is") {
   const std::string terminal = connection_of("first", "Outt", "second", "In");
   const Integrators misspelt(terminal);
