@@ -99,6 +99,15 @@ TEST_CASE("'stride check' fails where the process of a unit does not end well") 
                               Contains("ended by signal 11 (SIGSEGV)"));
 }
 
+TEST_CASE("'stride verify' fails where an exit function of the unit crashes") {
+  const Workspace workspace(Parts{component("faulty", "fmi3_faulty.fmu")});
+  const FaultOrder order("crash at exit", "step", "0");
+  const Outcome outcome = workspace.stride({"verify", test_fmu("fmi3_faulty").string()});
+  INFO(outcome.out);
+  CHECK(outcome.exit_code == 1);
+  CHECK_THAT(outcome.out, Contains("SIGSEGV"));
+}
+
 TEST_CASE("a crash in the unloading of a library hides no earlier error") {
   if (kSanitized) return;
   const Workspace workspace(

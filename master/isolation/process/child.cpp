@@ -2,6 +2,8 @@
 
 #include <array>
 #include <cerrno>
+#include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <exception>
 #include <utility>
@@ -37,7 +39,14 @@ void settle(pid_t parent, int output) {
   redirect_standard_files(output);
 }
 
+/// Behind the exit functions of what the work has loaded, and before those of this program.
+void end_at_once(int status, void*) {
+  std::fflush(nullptr);
+  ::_exit(status);
+}
+
 [[noreturn]] void be_child(const std::function<std::string()>& work, int answer) {
+  ::on_exit(end_at_once, nullptr);
   char kind = kAnswer;
   std::string text;
   try {
@@ -51,7 +60,7 @@ void settle(pid_t parent, int output) {
   }
   write_all(answer, &kind, 1);
   write_all(answer, text.data(), text.size());
-  ::_exit(0);
+  std::exit(0);
 }
 
 bool has_ended(pid_t child) {
@@ -135,6 +144,7 @@ ChildOutcome run_in_child(const std::function<std::string()>& work, const ChildO
   Pipe answer;
   Pipe output;
   const pid_t parent = ::getpid();
+  std::fflush(nullptr);  // what is in memory yet is not to be printed by the child, too
   const pid_t child = ::fork();
   if (child < 0) fail("fork");
   if (child == 0) {

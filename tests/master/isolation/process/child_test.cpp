@@ -69,6 +69,20 @@ TEST_CASE("a crash is reported by its signal, an exit by its code") {
   CHECK_FALSE(has_child_left());
 }
 
+TEST_CASE("the exit functions of a child's work are called, and none of this process") {
+  static const pid_t own = ::getpid();
+  std::atexit([] {
+    if (::getpid() != own) std::raise(SIGABRT);
+  });
+  CHECK(run_in_child([] { return std::string(); }).end == End::Answered);
+  const ChildOutcome outcome = run_in_child([] {
+    std::atexit([] { std::raise(SIGKILL); });
+    return std::string();
+  });
+  CHECK(outcome.end == End::Killed);
+  CHECK(outcome.code == SIGKILL);
+}
+
 TEST_CASE("a child that takes too long is ended, and with it its own children") {
   const Shared<std::atomic<pid_t>> grandchild;
   const ChildOutcome outcome = run_in_child(
