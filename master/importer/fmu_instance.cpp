@@ -400,6 +400,16 @@ std::string FmuInstance::how_far(const core::StepInterval& interval, std::option
   return fmt::format("reports that it came to {} s, which is not in the step ({})", *seconds, what);
 }
 
+void FmuInstance::fail_discarded(const core::StepInterval& interval, const char* returned,
+                                 const std::string& how_far, const char* why,
+                                 const char* hint) const {
+  const std::string other_step = step_hint();
+  fail(fmt::format("{} in the step to {} s, the unit {}, and {}{}{}", returned,
+                   core::to_text(interval.to), how_far, why,
+                   rejection_reason_.empty() ? "" : "; message of the unit: ", rejection_reason_),
+       other_step.empty() ? hint : other_step);
+}
+
 bool FmuInstance::is_end(const core::StepInterval& interval, double seconds) {
   return std::abs(seconds - interval.end_seconds) <= time_tolerance(interval);
 }

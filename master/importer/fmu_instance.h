@@ -269,6 +269,11 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics, public Call
   /// the name of that time.
   static std::string how_far(const core::StepInterval& interval, std::optional<double> seconds,
                              const char* what);
+  /// Of a step that the unit discarded, and that cannot be made again: what its function returned,
+  /// how_far(), and why not. `hint` is for where step_hint() has none.
+  [[noreturn]] void fail_discarded(const core::StepInterval& interval, const char* returned,
+                                   const std::string& how_far, const char* why,
+                                   const char* hint) const;
 
   // What each call and each step need comes first, and close together.
   void* instance_ = nullptr;         ///< as the unit calls it

@@ -154,12 +154,9 @@ core::StepResult Fmi1Unit::handle_discard(const core::StepInterval& interval) {
     is_new_step_ = false;
     return {.rejected = true, .reached = interval.from};
   }
-  const std::string hint = step_hint();
-  fail(fmt::format("fmiDoStep returned fmiDiscard in the step to {} s, the unit {}, and it cannot "
-                   "repeat a step (canRejectSteps){}{}",
-                   core::to_text(interval.to), how_far(interval, seconds, kFmi1LastSuccessfulTime),
-                   rejection_reason_.empty() ? "" : "; message of the unit: ", rejection_reason_),
-       hint.empty() ? "try a smaller step (--step)" : hint);
+  fail_discarded(interval, "fmiDoStep returned fmiDiscard",
+                 how_far(interval, seconds, kFmi1LastSuccessfulTime),
+                 "it cannot repeat a step (canRejectSteps)", "try a smaller step (--step)");
 }
 
 std::optional<double> Fmi1Unit::last_successful_time() {

@@ -123,8 +123,7 @@ core::StepResult Fmi2Unit::accept_termination(const core::StepInterval& interval
     if (!saves_each_step_) {
       fail(
           "the unit ended the simulation within its step (fmi2Terminated), and does not report "
-          "when "
-          "(fmi2LastSuccessfulTime)");
+          "when (fmi2LastSuccessfulTime)");
     }
     restore(is_as_saved_ ? states_.chosen() : before_step_);
     reached = interval.from;
@@ -135,12 +134,10 @@ core::StepResult Fmi2Unit::accept_termination(const core::StepInterval& interval
 
 void Fmi2Unit::fail_partial_step(const core::StepInterval& interval,
                                  std::optional<double> seconds) const {
-  const std::string hint = step_hint();
-  fail(fmt::format("fmi2DoStep returned fmi2Discard in the step to {} s, the unit {}, and its "
-                   "state was not saved, since it cannot be (canGetAndSetFMUstate){}{}",
-                   core::to_text(interval.to), how_far(interval, seconds, kFmi2LastSuccessfulTime),
-                   rejection_reason_.empty() ? "" : "; message of the unit: ", rejection_reason_),
-       hint.empty() ? "try a smaller step, or use a unit that can save its state" : hint);
+  fail_discarded(interval, "fmi2DoStep returned fmi2Discard",
+                 how_far(interval, seconds, kFmi2LastSuccessfulTime),
+                 "its state was not saved, since it cannot be (canGetAndSetFMUstate)",
+                 "try a smaller step, or use a unit that can save its state");
 }
 
 /// For a unit whose state before the step was not saved.
