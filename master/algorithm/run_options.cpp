@@ -1,6 +1,22 @@
 #include "master/algorithm/run_options.h"
 
+#include <span>
+
+#include "master/model/system.h"
+
 namespace stride::core {
+namespace {
+
+/// The last one counts.
+std::optional<double> setting_of(std::span<const IdleSetting> settings, VariableId id) {
+  std::optional<double> value;
+  for (const IdleSetting& setting : settings) {
+    if (setting.id == id) value = setting.value;
+  }
+  return value;
+}
+
+}  // namespace
 
 const char* name(Coupling coupling) {
   return coupling == Coupling::Jacobi ? "jacobi" : "gauss-seidel";
@@ -16,6 +32,15 @@ const char* name(Extrapolation extrapolation) {
       break;
   }
   return "quadratic";
+}
+
+std::optional<double> IdleOptions::tolerance(const System& system, VariableId output) const {
+  const auto setting = setting_of(tolerances, output);
+  return setting ? setting : system.variable(output).tolerance;
+}
+
+double IdleOptions::deadband(const System& system, VariableId input) const {
+  return setting_of(deadbands, input).value_or(system.variable(input).deadband);
 }
 
 }  // namespace stride::core

@@ -94,6 +94,10 @@ struct IdleSetting {
 
 /// Which units may be suspended while they promise to be idle (org.stride.idle).
 struct IdleOptions {
+  /// That of an output, if it has one, and of an input.
+  std::optional<double> tolerance(const System& system, VariableId output) const;
+  double deadband(const System& system, VariableId input) const;
+
   /// For how long at most, by component; nothing, or no entry: never.
   std::vector<std::optional<Duration>> max_skip{};
   std::vector<IdleSetting> deadbands{};   ///< of inputs, instead of those of the units

@@ -61,7 +61,7 @@ class Allowances {
 
   Column of(core::VariableId id) const {
     Column column{id, core::is_real(system_.variable(id).type)};
-    const auto tolerance = tolerance_of(id);
+    const auto tolerance = idle_.tolerance(system_, id);
     if (tolerance) {
       column.absolute = *tolerance * static_cast<double>(std::max<std::size_t>(1, inexact_units_));
     }
@@ -71,13 +71,6 @@ class Allowances {
   }
 
  private:
-  std::optional<double> tolerance_of(core::VariableId id) const {
-    for (const core::IdleSetting& setting : idle_.tolerances) {
-      if (setting.id == id) return setting.value;
-    }
-    return system_.variable(id).tolerance;
-  }
-
   const core::System& system_;
   const core::IdleOptions& idle_;
   std::size_t inexact_units_ = 0;  ///< with outputs that have tolerances
@@ -238,8 +231,9 @@ std::string compare_with_full_run(const scenario::LoadedScenario& loaded,
   }
   if (first) {
     core::fail_run(first->context, first->text + "; that is more than idle skipping may change",
-                   "a unit does not keep its promises: 'stride verify --check idle' tests one; "
-                   "<stride:IdleSkip components=\"…\" enabled=\"false\"/> leaves it out");
+                   "no unit breaks its promises by more than its tolerances and deadbands, whose "
+                   "effect has grown: <stride:Tolerance> and <stride:Deadband> make it smaller, "
+                   "<stride:IdleSkip components=\"…\" enabled=\"false\"/> leaves a unit out");
   }
   return fmt::format(
       "Idle skipping changes nothing but what tolerances allow: {} communication points and {} "

@@ -32,11 +32,7 @@ void IdleScheduler::add_candidate(std::size_t component, Duration max_skip) {
   state.promises = &units_[component]->require_capability<IdlePromises>();
   state.max_skip = max_skip;
   for (const auto& [id, element] : exchange_.continuous_inputs(component)) {
-    double deadband = system_.variable(id).deadband;
-    for (const IdleSetting& setting : options_.deadbands) {
-      if (setting.id == id) deadband = setting.value;
-    }
-    state.inputs.push_back({element, deadband});
+    state.inputs.push_back({element, options_.deadband(system_, id)});
   }
   std::size_t elements = 0;
   for (const auto& [id, element] : exchange_.outputs_with_tolerance(component)) {
