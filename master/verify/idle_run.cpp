@@ -80,6 +80,7 @@ Recording IdleRun::run() {
   }
   if (suspension_) catch_up(tested_.steps());
   Recording recording = instance_.recording();
+  recording.longest_promise = longest_promise_.count();
   for (Row& row : rows_) recording.rows.push_back(std::move(row));
   return recording;
 }
@@ -111,6 +112,8 @@ void IdleRun::suspend_if_idle(std::size_t k) {
     made.held.push_back(stimulus_.value(input, k));
   }
   ++used_promises_;
+  longest_promise_ =
+      std::max(longest_promise_, until == Time::max() ? Duration::max() : until - now);
 }
 
 std::vector<double> IdleRun::slopes() {

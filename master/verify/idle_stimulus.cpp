@@ -13,6 +13,9 @@ using core::ValueType;
 /// Of the deadband, to each side, so that rounding does not leave it.
 constexpr double kWander = 0.49;
 
+/// The point of Jump::Once.
+constexpr std::size_t kOnlyJump = 3;
+
 /// One number out of two.
 std::uint64_t mixed(std::uint64_t one, std::uint64_t other) { return (one << 32) ^ other; }
 
@@ -27,12 +30,14 @@ IdleStimulus::IdleStimulus(const TestedUnit& tested, std::uint64_t seed, Wander 
 
 /// At one point in ten to one in a thousand, by the seed.
 bool IdleStimulus::ticks_at(std::size_t k) const {
+  if (jump_ == Jump::Once) return false;
   const double share = 0.1 * std::pow(10, -2 * uniform(seed_ + 1, 0));
   return k > 0 && uniform(seed_ + 1, k) < share;
 }
 
 /// Each input has a rhythm of its own, from some points to hundreds of them.
 std::size_t IdleStimulus::jumps_until(const Input& input, std::size_t k) const {
+  if (jump_ == Jump::Once) return k < kOnlyJump ? 0 : 1;
   const double rhythm = 3 * std::pow(10, 2 * uniform(seed_ + 2, input.reference));
   return static_cast<std::size_t>(static_cast<double>(k) / rhythm);
 }
@@ -47,7 +52,7 @@ bool IdleStimulus::changes_at(std::size_t k) const {
 double IdleStimulus::element(const Input& input, double start, double other,
                              std::uint64_t jump) const {
   const double luck = uniform(seed_ + 3, mixed(input.reference, jump));
-  if (jump_ == Jump::Near) return start + luck * (other - start);
+  if (jump_ != Jump::Far) return start + luck * (other - start);
   const auto [low, high] = range_of(unit_.variables[input.variable]);
   using Limits = std::numeric_limits<double>;  // which are no bounds that a unit has declared
   const bool is_bounded = low > Limits::lowest() && high < Limits::max();

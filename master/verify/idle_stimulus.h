@@ -11,7 +11,8 @@ namespace stride::verify {
 /// How an input with a deadband moves between two jumps.
 enum class Wander { Still, WithinDeadbands };
 /// How far inputs jump: to the values of Stimulus, or far beyond them, where min and max allow it.
-enum class Jump { Near, Far };
+/// Once: near, all of them soon after the start, and nothing else happens.
+enum class Jump { Near, Far, Once };
 
 /// Inputs that jump at random points, and mostly beyond their deadbands. In between they stay what
 /// they are, or move at random such that two values are never further apart than the deadband.

@@ -131,7 +131,7 @@ std::string to_text(const Recording& recording) {
   return Json{{"rows", std::move(rows)},
               {"counts",
                {recording.rejections, recording.early_returns, recording.events,
-                recording.first_early_return}},
+                recording.first_early_return, recording.longest_promise}},
               {"ended", recording.has_ended}}
       .dump(-1, ' ', true, Json::error_handler_t::replace);
 }
@@ -147,6 +147,7 @@ Recording recording_from_text(const std::string& text) {
   recording.early_returns = json["counts"][1];
   recording.events = json["counts"][2];
   recording.first_early_return = json["counts"][3];
+  recording.longest_promise = json["counts"][4];
   recording.has_ended = json["ended"];
   return recording;
 }

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "master/util/time_text.h"
 #include "master/verify/checks.h"
 #include "master/verify/idle_comparison.h"
 #include "master/verify/idle_run.h"
@@ -14,6 +15,8 @@ namespace {
 /// Runs with inputs that stay between two jumps, and with those that move within their deadbands.
 constexpr std::uint64_t kStillRuns = 8;
 constexpr std::uint64_t kWanderingRuns = 4;
+/// A run that is longer than a promise may be this many times as long as the others.
+constexpr std::int64_t kMostLengths = 16;
 
 struct Inputs {
   std::uint64_t seed;
@@ -49,6 +52,16 @@ VerifyRequest in_short_steps(const TestedUnit& tested) {
   return request;
 }
 
+/// Over more than a promise of this length, within reason.
+VerifyRequest over(const TestedUnit& tested, Duration promise) {
+  const auto steps = static_cast<std::int64_t>(tested.steps());
+  VerifyRequest request = tested.request();
+  request.step = tested.step();
+  request.stop =
+      tested.step() * (steps + std::min(promise / tested.step(), (kMostLengths - 1) * steps));
+  return request;
+}
+
 /// A run without skipping; what is far from the start values may be nonsense to the unit.
 Recording record_full(const Trial& trial, Inputs& inputs) {
   if (inputs.jump == Jump::Far) {
@@ -67,30 +80,56 @@ std::size_t promises_in(const Recording& skipping) {
   return last == skipping.rows.rend() ? 0 : std::strtoul(last->values.back().c_str(), nullptr, 10);
 }
 
+struct Promises {
+  std::size_t count = 0;
+  Duration longest{};
+
+  void add(const Promises& others) {
+    count += others.count;
+    longest = std::max(longest, others.longest);
+  }
+};
+
+/// A run with skipping, and one without. Throws Failure if they differ.
+Promises compare(const Trial& trial, Inputs inputs) {
+  const Recording full = record_full(trial, inputs);
+  const Recording skipping = record(trial, inputs, true);
+  const auto difference = idle_difference(trial.tested, full, skipping, inputs.wander);
+  if (difference) throw Failure("with skipping of idle time " + *difference, false);
+  return {promises_in(skipping), Duration(skipping.longest_promise)};
+}
+
 }  // namespace
 
 Finding check_idle(const Trial& trial) {
   const core::UnitDescription& unit = trial.tested.description();
   if (!unit.promises_idle) return skipped("it never promises to be idle (org.stride.idle)");
   const TestedUnit short_steps(in_short_steps(trial.tested));
-  std::size_t promises = 0;
+  Promises promises;
   const std::uint64_t rounds = kStillRuns + (has_deadbands(unit) ? kWanderingRuns : 0);
+  const std::uint64_t seed = trial.tested.request().seed * 1000;
   for (std::uint64_t round = 0; round < rounds; ++round) {
     const Wander wander = round < kStillRuns ? Wander::Still : Wander::WithinDeadbands;
     const Jump jump = round % 4 == 3 ? Jump::Near : Jump::Far;
-    Inputs inputs{trial.tested.request().seed * 1000 + 10 * round, wander, jump};
-    const Trial used{round % 4 == 0 ? trial.tested : short_steps, trial.note};
-    const Recording full = record_full(used, inputs);
-    const Recording skipping = record(used, inputs, true);
-    const auto difference = idle_difference(used.tested, full, skipping, wander);
-    if (difference) throw Failure("with skipping of idle time " + *difference, false);
-    promises += promises_in(skipping);
+    promises.add(compare({round % 4 == 0 ? trial.tested : short_steps, trial.note},
+                         {seed + 10 * round, wander, jump}));
   }
-  if (promises == 0) {
+  if (promises.count == 0) {
     return passed("skipping of idle time changes nothing", {"it promised nothing in these runs"});
   }
-  return passed(
-      fmt::format("{} promises were kept, in {} runs with random inputs", promises, rounds));
+  const TestedUnit longer(over(trial.tested, promises.longest));
+  promises.add(compare({longer, trial.note}, {seed + 10 * rounds, Wander::Still, Jump::Once}));
+  std::vector<std::string> notes;
+  const Duration length = longer.step() * static_cast<std::int64_t>(longer.steps());
+  if (promises.longest > length && promises.longest < Duration::max()) {
+    notes.push_back(
+        fmt::format("it promised up to {} s, and the longest run was of {} s; --stop "
+                    "makes longer ones",
+                    core::to_text(promises.longest), core::to_text(length)));
+  }
+  return passed(fmt::format("{} promises were kept, in {} runs with random inputs", promises.count,
+                            rounds + 1),
+                notes);
 }
 
 }  // namespace stride::verify

@@ -62,6 +62,13 @@ TEST_CASE("between two jumps inputs stay, or move within their deadbands") {
   CHECK(still.front() == 1);  // the start value
 }
 
+TEST_CASE("a quiet stimulus jumps once, and nothing ticks") {
+  const TestedUnit tested = idler();
+  const IdleStimulus quiet(tested, 5, Wander::Still, Jump::Once);
+  CHECK(count_beyond(course(quiet), 0) == 1);
+  for (std::size_t k = 0; k < kPoints; ++k) CHECK_FALSE(quiet.ticks_at(k));
+}
+
 TEST_CASE("a stimulus is a function of the seed and the point") {
   const TestedUnit tested = idler();
   const auto make = [&](std::uint64_t seed) {
