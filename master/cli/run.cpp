@@ -1,5 +1,6 @@
 // stride run: a scenario from its start to its end.
 #include <exception>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -18,6 +19,7 @@
 #include "master/cli/interruption.h"
 #include "master/cli/output.h"
 #include "master/cli/output_paths.h"
+#include "master/cli/promise_check.h"
 #include "master/cli/recorded_run.h"
 #include "master/cli/report_page.h"
 #include "master/cli/scenario_options.h"
@@ -49,6 +51,7 @@ struct RunArguments {
   bool quiet = false;
   bool check_idle = false;
   std::filesystem::path full_run{};  ///< the results without idle skipping to compare with
+  std::optional<std::string> broken_promise{};
 };
 
 std::filesystem::path results_folder(const RunArguments& arguments) {
@@ -128,10 +131,12 @@ struct EndOfUnits {
   }
 };
 
-/// The run with idle skipping has come to its end: compares it with the one without.
+/// The run with idle skipping has come to its end: tells of a unit that broke a promise, or else
+/// compares the run with the one without.
 void conclude_idle_check(const RunArguments& arguments, const scenario::LoadedScenario& loaded,
                          const ResultsTarget& results) {
   if (arguments.full_run.empty()) return;
+  if (arguments.broken_promise) core::fail_run({}, *arguments.broken_promise);
   const std::string text = compare_with_full_run(loaded, results, arguments.full_run);
   if (!arguments.quiet) print_text("\n{}\n", text);
 }
@@ -217,6 +222,7 @@ RunArguments full_run(const RunArguments& arguments) {
   full.out = results_folder(arguments) / kFullRunFolder;
   full.scenario.no_idle_skip = true;
   full.scenario.max_skip.clear();
+  full.full_run.clear();
   full.captures.clear();
   full.junit.clear();
   full.scenario.film.clear();
@@ -229,24 +235,28 @@ struct EndOfFork {
   ~EndOfFork() { end_guarding(); }
 };
 
-/// In a process of its own, so that units of both runs share nothing. Whether a check or a verdict
-/// fails in it is seen in the other run, too.
-void make_full_run(const RunArguments& arguments) {
+/// In a process of its own, so that units of different runs share nothing. Returns why it failed.
+std::optional<std::string> failure_in_child(const std::string& what,
+                                            const std::function<void()>& work) {
   const Interruption interruption;
   const isolation::ChildOutcome outcome = isolation::run_in_child(
       [&] {
         const EndOfFork end;
-        run_and_report(full_run(arguments));
+        work();
         return std::string();
       },
       {.limit = {}, .interrupted = &Interruption::flag()});
   using End = isolation::ChildOutcome::End;
-  if (outcome.end == End::Answered) return;
-  if (outcome.end == End::Interrupted) {
-    core::fail_run({}, "interrupted during the run without idle skipping");
-  }
-  const std::string why = outcome.end == End::Threw ? outcome.text : outcome.printed;
-  spdlog::warn("the run without idle skipping has failed: {}", why);
+  if (outcome.end == End::Answered) return std::nullopt;
+  if (outcome.end == End::Interrupted) core::fail_run({}, "interrupted during " + what);
+  return outcome.end == End::Threw ? outcome.text : outcome.printed;
+}
+
+/// Whether a check or a verdict fails in it is seen in the other run, too.
+void make_full_run(const RunArguments& arguments) {
+  const std::string what = "the run without idle skipping";
+  const auto why = failure_in_child(what, [&] { run_and_report(full_run(arguments)); });
+  if (why) spdlog::warn("{} has failed: {}", what, *why);
 }
 
 void run_with_checks(RunArguments arguments) {
@@ -256,6 +266,8 @@ void run_with_checks(RunArguments arguments) {
                      "use one of them");
   }
   arguments.full_run = results_folder(arguments) / kFullRunFolder;
+  arguments.broken_promise = failure_in_child("the test of the units' promises to be idle",
+                                              [&] { run_beside_twins(arguments.scenario); });
   make_full_run(arguments);
   run_and_report(std::move(arguments));
 }
@@ -316,8 +328,8 @@ void add_run(CLI::App& app) {
   add_recording_options(*command, *arguments);
   add_display_options(*command, *arguments);
   command->add_flag("--check-idle", arguments->check_idle,
-                    "Run the scenario without idle skipping, too, and fail with the first "
-                    "difference that the units' tolerances do not allow");
+                    "Test the units' promises to be idle, run the scenario without idle skipping, "
+                    "too, and fail with the first difference that tolerances do not allow");
   command->callback([arguments] { run_with_checks(*arguments); });
 }
 

@@ -141,6 +141,7 @@ LoadedScenario::LoadedScenario(const ScenarioRequest& request)
   load_units();
   if (!request.film.empty()) switch_film_on(scenario_.system, request.film);
   connect_terminals();
+  if (request.idle_twins) add_twins();
   choose_early_returns();
   choose_state_saving();
   system_.emplace(scenario_.system);
@@ -154,7 +155,7 @@ LoadedScenario::LoadedScenario(const ScenarioRequest& request)
   choose_idle_skips(request);
   choose_signals(request);
   options_.threads.main_only =
-      select_components(component_names(), scenario_.annotation.main_thread);
+      select_components(selection_names(), scenario_.annotation.main_thread);
   choose_checks(request);
 }
 
@@ -204,6 +205,21 @@ void LoadedScenario::connect_terminals() {
   }
 }
 
+void LoadedScenario::add_twins() {
+  idle_twins_ = add_idle_twins(scenario_.system);
+  for (const IdleTwin& pair : idle_twins_) {
+    scenario_.sources.push_back(scenario_.sources[pair.unit]);
+    fmus_.push_back(fmus_[pair.unit]);
+  }
+}
+
+/// What selects a component selects its twin.
+std::vector<std::string> LoadedScenario::selection_names() const {
+  std::vector<std::string> names = component_names();
+  for (const IdleTwin& pair : idle_twins_) names[pair.twin] = names[pair.unit];
+  return names;
+}
+
 void LoadedScenario::choose_early_returns() {
   const std::vector<bool> allowed = permissions(scenario_.annotation.early_return);
   for (std::size_t i = 0; i < allowed.size(); ++i) {
@@ -225,7 +241,7 @@ void LoadedScenario::choose_state_saving() {
 
 /// Of each component.
 std::vector<bool> LoadedScenario::permissions(std::span<const PermissionRule> rules) const {
-  const std::vector<std::string> names = component_names();
+  const std::vector<std::string> names = selection_names();
   const ComponentSelector selector(names);
   std::vector<bool> allowed(names.size(), true);
   for (const PermissionRule& rule : rules) {
@@ -309,9 +325,11 @@ void LoadedScenario::choose_checks(const ScenarioRequest& request) {
 /// Snapshots add a capability to a component, so the system is built again.
 void LoadedScenario::choose_hosts(const HostRequest& request) {
   auto& components = scenario_.system.components;
-  hostings_ =
-      choose_hostings(components, *options_.step.policy,
-                      host_settings(component_names(), scenario_.annotation.hosts, request));
+  auto settings = host_settings(selection_names(), scenario_.annotation.hosts, request);
+  for (const IdleTwin& pair : idle_twins_) {
+    if (components[pair.twin].description->single_instance) settings[pair.twin].process = true;
+  }
+  hostings_ = choose_hostings(components, *options_.step.policy, settings);
   check_unit_timeout(request, hostings_);
   bool is_changed = false;
   for (std::size_t i = 0; i < components.size(); ++i) {
@@ -345,6 +363,7 @@ void LoadedScenario::choose_idle_skips(const ScenarioRequest& request) {
     settings.rules.insert(settings.rules.begin(), {{"*"}, true, skip, {"--max-skip", 0}});
   }
   options_.idle = settings.options(*system_, options_.step);
+  for (const IdleTwin& pair : idle_twins_) options_.idle.max_skip[pair.twin].reset();
 }
 
 void LoadedScenario::choose_signals(const ScenarioRequest& request) {

@@ -15,6 +15,7 @@
 #include "master/importer/fmu.h"
 #include "master/model/system.h"
 #include "master/scenario/hosting.h"
+#include "master/scenario/idle_twins.h"
 #include "master/scenario/scenario.h"
 #include "master/scenario/signal_selection.h"
 #include "master/scenario/unit_log.h"
@@ -33,6 +34,7 @@ struct ScenarioRequest {
   bool no_idle_skip = false;
   std::string max_skip;  ///< seconds, for all components; empty = the scenario's
   bool no_checks = false;
+  bool idle_twins = false;  ///< adds them, see idle_twins.h
   HostRequest hosts;
   std::shared_ptr<ssp::Files> files;  ///< that have read some of it ahead; null: none
   std::string film;  ///< seconds between its pictures, or kUnspecifiedFilmInterval; empty = none
@@ -52,6 +54,8 @@ class LoadedScenario {
   const std::vector<std::optional<Hosting>>& hostings() const { return hostings_; }
   const core::RunOptions& options() const { return options_; }
   std::vector<std::string> component_names() const;
+  /// Those that were requested.
+  const std::vector<IdleTwin>& idle_twins() const { return idle_twins_; }
   /// The plots of the scenario, of recorded signals.
   const std::vector<recorders::Plot>& plots() const { return plots_; }
   /// The checks of the scenario; options() watch their signals.
@@ -74,6 +78,8 @@ class LoadedScenario {
   void swap(const std::string& text);
   void load_units();
   void connect_terminals();
+  void add_twins();
+  std::vector<std::string> selection_names() const;
   void choose_early_returns();
   void choose_state_saving();
   std::vector<bool> permissions(std::span<const PermissionRule> rules) const;
@@ -101,6 +107,7 @@ class LoadedScenario {
   core::RunOptions options_;
   std::vector<recorders::Plot> plots_;
   std::vector<checks::Definition> checks_;
+  std::vector<IdleTwin> idle_twins_;
 };
 
 /// The two sides of an option's value "LEFT=RIGHT". Throws core::Error (Input) with the expected

@@ -3,6 +3,7 @@
 
 using namespace stride::tests;
 using Catch::Matchers::Contains;
+using Catch::Matchers::StartsWith;
 
 namespace {
 
@@ -17,19 +18,26 @@ Arguments tank(const std::string& promise) {
   return {"--set", "period=0.05", "--set", "announces=true", "--set", "promise=" + promise};
 }
 
+/// A component whose reports come each `period` seconds.
+std::string tank_component(const std::string& name, const std::string& promise,
+                           const std::string& period = "0.05", const std::string& rate = "0.01") {
+  const auto real = [](const std::string& parameter, const std::string& value) {
+    return "<ssv:Parameter name=\"" + parameter + "\"><ssv:Real value=\"" + value +
+           "\"/></ssv:Parameter>";
+  };
+  return component(name, "idler.fmu",
+                   "<ssd:ParameterBindings><ssd:ParameterBinding><ssd:ParameterValues>"
+                   "<ssv:ParameterSet xmlns:ssv=\"http://ssp-standard.org/SSP1/"
+                   "SystemStructureParameterValues\" version=\"1.0\" name=\"p\"><ssv:Parameters>"
+                   "<ssv:Parameter name=\"promise\"><ssv:Enumeration value=\"" +
+                       promise + "\"/></ssv:Parameter>" + real("period", period) +
+                       real("rate", rate) +
+                       "</ssv:Parameters></ssv:ParameterSet></ssd:ParameterValues>"
+                       "</ssd:ParameterBinding></ssd:ParameterBindings>");
+}
+
 Workspace tank_scenario(const std::string& promise) {
-  return Workspace(Parts{
-      component("tank", "idler.fmu",
-                "<ssd:ParameterBindings><ssd:ParameterBinding><ssd:ParameterValues>"
-                "<ssv:ParameterSet xmlns:ssv=\"http://ssp-standard.org/SSP1/"
-                "SystemStructureParameterValues\" version=\"1.0\" name=\"p\"><ssv:Parameters>"
-                "<ssv:Parameter name=\"promise\"><ssv:Enumeration value=\"" +
-                    promise +
-                    "\"/></ssv:Parameter>"
-                    "<ssv:Parameter name=\"period\"><ssv:Real value=\"0.05\"/></ssv:Parameter>"
-                    "</ssv:Parameters></ssv:ParameterSet></ssd:ParameterValues>"
-                    "</ssd:ParameterBinding></ssd:ParameterBindings>"),
-      "", "<stride:Step size=\"0.001\"/>"});
+  return Workspace(Parts{tank_component("tank", promise), "", "<stride:Step size=\"0.001\"/>"});
 }
 
 }  // namespace
@@ -38,7 +46,7 @@ TEST_CASE("verify: promises that are kept pass") {
   const Outcome honest = verify_idle("idler.fmu", tank("honest"));
   CHECK(honest.exit_code == 0);
   CHECK_THAT(honest.out,
-             Contains("promises were kept, in 12 runs with random inputs") && Contains("1 passed"));
+             Contains("promises were kept, in 13 runs with random inputs") && Contains("1 passed"));
   CHECK_THAT(verify_idle("minimal.fmu").out, Contains("it never promises to be idle"));
 }
 
@@ -61,6 +69,19 @@ TEST_CASE("verify: each way to break a promise is found") {
   CHECK_THAT(outcome.out, Contains(" FAILED ") && Contains(seen));
 }
 
+TEST_CASE("verify: a promise that is longer than a run has its own") {
+  const auto tank_with = [](const std::string& promise, const std::string& period) {
+    return verify_idle("idler.fmu", {"--set", "period=" + period, "--set", "announces=true",
+                                     "--set", "promise=" + promise});
+  };
+  const Outcome liar = tank_with("loses_time", "1");
+  CHECK(liar.exit_code == 1);
+  CHECK_THAT(liar.out, Contains(" FAILED ") && Contains("the event report is at "));
+  CHECK_THAT(tank_with("honest", "1").out, Contains("1 passed"));
+  CHECK_THAT(tank_with("honest", "100").out,
+             Contains("and the longest run was of 3.2 s; --stop makes longer ones"));
+}
+
 TEST_CASE("run --check-idle: the same with and without idle skipping") {
   const Workspace workspace = tank_scenario("honest");
   const Outcome outcome = workspace.run({"--check-idle"});
@@ -75,8 +96,34 @@ TEST_CASE("run --check-idle: the first difference has a name and a time") {
   CHECK(workspace.run({"--quiet"}).exit_code == 0);
   const Outcome outcome = workspace.run({"--check-idle"});
   CHECK(outcome.exit_code == 1);
-  CHECK_THAT(outcome.err, Contains("unit 'tank', variable 'reports', at 0.05 s: ") &&
-                              Contains("that is more than idle skipping may change"));
+  CHECK_THAT(outcome.err,
+             Contains("unit 'tank', variable 'report', at 0.05 s: it does not send 'report', "
+                      "and an instance with the same inputs that is never suspended "
+                      "does"));
+}
+
+TEST_CASE("run --check-idle: who breaks its promises is blamed, not who is connected to it") {
+  const std::string promise = GENERATE("loses_time", "ticks");
+  const Workspace workspace(Parts{
+      tank_component("downstream", "honest", "0.2") + tank_component("liar", promise),
+      connection("liar.level", "downstream.inflow") + connection("liar.report", "downstream.ask"),
+      "<stride:Step size=\"0.001\"/>"});
+  const Outcome outcome = workspace.run({"--check-idle", "--quiet"});
+  CHECK(outcome.exit_code == 1);
+  CHECK_THAT(outcome.err, StartsWith("stride: error: unit 'liar', variable 'report"));
+}
+
+TEST_CASE("run --check-idle: the tolerances of others excuse nothing") {
+  std::string tanks = tank_component("liar", "drifts", "0", "0.05");
+  for (int i = 0; i < 200; ++i) {
+    tanks += tank_component("tank" + std::to_string(i), "honest", "0");
+  }
+  const Workspace workspace(Parts{tanks, "", "<stride:Step size=\"0.01\"/>",
+                                  "<ssd:DefaultExperiment stopTime=\"10\"/>\n"});
+  const Outcome outcome = workspace.run({"--check-idle", "--quiet"});
+  CHECK(outcome.exit_code == 1);
+  CHECK_THAT(outcome.err, StartsWith("stride: error: unit 'liar', variable 'level'") &&
+                              Contains("; the tolerance is 0.001"));
 }
 
 TEST_CASE("run --check-idle needs idle skipping") {
