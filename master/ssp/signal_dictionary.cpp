@@ -6,6 +6,7 @@
 
 #include "master/ssp/ssp.h"
 #include "master/ssp/uri.h"
+#include "master/ssp/version.h"
 #include "master/util/xml/document.h"
 
 namespace stride::ssp {
@@ -27,12 +28,12 @@ core::ConnectorDeclaration read_entry(const xml::Element& element, const SspFile
   return entry;
 }
 
-SignalDictionary read_entries(const xml::Element& root) {
+SignalDictionary read_entries(const xml::Element& root, std::vector<std::string>& warnings) {
   if (!root.is(kSsb, "SignalDictionary")) {
     root.fail(fmt::format("{} is not a signal dictionary", root.tag()),
               fmt::format("expected <SignalDictionary> of the namespace '{}'", kSsb));
   }
-  const SspFile file{root.required("version"), read_definitions(root, kSsb)};
+  const SspFile file{read_version(root, warnings), read_definitions(root, kSsb)};
   SignalDictionary dictionary;
   for (const xml::Element& element : root.children({kSsb, "DictionaryEntry"})) {
     core::ConnectorDeclaration entry = read_entry(element, file);
@@ -53,13 +54,13 @@ SignalDictionary read_dictionary(const xml::Element& element, const std::filesys
   }
   if (element.attribute("source")) {
     const std::filesystem::path path = source_path(element, folder, warnings);
-    return read_entries(files.document(path).root());
+    return read_entries(files.document(path).root(), warnings);
   }
   const auto inside = element.child({kSsb, "SignalDictionary"});
   if (!inside) {
     element.fail(fmt::format("{} has neither a source nor <ssb:SignalDictionary>", element.tag()));
   }
-  return read_entries(*inside);
+  return read_entries(*inside, warnings);
 }
 
 }  // namespace

@@ -15,6 +15,7 @@
 #include "master/ssp/ssp.h"
 #include "master/ssp/transformation.h"
 #include "master/ssp/uri.h"
+#include "master/ssp/version.h"
 #include "master/util/input_file.h"
 #include "master/util/lower_case.h"
 #include "master/util/suggest.h"
@@ -59,7 +60,7 @@ class SystemReader {
   SystemReader(const xml::Element& root, const std::filesystem::path& path, Reading& reading)
       : root_(root),
         folder_(source_folder(root, path)),
-        file_{root.required("version"), read_definitions(root, kSsd)},
+        file_{read_version(root, reading.warnings), read_definitions(root, kSsd)},
         reading_(reading) {}
 
   SystemNode read() {
@@ -320,11 +321,6 @@ void check_system_description(const xml::Element& root) {
   }
   root.allow_attributes({"version", "name", "author", "fileversion", "copyright", "license",
                          "generationTool", "generationDateAndTime"});
-  const std::string version = root.required("version");
-  if (version != "1.0" && version != "2.0") {
-    root.fail(fmt::format("the SSP version '{}' is not known", version),
-              "stride reads 1.0 and 2.0");
-  }
   root.allow_children({{kSsd, "System"},
                        {kSsd, "Enumerations"},
                        {kSsd, "Units"},

@@ -288,7 +288,8 @@ TEST_CASE("A broken set in a file of its own is named") {
   CHECK_THROWS_WITH(read_scenario(file),
                     Contains("p.ssv:2:") && Contains("is not a parameter set"));
   folder.write("p.ssv", set("", "9"));
-  CHECK_THROWS_WITH(read_scenario(file), Contains("the version '9' of parameter sets"));
+  CHECK_THROWS_WITH(read_scenario(file),
+                    Contains("p.ssv:1: the version '9' of <ssv:ParameterSet> is not known"));
 }
 
 TEST_CASE("Parameters that cannot be meant are refused") {
