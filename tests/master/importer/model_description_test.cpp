@@ -382,6 +382,20 @@ TEST_CASE("a clock's interval is the fraction, else the decimal, else the unit's
   CHECK_FALSE(clock_of(R"(intervalVariability="triggered")").is_time_based_clock());
 }
 
+TEST_CASE("Booleans of variables and clocks may be written as other tools do, with a warning") {
+  std::string text = kComplete;
+  const std::string place = "name=\"field\" valueReference=\"2\"";
+  text.insert(text.find(place) + place.size(), " intermediateUpdate=\" TRUE \"");
+  const auto unit = importer::parse_model_description(text, "unit.xml");
+  CHECK(variable(unit, "field").intermediate_update);
+  REQUIRE(unit.warnings.size() == 1);
+  CHECK_THAT(unit.warnings[0], Contains("unit.xml:") && Contains("is taken for true"));
+  const auto clock = clock_of(R"(intervalVariability="triggered" canBeDeactivated=" True ")",
+                              R"(supportsFraction="TRUE")");
+  CHECK(clock.clock->can_be_deactivated);
+  CHECK(clock.clock->supports_fraction);
+}
+
 TEST_CASE("a clock's declared type gives what the clock leaves open") {
   const auto clock = clock_of(R"(intervalDecimal="0.5")",
                               R"(intervalVariability="constant" intervalDecimal="1"
