@@ -84,6 +84,10 @@ std::string in_words(const std::exception& error) {
   return error.what();
 }
 
+void print_warnings(std::span<const std::string> warnings) {
+  for (const std::string& warning : warnings) spdlog::warn("{}", core::message_text(warning));
+}
+
 void set_up_output() {
   error_file = core::FileIdentity::of(STDERR_FILENO);
   give_buffer();

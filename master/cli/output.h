@@ -4,6 +4,7 @@
 
 #include <cstdio>
 #include <exception>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -42,6 +43,9 @@ void warn_of_failure(Work&& work) {
     spdlog::warn("{}", in_words(failure));
   }
 }
+
+/// core::message_text() of each.
+void print_warnings(std::span<const std::string> warnings);
 
 /// To be called before anything is printed. The log goes to the standard error stream, likewise.
 void set_up_output();
