@@ -23,12 +23,10 @@ void print_text(fmt::format_string<Values...> format, Values&&... values) {
   put(stdout, fmt::format(format, std::forward<Values>(values)...));
 }
 
-/// "stride: error: TEXT", to the standard error stream; core::message_text() of the text. Returns
-/// whether that is where it was at the beginning: code of a unit may have put another file there.
+/// "stride: error: TEXT", with core::message_text() of the text, to where the standard error stream
+/// was at the beginning, also of a process whose streams are damaged. Returns whether it could be
+/// written: code of a unit may have put another file there, which stays as it is.
 bool print_error(std::string_view text);
-
-/// Likewise for a process whose streams may be damaged.
-bool write_error(std::string_view text);
 
 /// Its text; for exceptions of the standard library, whose own text is for programmers, another
 /// one.
