@@ -275,10 +275,10 @@ void read_fmi3_description(const xml::Element& root, core::UnitDescription& unit
   unit.instantiation_token = root.given("instantiationToken");
   read_co_simulation(find_co_simulation(root), unit);
   const VariableIndex index = read_variables(root, unit);
-  const auto structure = root.child("ModelStructure");
-  if (!structure) root.fail("<ModelStructure> is missing");
-  unit.outputs = read_unknowns(*structure, "Output", index);
-  unit.initial_unknowns = read_unknowns(*structure, "InitialUnknown", index);
+  const auto reader = [&index](const char* name) {
+    return [&index, name](const auto& structure) { return read_unknowns(structure, name, index); };
+  };
+  read_model_structure(root, unit, reader("Output"), reader("InitialUnknown"));
   read_annotation(root, unit);
 }
 

@@ -1,5 +1,6 @@
 #include "master/importer/model_description.h"
 
+#include "master/util/limited_warnings.h"
 #include "tests/master/importer/support.h"
 
 using namespace stride;
@@ -556,15 +557,52 @@ TEST_CASE("references lead somewhere") {
              Contains("needs 'start' or 'valueReference'"));
   CHECK_THAT(error_with("start=\" 2\"", "start=\"many\""),
              Contains("'rows' has the start value 'many'"));
-  CHECK_THAT(error_with("<Output valueReference=\"9\"/>", "<Output valueReference=\"99\"/>"),
-             Contains("<Output> refers to the value reference 99"));
-  CHECK_THAT(error_with("dependencies=\"3 4\"", "dependencies=\"3 44\""), Contains("44"));
   CHECK_THAT(error_with("declaredType=\"Mode\"", "declaredType=\"Mood\""),
              Contains("no such type"));
   CHECK_THAT(error_with("declaredType=\"Temperature\"", "declaredType=\"Mode\""),
              Contains("is a <EnumerationType>; expected a <Float64Type>"));
   CHECK_THAT(error_with("declaredType=\"Mode\"", ""), Contains("'declaredType'"));
   CHECK_THAT(error_with("declaredType=\"Tick\"", ""), Contains("'intervalVariability'"));
+}
+
+TEST_CASE("a model structure that cannot be used is ignored, with a warning") {
+  const auto [from, to, message] = GENERATE(table<std::string, std::string, std::string>({
+      {"<Output valueReference=\"9\"/>", "<Output valueReference=\"99\"/>",
+       "<Output> refers to the value reference 99"},
+      {"dependencies=\"3 4\"", "dependencies=\"3 44\"", "the value reference 44"},
+  }));
+  const auto unit = parse_with(from, to);
+  CHECK(unit.outputs.empty());
+  CHECK(unit.initial_unknowns.empty());
+  REQUIRE(unit.warnings.size() == 1);
+  CHECK_THAT(unit.warnings[0], Contains("unit.xml:") && Contains(message) &&
+                                   Contains("<ModelStructure> is ignored") &&
+                                   Contains("each output may depend on all inputs"));
+}
+
+TEST_CASE("a model structure that is missing is a warning") {
+  std::string text = kComplete;
+  const std::string end = "</ModelStructure>";
+  const std::size_t begin = text.find("<ModelStructure>");
+  text.erase(begin, text.find(end) + end.size() - begin);
+  const auto unit = importer::parse_model_description(text, "unit.xml");
+  REQUIRE(unit.warnings.size() == 1);
+  CHECK_THAT(unit.warnings[0], Contains("unit.xml:2: <ModelStructure> is missing"));
+}
+
+TEST_CASE("a slip that is in each variable does not fill the screen") {
+  std::string variables;
+  for (int i = 0; i < 500; ++i) {
+    variables += "<Boolean name=\"b" + std::to_string(i) + "\" valueReference=\"" +
+                 std::to_string(1000 + i) +
+                 "\" causality=\"parameter\" variability=\"fixed\" "
+                 "start=\"True\"/>\n";
+  }
+  const auto unit =
+      importer::parse_model_description(description_text("x", "", variables), "unit.xml");
+  CHECK(variable(unit, "b499").start == "true");
+  REQUIRE(unit.warnings.size() == core::LimitedWarnings::kMostShown + 1);
+  CHECK(unit.warnings.back() == "… and 480 more warnings for unit.xml");
 }
 
 TEST_CASE("a description with more elements than memory holds is refused") {
