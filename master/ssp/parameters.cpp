@@ -123,15 +123,15 @@ xml::Document open(const xml::Element& owner, const BindingContext& context, con
     owner.fail(fmt::format("the sourceBase '{}' is not known", base),
                "it is SSD, or component for what is inside the component's FMU");
   }
-  std::filesystem::path folder = context.folder;
+  std::vector<std::filesystem::path> folders = context.folders;
   if (base == "component") {
     if (context.component.empty()) {
       owner.fail("only a component that is an FMU can hold its own parameters",
                  "name a file relative to this one, without sourceBase");
     }
-    folder = context.files.unit_folder(context.component, owner.where());
+    folders = {context.files.unit_folder(context.component, owner.where())};
   }
-  const std::filesystem::path path = source_path(owner, folder, context.warnings);
+  const std::filesystem::path path = source_path(owner, folders, context.warnings);
   if (const std::string reason = core::why_unreachable(path); !reason.empty()) {
     owner.fail(fmt::format("cannot reach the {} '{}': {}", what, context.files.shown(path), reason),
                "check its path");

@@ -1,5 +1,6 @@
 #include "master/ssp/signal_dictionary.h"
 
+#include <span>
 #include <utility>
 
 #include <fmt/format.h>
@@ -44,8 +45,9 @@ SignalDictionary read_entries(const xml::Element& root, std::vector<std::string>
   return dictionary;
 }
 
-SignalDictionary read_dictionary(const xml::Element& element, const std::filesystem::path& folder,
-                                 Files& files, std::vector<std::string>& warnings) {
+SignalDictionary read_dictionary(const xml::Element& element,
+                                 std::span<const std::filesystem::path> folders, Files& files,
+                                 std::vector<std::string>& warnings) {
   element.allow_attributes({"name", "type", "source"});
   const std::string type = element.attribute_or("type", kDictionaryType);
   if (type != kDictionaryType) {
@@ -53,7 +55,7 @@ SignalDictionary read_dictionary(const xml::Element& element, const std::filesys
                              fmt::format("the type '{}' is read", kDictionaryType));
   }
   if (element.attribute("source")) {
-    const std::filesystem::path path = source_path(element, folder, warnings);
+    const std::filesystem::path path = source_path(element, folders, warnings);
     return read_entries(files.document(path).root(), warnings);
   }
   const auto inside = element.child({kSsb, "SignalDictionary"});
@@ -66,13 +68,13 @@ SignalDictionary read_dictionary(const xml::Element& element, const std::filesys
 }  // namespace
 
 std::map<std::string, SignalDictionary> read_signal_dictionaries(
-    const xml::Element& dictionaries, const std::filesystem::path& folder, Files& files,
+    const xml::Element& dictionaries, std::span<const std::filesystem::path> folders, Files& files,
     std::vector<std::string>& warnings) {
   std::map<std::string, SignalDictionary> all;
   dictionaries.allow_children({{kSsd, "SignalDictionary"}});
   for (const xml::Element& element : dictionaries.children()) {
     const std::string name = element.required("name");
-    if (all.emplace(name, read_dictionary(element, folder, files, warnings)).second) continue;
+    if (all.emplace(name, read_dictionary(element, folders, files, warnings)).second) continue;
     element.fail(fmt::format("two signal dictionaries are named '{}'", name));
   }
   return all;
