@@ -168,7 +168,7 @@ class Extraction {
     const mode_t type = archive_entry_filetype(entry_);
     if (archive_entry_hardlink(entry_) != nullptr) fail_entry("a hard link");
     if (archive_entry_is_encrypted(entry_) != 0) fail_entry("which is encrypted");
-    if (type == AE_IFDIR) {
+    if (type == AE_IFDIR || (type == AE_IFREG && name_.ends_with('/'))) {  // of Windows: "a\\"
       make_folder(target);
     } else if (type == AE_IFREG) {
       make_folder(target.parent_path());
