@@ -5,7 +5,6 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include "master/cli/commands.h"
 #include "master/cli/crash_guard.h"
@@ -19,7 +18,6 @@
 #include "master/scenario/unit_path.h"
 #include "master/util/archive/temporary_folder.h"
 #include "master/util/archive/zip.h"
-#include "master/util/message_text.h"
 
 namespace stride::cli {
 namespace {
@@ -40,11 +38,15 @@ void build(BuildRequest request) {
   refuse_kept_paths({&output, 1}, std::vector<KeptPath>{{request.fmu, "the FMU itself"}});
   for (fs::path& folder : request.includes) folder = fs::absolute(folder);
   const importer::UnpackedFmu fmu(request.fmu);
-  if (!fmu.warning().empty()) spdlog::warn("{}", core::message_text(fmu.warning()));
   const auto unit = importer::read_model_description(fmu.description());
+  const importer::BuildDescription description =
+      importer::read_build_description(fmu.description(), unit);
+  if (!fmu.warning().empty()) print_warnings({&fmu.warning(), 1});
+  print_warnings(unit.warnings);
+  print_warnings(description.warnings);
   const archive::TemporaryFolder folder;
   const std::string name = unit.model_identifier + ".so";
-  isolation::build_library({.description = importer::read_build_description(fmu.folder(), unit),
+  isolation::build_library({.description = description,
                             .sources = fs::absolute(fmu.folder()) / "sources",
                             .definitions = request.definitions,
                             .includes = request.includes,
@@ -53,7 +55,7 @@ void build(BuildRequest request) {
   const std::string place =
       fmt::format("binaries/{}/{}", importer::platform_of(unit.fmi_version), name);
   archive::Contents contents;
-  archive::add_folder(contents, "", fmu.folder());
+  importer::add_fmu(contents, fmu);
   contents.erase(place);
   archive::add_file(contents, place, folder.path() / name, true);
   archive::write_zip(request.output, contents);

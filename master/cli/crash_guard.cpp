@@ -63,7 +63,7 @@ Guarded guarded;
                         importer::unfinished_library_work(), bool(note.is_leaving)};
     const core::Error error = error_of(note.end, work);
     note.error.set(error.what());
-    note.is_printed.set(write_error(error.what()));
+    note.is_printed.set(print_error(error.what()));
     (*guarded.conclusion.load())(error.what());
   } catch (...) {  // the rest is lost
   }

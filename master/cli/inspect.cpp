@@ -6,7 +6,6 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include "master/cli/commands.h"
 #include "master/cli/crash_guard.h"
@@ -112,7 +111,7 @@ void inspect(const std::filesystem::path& file) {
   const auto fmu = importer::Fmu::load(scenario::find_unit(file, {}));
   const LimitedEnd end;
   const core::UnitDescription& unit = *fmu->description();
-  for (const std::string& warning : unit.warnings) spdlog::warn("{}", warning);
+  print_warnings(unit.warnings);
   print_text("{}: FMI {} Co-Simulation{}\n", unit.model_name, unit.fmi_version,
              unit.generation_tool.empty() ? "" : ", made with " + unit.generation_tool);
   if (!unit.description.empty()) print_text("{}\n", unit.description);

@@ -28,8 +28,6 @@ std::optional<core::FileIdentity> error_file;  ///< at the beginning
 
 bool is_error_file_own() { return core::FileIdentity::of(STDERR_FILENO) == error_file; }
 
-std::string error_line(std::string_view text) { return fmt::format("stride: error: {}\n", text); }
-
 void give_buffer() {
   const int mode = ::isatty(STDOUT_FILENO) != 0 ? _IOLBF : _IOFBF;
   std::setvbuf(stdout, output_buffer, mode, sizeof output_buffer);
@@ -63,11 +61,8 @@ bool put(std::FILE* stream, std::string_view text) {
 }
 
 bool print_error(std::string_view text) {
-  return put(stderr, error_line(core::message_text(text))) && is_error_file_own();
-}
-
-bool write_error(std::string_view text) {
-  const std::string line = core::terminal_text(error_line(text));
+  const std::string line =
+      core::terminal_text(fmt::format("stride: error: {}\n", core::message_text(text)));
   return is_error_file_own() &&
          ::write(STDERR_FILENO, line.data(), line.size()) == static_cast<ssize_t>(line.size());
 }
@@ -82,6 +77,10 @@ std::string in_words(const std::exception& error) {
     return fmt::format("there is not enough memory\n  hint: {}", memory_hint());
   }
   return error.what();
+}
+
+void print_warnings(std::span<const std::string> warnings) {
+  for (const std::string& warning : warnings) spdlog::warn("{}", core::message_text(warning));
 }
 
 void set_up_output() {

@@ -4,6 +4,7 @@
 
 #include <cstdio>
 #include <exception>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -22,12 +23,10 @@ void print_text(fmt::format_string<Values...> format, Values&&... values) {
   put(stdout, fmt::format(format, std::forward<Values>(values)...));
 }
 
-/// "stride: error: TEXT", to the standard error stream; core::message_text() of the text. Returns
-/// whether that is where it was at the beginning: code of a unit may have put another file there.
+/// "stride: error: TEXT", with core::message_text() of the text, to where the standard error stream
+/// was at the beginning, also of a process whose streams are damaged. Returns whether it could be
+/// written: code of a unit may have put another file there, which stays as it is.
 bool print_error(std::string_view text);
-
-/// Likewise for a process whose streams may be damaged.
-bool write_error(std::string_view text);
 
 /// Its text; for exceptions of the standard library, whose own text is for programmers, another
 /// one.
@@ -42,6 +41,9 @@ void warn_of_failure(Work&& work) {
     spdlog::warn("{}", in_words(failure));
   }
 }
+
+/// core::message_text() of each.
+void print_warnings(std::span<const std::string> warnings);
 
 /// To be called before anything is printed. The log goes to the standard error stream, likewise.
 void set_up_output();

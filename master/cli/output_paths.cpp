@@ -1,6 +1,7 @@
 #include "master/cli/output_paths.h"
 
 #include <set>
+#include <span>
 #include <string_view>
 #include <utility>
 
@@ -50,7 +51,7 @@ class SourceReader {
       keep(package ? package->path : file, kTheScenario);
       known_.insert(file);
       const xml::Document& document = files().read_ahead(file);
-      add_sources(document.root(), ssp::source_folder(document.root(), file));
+      add_sources(document.root(), ssp::source_folders(file));
       found_.results = scenario::read_annotation(document.root()).results;
     } catch (const core::Error&) {  // reported where the scenario is read
     }
@@ -70,14 +71,14 @@ class SourceReader {
     if (core::path_exists(path)) found_.inputs.push_back({path, what});
   }
 
-  void add_sources(const xml::Element& element, const fs::path& folder) {
-    if (!element.attribute_or("source").empty()) add_source(element, folder);
-    for (const xml::Element& child : element.children()) add_sources(child, folder);
+  void add_sources(const xml::Element& element, std::span<const fs::path> folders) {
+    if (!element.attribute_or("source").empty()) add_source(element, folders);
+    for (const xml::Element& child : element.children()) add_sources(child, folders);
   }
 
-  void add_source(const xml::Element& element, const fs::path& folder) {
+  void add_source(const xml::Element& element, std::span<const fs::path> folders) {
     try {
-      const fs::path file = ssp::source_of(element, folder).path;
+      const fs::path file = ssp::source_of(element, folders).path;
       if (!known_.insert(file).second) return;
       const bool is_system = file.extension() == ".ssd" || file.extension() == ".ssp";
       const bool is_component = element.is(ssp::kSsd, "Component") && !is_system;
@@ -85,7 +86,7 @@ class SourceReader {
       keep(file, "a file of the scenario");
       if (file.extension() != ".ssd") return;
       const xml::Element root = files().read_ahead(file).root();
-      add_sources(root, ssp::source_folder(root, file));
+      add_sources(root, ssp::source_folders(file));
     } catch (const core::Error&) {  // likewise
     }
   }

@@ -12,6 +12,7 @@
 
 #include "master/cli/commands.h"
 #include "master/cli/crash_guard.h"
+#include "master/cli/output.h"
 #include "master/cli/output_paths.h"
 #include "master/scenario/file_units.h"
 #include "master/scenario/scenario.h"
@@ -115,7 +116,7 @@ void add_pack(CLI::App& app) {
     if (is_scenario(request->library)) return pack_scenario(*request);
     if (scenario::is_stimuli(request->library)) return scenario::pack_stimuli(*request);
     if (scenario::is_program(request->library)) return scenario::pack_program(*request);
-    importer::pack(*request);
+    print_warnings(importer::pack(*request));
   });
 }
 

@@ -203,9 +203,9 @@ void Watch::complete_records() const {
         {core::Error::Kind::Run,
          {},
          error.empty() ? "the run has failed, and could not write here for what reason" : error});
+    std::error_code none;  // else it stays as it is
+    if (is_in_run()) fs::remove(fs::path(run_files().run_file.view()), none);
   }
-  std::error_code none;  // else it stays as it is
-  if (is_in_run()) fs::remove(fs::path(run_files().run_file.view()), none);
   archive::TemporaryFolder::sweep_abandoned();
 }
 

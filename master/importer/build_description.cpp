@@ -30,7 +30,7 @@ std::string definition(const xml::Element& element) {
   return element.required("name") + (value && !value->empty() ? "=" + *value : "");
 }
 
-SourceFileSet read_set(const xml::Element& element) {
+SourceFileSet read_set(const xml::Element& element, std::vector<std::string>& warnings) {
   SourceFileSet set;
   set.language = element.attribute_or("language");
   const std::string compiler = element.attribute_or("compiler");
@@ -40,7 +40,7 @@ SourceFileSet read_set(const xml::Element& element) {
     set.files.push_back(inner_path(file));
   }
   for (const xml::Element& one : element.children("PreprocessorDefinition")) {
-    if (!one.flag("optional")) set.definitions.push_back(definition(one));
+    if (!one.lenient_flag("optional", warnings)) set.definitions.push_back(definition(one));
   }
   for (const xml::Element& folder : element.children("IncludeDirectory")) {
     set.includes.push_back(inner_path(folder));
@@ -68,7 +68,7 @@ BuildDescription read_fmi3(const fs::path& file, const std::string& model_identi
   const xml::Element configuration = find_configuration(document.root(), model_identifier);
   BuildDescription build;
   for (const xml::Element& set : configuration.children("SourceFileSet")) {
-    build.sets.push_back(read_set(set));
+    build.sets.push_back(read_set(set, build.warnings));
   }
   for (const xml::Element& library : configuration.children("Library")) {
     build.libraries.push_back(library.required("name"));
@@ -76,8 +76,8 @@ BuildDescription read_fmi3(const fs::path& file, const std::string& model_identi
   return build;
 }
 
-BuildDescription read_fmi2(const fs::path& fmu_folder) {
-  const xml::Document document(fmu_folder / "modelDescription.xml", "modelDescription.xml");
+BuildDescription read_fmi2(const fs::path& model_description) {
+  const xml::Document document(model_description, model_description.filename().string());
   BuildDescription build;
   const auto unit = document.root().child("CoSimulation");
   const auto list = unit ? unit->child("SourceFiles") : std::nullopt;
@@ -89,17 +89,18 @@ BuildDescription read_fmi2(const fs::path& fmu_folder) {
 
 }  // namespace
 
-BuildDescription read_build_description(const fs::path& fmu_folder,
+BuildDescription read_build_description(const fs::path& model_description,
                                         const core::UnitDescription& unit) {
+  const fs::path build_file = model_description.parent_path() / kBuildFile;
   const bool is_fmi3 = unit.fmi_version.starts_with("3.");
-  if (is_fmi3 && !core::is_file(fmu_folder / kBuildFile)) {
+  if (is_fmi3 && !core::is_file(build_file)) {
     core::fail_input(
         {.unit = unit.model_identifier},
         fmt::format("the FMU has no '{}', so it is not known how to compile it", kBuildFile),
         "export it with its sources, or with binaries for this platform");
   }
   BuildDescription build =
-      is_fmi3 ? read_fmi3(fmu_folder / kBuildFile, unit.model_identifier) : read_fmi2(fmu_folder);
+      is_fmi3 ? read_fmi3(build_file, unit.model_identifier) : read_fmi2(model_description);
   const bool has_files =
       std::ranges::any_of(build.sets, [](const SourceFileSet& set) { return !set.files.empty(); });
   if (has_files) return build;

@@ -22,13 +22,14 @@ struct SourceFileSet {
 struct BuildDescription {
   std::vector<SourceFileSet> sets{};
   std::vector<std::string> libraries{};  ///< of the system, by their names for the linker
+  std::vector<std::string> warnings{};
 };
 
-/// Of an unpacked FMU: the sources/buildDescription.xml of FMI 3.0, in which the configuration for
-/// this platform counts, or one for any; the <SourceFiles> of FMI 2.0. Throws core::Error (Input)
-/// for what is malformed, for names that lead out of the folder 'sources', and if there are no
-/// sources for Co-Simulation.
-BuildDescription read_build_description(const std::filesystem::path& fmu_folder,
+/// Of the FMU with this model description, and its sources beside it: the
+/// sources/buildDescription.xml of FMI 3.0, in which the configuration for this platform counts, or
+/// one for any; the <SourceFiles> of FMI 2.0. Throws core::Error (Input) for what is malformed, for
+/// names that lead out of the folder 'sources', and if there are no sources for Co-Simulation.
+BuildDescription read_build_description(const std::filesystem::path& model_description,
                                         const core::UnitDescription& unit);
 
 }  // namespace stride::importer

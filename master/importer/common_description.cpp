@@ -132,6 +132,26 @@ void read_units(const xml::Element& root, core::UnitDescription& unit) {
   }
 }
 
+void read_model_structure(const xml::Element& root, core::UnitDescription& unit,
+                          const UnknownsReader& read_outputs, const UnknownsReader& read_initial) {
+  const char* const ignored =
+      "without what it has of dependencies, each output may depend on all inputs";
+  const auto structure = root.child("ModelStructure");
+  if (!structure) {
+    unit.warnings.push_back(core::to_text({.where = root.where()}) +
+                            fmt::format("<ModelStructure> is missing; {}", ignored));
+    return;
+  }
+  try {
+    unit.outputs = read_outputs(*structure);
+    unit.initial_unknowns = read_initial(*structure);
+  } catch (const core::Error& mistake) {
+    unit.outputs.clear();
+    unit.warnings.push_back(
+        fmt::format("{}; <ModelStructure> is ignored, and {}", mistake.what(), ignored));
+  }
+}
+
 void read_default_experiment(const xml::Element& root, core::UnitDescription& unit) {
   const auto element = root.child("DefaultExperiment");
   if (!element) return;

@@ -2,8 +2,10 @@
 #ifndef STRIDE_MASTER_IMPORTER_COMMON_DESCRIPTION_H
 #define STRIDE_MASTER_IMPORTER_COMMON_DESCRIPTION_H
 
+#include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <stride/time.h>
 
@@ -26,6 +28,11 @@ std::optional<Duration> read_step_size(const xml::Element& element, const char* 
 /// with a warning for each.
 void read_units(const xml::Element& root, core::UnitDescription& unit);
 void read_default_experiment(const xml::Element& root, core::UnitDescription& unit);
+/// The lists of <ModelStructure> that these functions read. One that is missing, or that refers to
+/// what is not there, is ignored with a warning: each output may depend on all inputs then.
+using UnknownsReader = std::function<std::vector<core::Unknown>(const xml::Element& structure)>;
+void read_model_structure(const xml::Element& root, core::UnitDescription& unit,
+                          const UnknownsReader& read_outputs, const UnknownsReader& read_initial);
 
 }  // namespace stride::importer
 

@@ -9,6 +9,7 @@
 #include "master/importer/fmi1/fmi1_description.h"
 #include "master/importer/fmi2/fmi2_description.h"
 #include "master/importer/fmi3/fmi3_description.h"
+#include "master/util/limited_warnings.h"
 #include "master/util/xml/document.h"
 
 namespace stride::importer {
@@ -62,6 +63,7 @@ ModelDescription read(const xml::Document& document) {
   if (major == "2.") unit.fmi2 = read_fmi2_description(root, unit);
   if (major == "3.") read_fmi3_description(root, unit);
   read_default_experiment(root, unit);
+  core::limit_warnings(unit.warnings, fmt::format("warnings for {}", root.where().file));
   return unit;
 }
 

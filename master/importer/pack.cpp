@@ -15,6 +15,7 @@
 #include "master/util/archive/zip.h"
 #include "master/util/error.h"
 #include "master/util/input_file.h"
+#include "master/util/lower_case.h"
 #include "master/util/process/process_state.h"
 
 namespace stride::importer {
@@ -74,13 +75,19 @@ archive::Contents collect(const PackRequest& request) {
 }
 
 /// The same for the library in an unpacked FMU, with what lies beside it.
-PackRequest with_library_of(const fs::path& fmu, PackRequest request) {
+PackRequest with_library_of(const UnpackedFmu& fmu, PackRequest request,
+                            std::vector<std::string>& warnings) {
   if (request.resources.empty()) {
     core::fail_input({}, fmt::format("'{}' is packed already", request.library.string()),
                      "name the folder that it is to be packed again with: --resources FOLDER");
   }
-  const auto description = read_model_description(fmu / "modelDescription.xml");
-  request.library = find_library(fmu, description.fmi_version, description.model_identifier).path;
+  const auto description = read_model_description(fmu.description());
+  const FoundLibrary found =
+      find_library(fmu.folder(), description.fmi_version, description.model_identifier);
+  for (const std::string& warning : {fmu.warning(), found.warning}) {
+    if (!warning.empty()) warnings.push_back(warning);
+  }
+  request.library = found.path;
   // sorted: the order in which they are loaded
   std::vector<fs::path> beside = core::folder_entries(request.library.parent_path());
   std::erase(beside, request.library);
@@ -90,12 +97,15 @@ PackRequest with_library_of(const fs::path& fmu, PackRequest request) {
 
 }  // namespace
 
-void pack(const PackRequest& request) {
-  if (request.library.extension() != ".fmu") {
-    return archive::write_zip(request.output, collect(request));
+std::vector<std::string> pack(const PackRequest& request) {
+  std::vector<std::string> warnings;
+  if (core::lower_case(request.library.extension().string()) != ".fmu") {
+    archive::write_zip(request.output, collect(request));
+    return warnings;
   }
   const UnpackedFmu fmu(request.library);
-  archive::write_zip(request.output, collect(with_library_of(fmu.folder(), request)));
+  archive::write_zip(request.output, collect(with_library_of(fmu, request, warnings)));
+  return warnings;
 }
 
 }  // namespace stride::importer

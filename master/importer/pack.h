@@ -3,6 +3,7 @@
 #define STRIDE_MASTER_IMPORTER_PACK_H
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 namespace stride::importer {
@@ -19,8 +20,9 @@ struct PackRequest {
 /// resources/, and extra/org.stride.idle/ if the unit can promise to be idle. From a .fmu it takes
 /// the library for this platform and those beside it; its own resources stay behind, so there must
 /// be others. The same input gives the same bytes, and the output is replaced only when it is
-/// complete. Throws core::Error: Input for what is given wrongly, Run if it cannot be written.
-void pack(const PackRequest& request);
+/// complete. Returns warnings. Throws core::Error: Input for what is given wrongly, Run if it
+/// cannot be written.
+std::vector<std::string> pack(const PackRequest& request);
 
 }  // namespace stride::importer
 

@@ -1,5 +1,6 @@
 #include "master/importer/unpacked_fmu.h"
 
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -40,6 +41,13 @@ UnpackedFmu::UnpackedFmu(const fs::path& path, const core::Location& where,
   if (description_ == archive_.folder() / kDescription) return;
   warning_ = core::to_text({.where = where}) +
              archive::displaced_text(shown, kDescription, archive_.folder(), description_);
+}
+
+void add_fmu(archive::Contents& contents, const UnpackedFmu& fmu) {
+  archive::add_folder(contents, "", fmu.folder());
+  auto description = contents.extract(fmu.description().filename().string());
+  description.key() = kDescription;
+  contents.insert(std::move(description));
 }
 
 }  // namespace stride::importer

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "master/util/archive/unpacked_archive.h"
+#include "master/util/archive/zip.h"
 
 namespace stride::importer {
 
@@ -32,6 +33,9 @@ class UnpackedFmu {
   std::filesystem::path description_;
   std::string warning_;
 };
+
+/// Adds all files of the FMU, with its description where the standard has it.
+void add_fmu(archive::Contents& contents, const UnpackedFmu& fmu);
 
 }  // namespace stride::importer
 

@@ -9,6 +9,7 @@
 
 #include "master/model/meant_value.h"
 #include "master/model/number_range.h"
+#include "master/util/boolean_text.h"
 #include "master/util/suggest.h"
 #include "master/util/words.h"
 
@@ -296,9 +297,9 @@ class Composer {
     const auto meant = meant_value(is_of_boolean ? ValueType::Boolean : ValueType::Int64, word);
     const std::string& plain = meant ? *meant : word;
     if (is_of_boolean) {
-      if (plain != "true" && plain != "1" && plain != "false" && plain != "0") return word;
-      const std::int64_t source = plain == "true" || plain == "1" ? 1 : 0;
-      return mapped(transformation.numbers, source) != 0 ? "true" : "false";
+      const auto source = boolean_of(plain);
+      if (!source) return word;
+      return mapped(transformation.numbers, *source ? 1 : 0) != 0 ? "true" : "false";
     }
     std::int64_t number = 0;
     const auto end = std::from_chars(plain.data(), plain.data() + plain.size(), number);

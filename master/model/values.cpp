@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "master/util/boolean_text.h"
 #include "master/util/hex.h"
 #include "master/util/message_text.h"
 #include "master/util/number_text.h"
@@ -40,10 +41,9 @@ void parse_element(const Variable& variable, const std::string& text, Number& va
 }
 
 void parse_element(const Variable&, const std::string& text, bool& value) {
-  if (text != "true" && text != "false" && text != "1" && text != "0") {
-    reject(text, "true or false");
-  }
-  value = text == "true" || text == "1";
+  const auto read = boolean_of(text);
+  if (!read) reject(text, "true or false");
+  value = *read;
 }
 
 void parse_element(const Variable&, const std::string& text, std::string& value) { value = text; }

@@ -63,7 +63,7 @@ std::string shown_places(const Scenario& scenario, const std::filesystem::path& 
   const auto inside = source.lexically_relative(folder.empty() ? "." : folder);
   const std::filesystem::path target = std::filesystem::canonical(scenario.path, error);
   if (error || inside.empty()) return shown;
-  return shown + ", or " + (target.parent_path() / inside).lexically_normal().string();
+  return shown + "', or '" + (target.parent_path() / inside).lexically_normal().string();
 }
 
 /// Each element of an array is a column.
@@ -265,8 +265,9 @@ void LoadedScenario::choose_times(const ScenarioRequest& request) {
   } else if (unit_stop) {
     options_.stop = *unit_stop;
   } else {
-    core::fail_input(of_file(), "the scenario has no stop time",
-                     "use --stop SECONDS, or write <ssd:DefaultExperiment stopTime=\"…\"/>");
+    core::fail_input(of_file(), "there is no stop time, neither of the system nor of a unit",
+                     "use --stop SECONDS; a system has it in "
+                     "<ssd:DefaultExperiment stopTime=\"…\"/>");
   }
   if (options_.stop == options_.start) {
     spdlog::warn("the run ends where it starts, at {} s, so it has initial values only",

@@ -13,6 +13,7 @@
 #include "master/ssp/definitions.h"
 #include "master/ssp/ssp.h"
 #include "master/ssp/system_reader.h"
+#include "master/ssp/version.h"
 #include "master/util/xml/document.h"
 #include "master/util/xml/editor.h"
 
@@ -51,7 +52,7 @@ class Completion {
   Completion(const xml::Document& document, const Descriptions& descriptions)
       : root_(document.root()),
         descriptions_(descriptions),
-        is_first_version_(root_.required("version") == "1.0"),
+        is_first_version_(read_version(root_, said_before_) == "1.0"),
         ssd_(head(root_.prefix_of(kSsd).value_or(""))),
         editor_(document.text()) {
     find_common_prefix();
@@ -295,6 +296,7 @@ class Completion {
 
   xml::Element root_;
   const Descriptions& descriptions_;
+  std::vector<std::string> said_before_;  ///< warnings, when the scenario was read
   bool is_first_version_;
   std::string ssd_;
   std::string ssc_;

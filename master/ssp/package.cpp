@@ -2,6 +2,7 @@
 
 #include <map>
 #include <set>
+#include <span>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -61,14 +62,14 @@ class Packer {
   std::string packed(const fs::path& path, const std::string& resources) {
     const xml::Document document = files_.document(path);
     xml::Editor editor(document.text());
-    replace_sources(document.root(), source_folder(document.root(), path), resources, editor);
+    replace_sources(document.root(), source_folders(path), resources, editor);
     return editor.result();
   }
 
-  void replace_sources(const xml::Element& element, const fs::path& folder,
+  void replace_sources(const xml::Element& element, std::span<const fs::path> folders,
                        const std::string& resources, xml::Editor& editor) {
     if (names_a_file(element)) {
-      const auto [source, fragment, warning] = source_of(element, folder);
+      const auto [source, fragment, warning] = source_of(element, folders);
       const std::string name = add(element, source);
       const std::string uri = name == "SystemStructure.ssd" ? "../" + name : resources + name;
       editor.set_attribute(
@@ -76,7 +77,7 @@ class Packer {
           core::uri_path(uri) + (fragment.empty() ? "" : "#" + core::uri_path(fragment)));
     }
     for (const xml::Element& child : element.children()) {
-      replace_sources(child, folder, resources, editor);
+      replace_sources(child, folders, resources, editor);
     }
   }
 

@@ -12,6 +12,7 @@
 #include "master/ssp/ssp.h"
 #include "master/ssp/transformation.h"
 #include "master/ssp/uri.h"
+#include "master/ssp/version.h"
 #include "master/util/input_file.h"
 #include "master/util/limited_warnings.h"
 #include "master/util/xml/document.h"
@@ -89,21 +90,15 @@ ParameterValue read_parameter(const xml::Element& parameter, const Definitions& 
   return *result;
 }
 
-void check_version(const xml::Element& root, const char* what) {
-  const std::string version = root.required("version");
-  if (version == "1.0" || version == "2.0") return;
-  root.fail(fmt::format("the version '{}' of {} is not known", version, what),
-            "stride reads 1.0 and 2.0");
-}
-
-std::vector<ParameterValue> read_set(const xml::Element& set, const Definitions& around) {
+std::vector<ParameterValue> read_set(const xml::Element& set, const Definitions& around,
+                                     std::vector<std::string>& warnings) {
   if (!set.is(kSsv, "ParameterSet")) {
     set.fail(fmt::format("{} is not a parameter set", set.tag()),
              fmt::format("expected <ParameterSet> of the namespace '{}'", kSsv));
   }
   set.allow_attributes({"version", "name", "author", "fileversion", "copyright", "license",
                         "generationTool", "generationDateAndTime"});
-  check_version(set, "parameter sets");
+  read_version(set, warnings);
   set.allow_children({{kSsv, "Parameters"},
                       {kSsv, "Enumerations"},
                       {kSsv, "Units"},
@@ -128,15 +123,15 @@ xml::Document open(const xml::Element& owner, const BindingContext& context, con
     owner.fail(fmt::format("the sourceBase '{}' is not known", base),
                "it is SSD, or component for what is inside the component's FMU");
   }
-  std::filesystem::path folder = context.folder;
+  std::vector<std::filesystem::path> folders = context.folders;
   if (base == "component") {
     if (context.component.empty()) {
       owner.fail("only a component that is an FMU can hold its own parameters",
                  "name a file relative to this one, without sourceBase");
     }
-    folder = context.files.unit_folder(context.component, owner.where());
+    folders = {context.files.unit_folder(context.component, owner.where())};
   }
-  const std::filesystem::path path = source_path(owner, folder, context.warnings);
+  const std::filesystem::path path = source_path(owner, folders, context.warnings);
   if (const std::string reason = core::why_unreachable(path); !reason.empty()) {
     owner.fail(fmt::format("cannot reach the {} '{}': {}", what, context.files.shown(path), reason),
                "check its path");
@@ -157,7 +152,7 @@ std::vector<ParameterValue> read_values(const xml::Element& binding,
       inline_values->fail("a binding with a source cannot have values of its own, too",
                           "split it into two bindings");
     }
-    return read_set(open(binding, context, "parameter set").root(), {});
+    return read_set(open(binding, context, "parameter set").root(), {}, context.warnings);
   }
   if (!inline_values) {
     binding.fail(fmt::format("{} has neither a source nor <ParameterValues>", binding.tag()));
@@ -165,17 +160,17 @@ std::vector<ParameterValue> read_values(const xml::Element& binding,
   inline_values->allow_children({{kSsv, "ParameterSet"}});
   const auto set = inline_values->child({kSsv, "ParameterSet"});
   if (!set) inline_values->fail(fmt::format("{} holds no <ParameterSet>", inline_values->tag()));
-  return read_set(*set, context.definitions);
+  return read_set(*set, context.definitions, context.warnings);
 }
 
-void check_mapping(const xml::Element& mapping) {
+void check_mapping(const xml::Element& mapping, std::vector<std::string>& warnings) {
   if (!mapping.is(kSsm, "ParameterMapping")) {
     mapping.fail(fmt::format("{} is not a parameter mapping", mapping.tag()),
                  fmt::format("expected <ParameterMapping> of the namespace '{}'", kSsm));
   }
   mapping.allow_attributes({"version", "author", "fileversion", "copyright", "license",
                             "generationTool", "generationDateAndTime"});
-  check_version(mapping, "parameter mappings");
+  read_version(mapping, warnings);
   mapping.allow_children(
       {{kSsm, "MappingEntry"}, {kSsc, "MetaData"}, {kSsc, "Signature"}, {kSsm, "Annotations"}});
 }
@@ -207,7 +202,7 @@ bool map_values_of(const xml::Element& entry, const std::vector<ParameterValue>&
 std::vector<ParameterValue> map_values(const xml::Element& mapping,
                                        const std::vector<ParameterValue>& values,
                                        const BindingContext& context) {
-  check_mapping(mapping);
+  check_mapping(mapping, context.warnings);
   std::vector<ParameterValue> mapped;
   std::set<std::string> targets;
   core::LimitedWarnings missing(context.warnings, "entries whose parameter the set does not have");

@@ -16,9 +16,9 @@ namespace stride::ssp {
 /// The position of the bindings of a component or system.
 struct BindingContext {
   Files& files;
-  std::filesystem::path folder;       ///< of the .ssd
-  const Definitions& definitions;     ///< of the .ssd
-  std::filesystem::path component{};  ///< the source of the component, if it is an FMU
+  std::vector<std::filesystem::path> folders;  ///< of the .ssd
+  const Definitions& definitions;              ///< of the .ssd
+  std::filesystem::path component{};           ///< the source of the component, if it is an FMU
   std::vector<std::string>& warnings;
 };
 

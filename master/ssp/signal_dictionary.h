@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <map>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -14,10 +15,10 @@
 
 namespace stride::ssp {
 
-/// Reads <ssd:SignalDictionaries>, inline or from files relative to `folder`. Throws core::Error
-/// (Input).
+/// Reads <ssd:SignalDictionaries>, inline or from files relative to one of `folders`. Throws
+/// core::Error (Input).
 std::map<std::string, SignalDictionary> read_signal_dictionaries(
-    const xml::Element& dictionaries, const std::filesystem::path& folder, Files& files,
+    const xml::Element& dictionaries, std::span<const std::filesystem::path> folders, Files& files,
     std::vector<std::string>& warnings);
 
 }  // namespace stride::ssp

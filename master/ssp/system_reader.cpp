@@ -15,6 +15,7 @@
 #include "master/ssp/ssp.h"
 #include "master/ssp/transformation.h"
 #include "master/ssp/uri.h"
+#include "master/ssp/version.h"
 #include "master/util/input_file.h"
 #include "master/util/lower_case.h"
 #include "master/util/suggest.h"
@@ -58,8 +59,9 @@ class SystemReader {
  public:
   SystemReader(const xml::Element& root, const std::filesystem::path& path, Reading& reading)
       : root_(root),
-        folder_(source_folder(root, path)),
-        file_{root.required("version"), read_definitions(root, kSsd)},
+        path_(path),
+        folders_(source_folders(path)),
+        file_{read_version(root, reading.warnings), read_definitions(root, kSsd)},
         reading_(reading) {}
 
   SystemNode read() {
@@ -91,7 +93,7 @@ class SystemReader {
     system.connectors = read_connectors(element, file_);
     if (const auto dictionaries = element.child({kSsd, "SignalDictionaries"})) {
       system.dictionaries =
-          read_signal_dictionaries(*dictionaries, folder_, reading_.files, reading_.warnings);
+          read_signal_dictionaries(*dictionaries, folders_, reading_.files, reading_.warnings);
     }
     if (const auto elements = element.child({kSsd, "Elements"})) read_elements(*elements, system);
     if (const auto connections = element.child({kSsd, "Connections"})) {
@@ -107,7 +109,7 @@ class SystemReader {
   std::vector<ParameterValue> read_bindings(const xml::Element& owner,
                                             const std::filesystem::path& component) const {
     return read_parameters(
-        owner, {reading_.files, folder_, file_.definitions, component, reading_.warnings});
+        owner, {reading_.files, folders_, file_.definitions, component, reading_.warnings});
   }
 
   void read_elements(const xml::Element& elements, SystemNode& system) {
@@ -176,9 +178,22 @@ class SystemReader {
     }
     check_implementation(element);
     check_kinds(element, node);
-    node.source = source_path(element, folder_, reading_.warnings);
+    node.source = source_path(element, folders_, reading_.warnings);
+    check_package(element, node.source);
     node.parameters = read_bindings(element, node.source);
     return node;
+  }
+
+  /// There is nothing around the folder that a package is unpacked to.
+  void check_package(const xml::Element& element, const std::filesystem::path& source) const {
+    const auto package = reading_.files.archive_of(path_);
+    const bool leads_out = package && !reading_.files.archive_of(source);
+    if (!leads_out || std::filesystem::path(source_text(element)).is_absolute()) return;
+    if (core::path_exists(source)) return;
+    element.fail(fmt::format("source=\"{}\" leads out of the package '{}'", source_text(element),
+                             reading_.files.shown(package->path)),
+                 "put the file into the package, and name it relative to this .ssd: 'stride pack "
+                 "SYSTEM.ssd -o PACKAGE.ssp' does both");
   }
 
   /// FMI has no such variables.
@@ -266,7 +281,7 @@ class SystemReader {
   }
 
   SystemNode read_other_file(const xml::Element& component) {
-    const auto [source, variant, warning] = source_of(component, folder_);
+    const auto [source, variant, warning] = source_of(component, folders_);
     if (!warning.empty()) reading_.warnings.push_back(warning);
     if (!core::path_exists(source)) {
       component.fail(fmt::format("the system '{}' does not exist", reading_.files.shown(source)),
@@ -303,7 +318,8 @@ class SystemReader {
   }
 
   xml::Element root_;
-  std::filesystem::path folder_;
+  std::filesystem::path path_;
+  std::vector<std::filesystem::path> folders_;  ///< of sources
   SspFile file_;
   Reading& reading_;
   std::map<std::string, xml::Element> own_systems_;  ///< by id, when one of them was referred to
@@ -320,11 +336,6 @@ void check_system_description(const xml::Element& root) {
   }
   root.allow_attributes({"version", "name", "author", "fileversion", "copyright", "license",
                          "generationTool", "generationDateAndTime"});
-  const std::string version = root.required("version");
-  if (version != "1.0" && version != "2.0") {
-    root.fail(fmt::format("the SSP version '{}' is not known", version),
-              "stride reads 1.0 and 2.0");
-  }
   root.allow_children({{kSsd, "System"},
                        {kSsd, "Enumerations"},
                        {kSsd, "Units"},

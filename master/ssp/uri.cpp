@@ -96,33 +96,7 @@ bool has_drive(std::string_view path) {
                "download it, and name the file relative to this one");
 }
 
-/// Whether any file that the element, or one below it, names is there.
-bool has_source_in(const xml::Element& element, const fs::path& folder) {
-  try {
-    const std::string source = xml::without_blanks(element.attribute_or("source"));
-    const bool names_file = !source.empty() && !source.starts_with('#');
-    if (names_file && core::path_exists(source_of(element, folder).path)) return true;
-  } catch (const core::Error&) {  // reported where it is read
-  }
-  return std::ranges::any_of(
-      element.children(), [&](const xml::Element& child) { return has_source_in(child, folder); });
-}
-
-}  // namespace
-
-std::string source_text(const xml::Element& element) {
-  return xml::without_blanks(element.required("source"));
-}
-
-fs::path source_folder(const xml::Element& root, const fs::path& file) {
-  std::error_code error;
-  if (!fs::is_symlink(file, error)) return file.parent_path();
-  const fs::path target = fs::canonical(file, error);
-  if (error || has_source_in(root, file.parent_path())) return file.parent_path();
-  return has_source_in(root, target.parent_path()) ? target.parent_path() : file.parent_path();
-}
-
-Source source_of(const xml::Element& element, const std::filesystem::path& folder) {
+Source source_in(const fs::path& folder, const xml::Element& element) {
   const std::string source = source_text(element);
   if (source.find_first_of("%?#:") != source.npos) {
     if (const FoundFile literal = if_there(folder / source)) return {*literal, ""};
@@ -163,9 +137,35 @@ Source source_of(const xml::Element& element, const std::filesystem::path& folde
   return found;
 }
 
-std::filesystem::path source_path(const xml::Element& element, const std::filesystem::path& folder,
+}  // namespace
+
+std::string source_text(const xml::Element& element) {
+  return xml::without_blanks(element.required("source"));
+}
+
+std::vector<fs::path> source_folders(const fs::path& file) {
+  std::vector<fs::path> folders{file.parent_path()};
+  std::error_code error;
+  if (!fs::is_symlink(file, error)) return folders;
+  const fs::path target = fs::canonical(file, error);
+  if (!error) folders.push_back(target.parent_path());
+  return folders;
+}
+
+Source source_of(const xml::Element& element, std::span<const fs::path> folders) {
+  Source first = source_in(folders.front(), element);
+  for (const fs::path& folder : folders.subspan(1)) {
+    if (core::path_exists(first.path)) break;
+    Source other = source_in(folder, element);
+    if (core::path_exists(other.path)) return other;
+  }
+  return first;
+}
+
+std::filesystem::path source_path(const xml::Element& element,
+                                  std::span<const std::filesystem::path> folders,
                                   std::vector<std::string>& warnings) {
-  Source source = source_of(element, folder);
+  Source source = source_of(element, folders);
   if (!source.fragment.empty()) {
     element.fail_unsupported(fmt::format("a source with a fragment, which names a part of a file: "
                                          "\"{}\"",

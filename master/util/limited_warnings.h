@@ -14,7 +14,7 @@ namespace stride::core {
 /// Adds the first warnings of a kind to a list in words, and the number of the others at the end.
 class LimitedWarnings {
  public:
-  static constexpr std::size_t kMostShown = 60;
+  static constexpr std::size_t kMostShown = 20;
 
   /// `others`: what there are more of, such as "parameters without a component".
   LimitedWarnings(std::vector<std::string>& warnings, std::string others)
@@ -34,6 +34,17 @@ class LimitedWarnings {
   std::string others_;
   std::size_t count_ = 0;
 };
+
+/// Shortens a list likewise.
+inline void limit_warnings(std::vector<std::string>& warnings, const std::string& others) {
+  std::vector<std::string> shown;
+  LimitedWarnings limited(shown, others);
+  for (std::string& warning : warnings) {
+    if (limited.count()) limited.add(std::move(warning));
+  }
+  limited.finish();
+  warnings = std::move(shown);
+}
 
 }  // namespace stride::core
 

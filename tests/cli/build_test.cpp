@@ -60,6 +60,18 @@ TEST_CASE("an FMU with sources only is built, and runs") {
   CHECK(fmu.run().exit_code == 0);
 }
 
+TEST_CASE("a built FMU has its description where the standard has it, whatever its case was") {
+  const SourceFmu fmu;
+  fs::rename(fmu.scratch / "unit/modelDescription.xml", fmu.scratch / "unit/ModelDescription.xml");
+  const Outcome built = fmu.build();
+  CHECK(built.exit_code == 0);
+  CHECK_THAT(built.err, Contains("warning: 'unit' has its modelDescription.xml as "
+                                 "'ModelDescription.xml'"));
+  const Outcome outcome = fmu.run();
+  CHECK(outcome.exit_code == 0);
+  CHECK(outcome.err == "");
+}
+
 TEST_CASE("before it is built, the error says how it is") {
   const SourceFmu fmu;
   fmu.scratch.write("test.ssd", scenario_text({component("unit", "unit")}));
@@ -125,11 +137,12 @@ TEST_CASE("a unit of FMI 2.0 is built from the files that its model description 
   description.replace(end, 2,
                       "><SourceFiles><File name=\"integrator.c\"/></SourceFiles></CoSimulation>");
   fs::create_directories(scratch / "unit/sources");
-  scratch.write("unit/modelDescription.xml", description);
+  const std::string name = GENERATE("modelDescription.xml", "modeldescription.XML");
+  scratch.write("unit/" + name, description);
   fs::copy_file(units / "integrator.c", scratch / "unit/sources/integrator.c");
   const Outcome built = run_program(
       {"build", "unit", "-o", "built.fmu", "-I", STRIDE_SOURCE_DIR, "-D", "UNIT_NAME=\"tank\""},
       scratch.path());
-  CHECK(built.err == "");
+  CHECK((built.err == "") == (name == "modelDescription.xml"));
   CHECK_THAT(built.out, Contains("built.fmu has binaries/linux64/"));
 }

@@ -87,7 +87,7 @@ TEST_CASE("without a stop time anywhere, the message says where to give one") {
   parts.experiment = "";
   const Workspace workspace(parts);
   CHECK_THAT(input_error_of(workspace.run()),
-             Contains("has no stop time") && Contains("--stop SECONDS"));
+             Contains("there is no stop time") && Contains("--stop SECONDS"));
   CHECK(workspace.run({"--stop", "0.1", "--quiet"}).exit_code == 0);
 }
 

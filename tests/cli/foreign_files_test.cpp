@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "master/importer/unpacked_fmu.h"
+#include "master/util/archive/zip.h"
 #include "tests/build.h"
 #include "tests/cli/scenarios.h"
 
@@ -276,7 +277,7 @@ TEST_CASE("a linked system file finds its units beside the link, or beside the f
   fs::create_symlink("../test.ssd", workspace / "links/linked.ssd");
   const Arguments missing{"run", "links/linked.ssd"};
   CHECK_THAT(input_error_of(workspace.stride(missing)),
-             Contains("there is no unit 'links/my.fmu, or ") &&
+             Contains("there is no unit 'links/my.fmu', or '") &&
                  Contains((workspace / "my.fmu").string() + "'"));
   const std::string place = GENERATE(as<std::string>(), "my.fmu", "links/my.fmu");
   fs::copy_file(test_fmu("fmi2_relaxation"), workspace / place);
@@ -285,6 +286,38 @@ TEST_CASE("a linked system file finds its units beside the link, or beside the f
   INFO(outcome.err);
   CHECK(outcome.exit_code == 0);
   CHECK(workspace.stride({"pack", "links/linked.ssd", "-o", "p.ssp"}).exit_code == 0);
+}
+
+TEST_CASE("each source of a linked system is looked for beside the link, then beside the file") {
+  Workspace workspace(Parts{component("first", "links%20/near.fmu") +
+                            component("second", "far.fmu") + component("third", "inner.fmu") +
+                            component("fourth", "../up.fmu")});
+  for (const char* folder : {"a/links /links ", "a/links /resources", "resources"}) {
+    fs::create_directories(workspace / folder);
+  }
+  fs::create_symlink("../../test.ssd", workspace / "a/links /linked.ssd");
+  for (const char* place :
+       {"a/links /links /near.fmu", "far.fmu", "resources/inner.fmu", "a/up.fmu"}) {
+    fs::copy_file(test_fmu("fmi2_relaxation"), workspace / place);
+  }
+  const Outcome outcome =
+      workspace.stride({"run", "a/links /linked.ssd", "--quiet", "--stop", "0.1", "--out", "out"});
+  CHECK(outcome.err == "");
+  CHECK(outcome.exit_code == 0);
+  CHECK(workspace.stride({"pack", "a/links /linked.ssd", "-o", "p.ssp"}).exit_code == 0);
+}
+
+TEST_CASE("a source that leads out of a package is told as it is written") {
+  const Workspace workspace(Parts{component("unit", "../units/my.fmu")});
+  fs::copy_file(workspace / "test.ssd", workspace / "SystemStructure.ssd");
+  const auto document = workspace / "SystemStructure.ssd";
+  stride::archive::Contents contents;
+  contents["SystemStructure.ssd"].file = document;
+  stride::archive::write_zip(workspace / "p.ssp", contents);
+  CHECK_THAT(input_error_of(workspace.stride({"run", "p.ssp"})),
+             Contains("p.ssp/SystemStructure.ssd:") &&
+                 Contains("source=\"../units/my.fmu\" leads out of the package 'p.ssp'") &&
+                 Contains("stride pack"));
 }
 
 TEST_CASE("a system with namespaces, flags and an experiment as they are written by mistake runs") {

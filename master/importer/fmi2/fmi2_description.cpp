@@ -180,10 +180,10 @@ Fmi2Attributes read_fmi2_description(const xml::Element& root, core::UnitDescrip
   attributes.can_run_asynchronously =
       co_simulation.lenient_flag("canRunAsynchronuously", unit.warnings);  // as it is spelt there
   attributes.references = Variables(root, unit).references();
-  const auto structure = root.child("ModelStructure");
-  if (!structure) root.fail("<ModelStructure> is missing");
-  unit.outputs = read_unknowns(*structure, "Outputs", unit);
-  unit.initial_unknowns = read_unknowns(*structure, "InitialUnknowns", unit);
+  const auto reader = [&unit](const char* list) {
+    return [&unit, list](const auto& structure) { return read_unknowns(structure, list, unit); };
+  };
+  read_model_structure(root, unit, reader("Outputs"), reader("InitialUnknowns"));
   return attributes;
 }
 

@@ -17,11 +17,11 @@ class ClockReader {
   ClockReader(const xml::Element& clock, const std::optional<xml::Element>& type)
       : clock_(clock), type_(type) {}
 
-  core::ClockAttributes read(core::Causality causality) const {
+  core::ClockAttributes read(core::Causality causality, std::vector<std::string>& warnings) const {
     core::ClockAttributes attributes;
     attributes.variability = read_variability(causality);
-    attributes.supports_fraction = place("supportsFraction").flag("supportsFraction");
-    attributes.can_be_deactivated = place("canBeDeactivated").flag("canBeDeactivated");
+    attributes.supports_fraction = flag("supportsFraction", warnings);
+    attributes.can_be_deactivated = flag("canBeDeactivated", warnings);
     attributes.priority = place("priority").number<std::uint32_t>("priority");
     if (!attributes.is_periodic()) return attributes;
     read_interval(attributes);
@@ -29,6 +29,9 @@ class ClockReader {
   }
 
  private:
+  bool flag(const char* attribute, std::vector<std::string>& warnings) const {
+    return place(attribute).lenient_flag(attribute, warnings);
+  }
   /// The element that has the attribute: the clock, or else its type.
   const xml::Element& place(const char* attribute) const {
     return !clock_.attribute(attribute) && type_ ? *type_ : clock_;
@@ -105,8 +108,9 @@ class ClockReader {
 
 core::ClockAttributes read_clock_attributes(const xml::Element& clock,
                                             const std::optional<xml::Element>& declared_type,
-                                            core::Causality causality) {
-  return ClockReader(clock, declared_type).read(causality);
+                                            core::Causality causality,
+                                            std::vector<std::string>& warnings) {
+  return ClockReader(clock, declared_type).read(causality, warnings);
 }
 
 }  // namespace stride::importer

@@ -54,7 +54,7 @@ std::string read_start(const xml::Element& element, ValueType type) {
 }
 
 core::Variable read_variable(const xml::Element& element, ValueType type,
-                             const TypeDefinitions& types) {
+                             const TypeDefinitions& types, std::vector<std::string>& warnings) {
   core::Variable variable;
   variable.name = element.required("name");
   variable.reference = element.required_number<core::ValueReference>("valueReference");
@@ -77,9 +77,9 @@ core::Variable read_variable(const xml::Element& element, ValueType type,
   variable.max = inherited(element, declared, "max");
   variable.nominal = read_nominal(element, type, declared);
   if (type == ValueType::Clock) {
-    variable.clock = read_clock_attributes(element, declared, variable.causality);
+    variable.clock = read_clock_attributes(element, declared, variable.causality, warnings);
   }
-  variable.intermediate_update = element.flag("intermediateUpdate");
+  variable.intermediate_update = element.lenient_flag("intermediateUpdate", warnings);
   if (type != ValueType::Enumeration) return variable;
   if (!declared) TypeDefinitions::fail_without(element);
   variable.items = read_items(*declared);
@@ -195,7 +195,7 @@ VariableIndex read_variables(const xml::Element& root, core::UnitDescription& un
     if (element.is("", "Annotations")) continue;
     const auto type = find_named<ValueType>(element.name().local, core::kValueTypeCount);
     if (!type) element.fail(fmt::format("{} is not a type of FMI 3.0", element.tag()));
-    unit.variables.push_back(read_variable(element, *type, types));
+    unit.variables.push_back(read_variable(element, *type, types, unit.warnings));
     elements.push_back(element);
   }
   return Linker(unit, elements).run();
@@ -275,10 +275,10 @@ void read_fmi3_description(const xml::Element& root, core::UnitDescription& unit
   unit.instantiation_token = root.given("instantiationToken");
   read_co_simulation(find_co_simulation(root), unit);
   const VariableIndex index = read_variables(root, unit);
-  const auto structure = root.child("ModelStructure");
-  if (!structure) root.fail("<ModelStructure> is missing");
-  unit.outputs = read_unknowns(*structure, "Output", index);
-  unit.initial_unknowns = read_unknowns(*structure, "InitialUnknown", index);
+  const auto reader = [&index](const char* name) {
+    return [&index, name](const auto& structure) { return read_unknowns(structure, name, index); };
+  };
+  read_model_structure(root, unit, reader("Output"), reader("InitialUnknown"));
   read_annotation(root, unit);
 }
 

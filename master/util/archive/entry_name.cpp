@@ -19,6 +19,7 @@ bool has_letter_of_cp437(std::string_view bytes) {
 }  // namespace
 
 std::string entry_name(std::string bytes) {
+  if (bytes.find('/') == bytes.npos) std::ranges::replace(bytes, '\\', '/');
   if (utf8::find_invalid(bytes.begin(), bytes.end()) == bytes.end()) return bytes;
   core::CharacterConverter converter(has_letter_of_cp437(bytes) ? "CP437" : "WINDOWS-1252");
   if (!converter.is_open()) return bytes;

@@ -6,6 +6,8 @@
 #include <cstring>
 #include <memory>
 #include <string>
+#include <system_error>
+#include <vector>
 
 #include <archive.h>
 #include <archive_entry.h>
@@ -86,8 +88,8 @@ class Utf8Names {
   locale_t before_ = nullptr;
 };
 
-/// Unpacks one archive into one folder. Links are never made, and files never overwritten, so a
-/// path of checked names cannot leave the folder.
+/// Unpacks one archive into one folder. Symbolic links are never made, and files never overwritten,
+/// so a path of checked names cannot leave the folder.
 class Extraction {
  public:
   Extraction(fs::path archive, fs::path folder, std::string shown_as, std::string expected,
@@ -110,10 +112,15 @@ class Extraction {
       unpack_entry();
     }
     if (entries == 0) fail("is an empty archive", expected_);
+    for (const Link& link : links_) make_link(link);
   }
 
  private:
   static constexpr std::size_t kPiece = 1 << 16;
+  struct Link {
+    std::string name;
+    fs::path path, target;
+  };
 
   [[noreturn]] void fail(const std::string& what, const std::string& hint = "") const {
     core::fail_input({.where = where_}, fmt::format("'{}' {}", shown_as_, what), hint);
@@ -168,11 +175,13 @@ class Extraction {
     const mode_t type = archive_entry_filetype(entry_);
     if (archive_entry_hardlink(entry_) != nullptr) fail_entry("a hard link");
     if (archive_entry_is_encrypted(entry_) != 0) fail_entry("which is encrypted");
-    if (type == AE_IFDIR) {
+    if (type == AE_IFDIR || (type == AE_IFREG && name_.ends_with('/'))) {  // of Windows: "a\\"
       make_folder(target);
     } else if (type == AE_IFREG) {
       make_folder(target.parent_path());
       write_file(target);
+    } else if (type == AE_IFLNK && archive_entry_symlink(entry_) != nullptr) {
+      links_.push_back({name_, target, archive_entry_symlink(entry_)});
     } else {
       fail_entry(kind_name(type));
     }
@@ -207,6 +216,25 @@ class Extraction {
     while (const std::size_t size = read_piece()) {
       if (!file.write(buffer_.data(), size)) fail_writing(path);
     }
+  }
+
+  /// One to a file of the archive is another name of this file.
+  void make_link(const Link& link) {
+    name_ = link.name;
+    const fs::path file = (link.path.parent_path() / link.target).lexically_normal();
+    const fs::path inside = file.lexically_relative(folder_);
+    const bool leads_out = link.target.is_absolute() || inside.empty() || *inside.begin() == "..";
+    if (leads_out || !core::is_file(file)) {
+      fail_entry(fmt::format("a symbolic link to '{}', which is no file of the archive",
+                             link.target.string()));
+    }
+    make_folder(link.path.parent_path());
+    std::error_code error;
+    fs::create_hard_link(file, link.path, error);
+    if (error == std::errc::file_exists) fail_entry("which it holds twice");
+    if (!error) return;
+    errno = error.value();
+    fail_writing(link.path);
   }
 
   /// Some tools pack a folder twice, which does no harm.
@@ -246,6 +274,7 @@ class Extraction {
   std::unique_ptr<::archive, decltype(&archive_read_free)> reader_;
   archive_entry* entry_ = nullptr;
   std::string name_;
+  std::vector<Link> links_;  ///< made last, so that nothing is written to what they name
   std::uint64_t bytes_ = 0;
   std::array<char, kPiece> buffer_;
 };

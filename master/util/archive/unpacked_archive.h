@@ -24,7 +24,8 @@ class UnpackedArchive {
  public:
   /// Throws core::Error of the kind Input, located at `where` (the line that names the archive),
   /// for what is no regular file or no zip archive, is larger than the limits, or holds an entry
-  /// that could reach out of the folder: an absolute path, `..`, a link or a device. Nothing is
+  /// that could reach out of the folder: an absolute path, `..`, a device, a link to what is no
+  /// file of the archive; other links are files of their own. Nothing is
   /// ever written outside of the folder. `expected`: what the file should have been: "an FMU: a
   /// .fmu archive (zip), …". `shown_as`: its path in messages, if that is another one.
   UnpackedArchive(const std::filesystem::path& path, const std::string& expected,

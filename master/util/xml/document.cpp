@@ -1,5 +1,7 @@
 #include "master/util/xml/document.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 #include <tinyxml2.h>
 
@@ -61,6 +63,32 @@ void strip_nuls(std::string& text, const std::string& file, std::vector<std::str
   text.erase(first);
   warnings.push_back(core::to_text({.where = {file, 0}}) +
                      "NUL characters behind its end are ignored");
+}
+
+/// With blanks in place of the processing instructions between two tags.
+void blank_instructions(std::string& text, std::size_t begin, std::size_t end) {
+  while ((begin = text.find('<', begin)) < end) {
+    const std::size_t behind = markup_end(text, begin);
+    const std::string_view markup(&text[begin], behind - begin);
+    const bool is_declaration = markup.starts_with("<?xml") && markup.find_first_of(" \t\r\n") == 5;
+    if (markup.starts_with("<?") && markup.ends_with("?>") && !is_declaration) {
+      std::replace_if(
+          &text[begin], &text[behind], [](char c) { return c != '\n'; }, ' ');
+    }
+    begin = behind;
+  }
+}
+
+/// tinyxml2 takes processing instructions for declarations, which it reads at the beginning only.
+std::string without_instructions(std::string text) {
+  if (text.find("<?", 1) == text.npos) return text;
+  std::size_t behind = 0;
+  for (TagScanner tags(text); behind < text.size(); behind = tags.end()) {
+    const bool is_tag = tags.next();
+    blank_instructions(text, behind, is_tag ? tags.begin() : text.size());
+    if (!is_tag) break;
+  }
+  return text;
 }
 
 core::Context place_of(std::size_t position, const std::string& text, const std::string& file) {
@@ -237,7 +265,8 @@ Document Document::parse(std::string bytes, const std::string& shown_as,
   check_characters(text, shown_as);
   check_references(text, shown_as);
   tinyxml2::XMLDocument& document = content->document;
-  if (document.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS) {
+  const std::string parsed = without_instructions(text);
+  if (document.Parse(parsed.data(), parsed.size()) != tinyxml2::XML_SUCCESS) {
     fail_to_parse(document, text, shown_as);
   }
   tinyxml2::XMLElement* const root = document.RootElement();

@@ -10,7 +10,8 @@ namespace {
 
 constexpr const char* kBlanks = " \t\r\n";
 
-/// The end of what begins at `at` and is no element: a comment, a CDATA section, a declaration.
+}  // namespace
+
 std::size_t markup_end(std::string_view text, std::size_t at) {
   struct Kind {
     std::string_view begin, end;
@@ -23,8 +24,6 @@ std::size_t markup_end(std::string_view text, std::size_t at) {
   }
   return at;
 }
-
-}  // namespace
 
 bool TagScanner::next() {
   while ((begin_ = text_.find('<', end_)) != text_.npos) {

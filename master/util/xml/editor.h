@@ -18,6 +18,10 @@ struct ElementPlace {
   bool is_empty_tag = false;      ///< <a/>
 };
 
+/// The end of what begins at `at` and is no element: a comment, a CDATA section, a processing
+/// instruction, a declaration. `at` itself if something else begins there.
+std::size_t markup_end(std::string_view text, std::size_t at);
+
 /// The start and end tags of a text, in order. A text that is not well-formed may end within one.
 class TagScanner {
  public:

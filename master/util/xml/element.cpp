@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <tinyxml2.h>
 
+#include "master/util/boolean_text.h"
 #include "master/util/lower_case.h"
 #include "master/util/suggest.h"
 
@@ -143,18 +144,17 @@ std::string Element::required(const char* name) const {
 bool Element::lenient_flag(const char* name, std::vector<std::string>& warnings) const {
   const std::string value = without_blanks(attribute_or(name));
   const std::string lower = core::lower_case(value);
-  if (lower == value || (lower != "true" && lower != "false")) return flag(name);
+  const auto meant = core::boolean_of(lower);
+  if (lower == value || !meant) return flag(name);
   warnings.push_back(core::to_text({.where = where()}) +
                      fmt::format("{}=\"{}\" of {} is taken for {}", name, value, tag(), lower));
-  return lower == "true";
+  return *meant;
 }
 
 bool Element::flag(const char* name, bool otherwise) const {
   const auto value = attribute(name);
   if (!value) return otherwise;
-  const std::string word = without_blanks(*value);
-  if (word == "true" || word == "1") return true;
-  if (word == "false" || word == "0") return false;
+  if (const auto meant = core::boolean_of(without_blanks(*value))) return *meant;
   fail(fmt::format("{}=\"{}\" of {}: expected true or false", name, *value, tag()));
 }
 

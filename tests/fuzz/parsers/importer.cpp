@@ -53,7 +53,8 @@ void read_build_description(const std::string& bytes) {
   unit.model_identifier = "tank";
   const auto folder = fmu_with("sources/buildDescription.xml", bytes);
   refusing_input("", [&] {
-    for (const auto& set : importer::read_build_description(folder, unit).sets) {
+    for (const auto& set :
+         importer::read_build_description(folder / "modelDescription.xml", unit).sets) {
       for (const auto& file : set.files) {
         ensure(file.is_relative() && *file.begin() != "..", "sources are within the FMU");
       }

@@ -20,7 +20,7 @@ core::UnitDescription unit(const std::string& version) {
 BuildDescription read_fmi3(const Scratch& scratch, const std::string& configurations) {
   scratch.write("sources/buildDescription.xml", "<fmiBuildDescription fmiVersion=\"3.0\">" +
                                                     configurations + "</fmiBuildDescription>");
-  return importer::read_build_description(scratch.path(), unit("3.0"));
+  return importer::read_build_description(scratch / "modelDescription.xml", unit("3.0"));
 }
 
 std::string configuration(const std::string& inside, const std::string& attributes = "") {
@@ -79,12 +79,23 @@ TEST_CASE("names that lead out of the sources are refused") {
   }
 }
 
+TEST_CASE("a flag of a build description may be written in another case, with a warning") {
+  const Scratch scratch;
+  const BuildDescription build =
+      read_fmi3(scratch, configuration("<SourceFileSet><SourceFile name=\"tank.c\"/>"
+                                       "<PreprocessorDefinition name=\"DEBUG\" optional=\"True\"/>"
+                                       "</SourceFileSet>"));
+  CHECK(build.sets.at(0).definitions.empty());
+  REQUIRE(build.warnings.size() == 1);
+  CHECK_THAT(build.warnings[0], Contains("optional=\"True\"") && Contains("is taken for true"));
+}
+
 TEST_CASE("the source files of FMI 2.0 are in the model description") {
   const Scratch scratch;
   const auto read = [&](const std::string& inside) {
     scratch.write("modelDescription.xml", "<fmiModelDescription fmiVersion=\"2.0\"><CoSimulation>" +
                                               inside + "</CoSimulation></fmiModelDescription>");
-    return importer::read_build_description(scratch.path(), unit("2.0"));
+    return importer::read_build_description(scratch / "modelDescription.xml", unit("2.0"));
   };
   const BuildDescription build = read("<SourceFiles><File name=\"all.c\"/></SourceFiles>");
   REQUIRE(build.sets.size() == 1);
@@ -95,6 +106,7 @@ TEST_CASE("the source files of FMI 2.0 are in the model description") {
 TEST_CASE("without a build description nothing is compiled") {
   const Scratch scratch;
   CHECK_THAT(
-      input_error([&] { importer::read_build_description(scratch.path(), unit("3.0")); }),
+      input_error(
+          [&] { importer::read_build_description(scratch / "modelDescription.xml", unit("3.0")); }),
       Contains("the FMU has no 'sources/buildDescription.xml', so it is not known how to compile"));
 }

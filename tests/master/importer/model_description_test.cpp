@@ -1,5 +1,6 @@
 #include "master/importer/model_description.h"
 
+#include "master/util/limited_warnings.h"
 #include "tests/master/importer/support.h"
 
 using namespace stride;
@@ -382,6 +383,20 @@ TEST_CASE("a clock's interval is the fraction, else the decimal, else the unit's
   CHECK_FALSE(clock_of(R"(intervalVariability="triggered")").is_time_based_clock());
 }
 
+TEST_CASE("Booleans of variables and clocks may be written as other tools do, with a warning") {
+  std::string text = kComplete;
+  const std::string place = "name=\"field\" valueReference=\"2\"";
+  text.insert(text.find(place) + place.size(), " intermediateUpdate=\" TRUE \"");
+  const auto unit = importer::parse_model_description(text, "unit.xml");
+  CHECK(variable(unit, "field").intermediate_update);
+  REQUIRE(unit.warnings.size() == 1);
+  CHECK_THAT(unit.warnings[0], Contains("unit.xml:") && Contains("is taken for true"));
+  const auto clock = clock_of(R"(intervalVariability="triggered" canBeDeactivated=" True ")",
+                              R"(supportsFraction="TRUE")");
+  CHECK(clock.clock->can_be_deactivated);
+  CHECK(clock.clock->supports_fraction);
+}
+
 TEST_CASE("a clock's declared type gives what the clock leaves open") {
   const auto clock = clock_of(R"(intervalDecimal="0.5")",
                               R"(intervalVariability="constant" intervalDecimal="1"
@@ -542,15 +557,52 @@ TEST_CASE("references lead somewhere") {
              Contains("needs 'start' or 'valueReference'"));
   CHECK_THAT(error_with("start=\" 2\"", "start=\"many\""),
              Contains("'rows' has the start value 'many'"));
-  CHECK_THAT(error_with("<Output valueReference=\"9\"/>", "<Output valueReference=\"99\"/>"),
-             Contains("<Output> refers to the value reference 99"));
-  CHECK_THAT(error_with("dependencies=\"3 4\"", "dependencies=\"3 44\""), Contains("44"));
   CHECK_THAT(error_with("declaredType=\"Mode\"", "declaredType=\"Mood\""),
              Contains("no such type"));
   CHECK_THAT(error_with("declaredType=\"Temperature\"", "declaredType=\"Mode\""),
              Contains("is a <EnumerationType>; expected a <Float64Type>"));
   CHECK_THAT(error_with("declaredType=\"Mode\"", ""), Contains("'declaredType'"));
   CHECK_THAT(error_with("declaredType=\"Tick\"", ""), Contains("'intervalVariability'"));
+}
+
+TEST_CASE("a model structure that cannot be used is ignored, with a warning") {
+  const auto [from, to, message] = GENERATE(table<std::string, std::string, std::string>({
+      {"<Output valueReference=\"9\"/>", "<Output valueReference=\"99\"/>",
+       "<Output> refers to the value reference 99"},
+      {"dependencies=\"3 4\"", "dependencies=\"3 44\"", "the value reference 44"},
+  }));
+  const auto unit = parse_with(from, to);
+  CHECK(unit.outputs.empty());
+  CHECK(unit.initial_unknowns.empty());
+  REQUIRE(unit.warnings.size() == 1);
+  CHECK_THAT(unit.warnings[0], Contains("unit.xml:") && Contains(message) &&
+                                   Contains("<ModelStructure> is ignored") &&
+                                   Contains("each output may depend on all inputs"));
+}
+
+TEST_CASE("a model structure that is missing is a warning") {
+  std::string text = kComplete;
+  const std::string end = "</ModelStructure>";
+  const std::size_t begin = text.find("<ModelStructure>");
+  text.erase(begin, text.find(end) + end.size() - begin);
+  const auto unit = importer::parse_model_description(text, "unit.xml");
+  REQUIRE(unit.warnings.size() == 1);
+  CHECK_THAT(unit.warnings[0], Contains("unit.xml:2: <ModelStructure> is missing"));
+}
+
+TEST_CASE("a slip that is in each variable does not fill the screen") {
+  std::string variables;
+  for (int i = 0; i < 500; ++i) {
+    variables += "<Boolean name=\"b" + std::to_string(i) + "\" valueReference=\"" +
+                 std::to_string(1000 + i) +
+                 "\" causality=\"parameter\" variability=\"fixed\" "
+                 "start=\"True\"/>\n";
+  }
+  const auto unit =
+      importer::parse_model_description(description_text("x", "", variables), "unit.xml");
+  CHECK(variable(unit, "b499").start == "true");
+  REQUIRE(unit.warnings.size() == core::LimitedWarnings::kMostShown + 1);
+  CHECK(unit.warnings.back() == "… and 480 more warnings for unit.xml");
 }
 
 TEST_CASE("a description with more elements than memory holds is refused") {

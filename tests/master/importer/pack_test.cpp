@@ -4,6 +4,7 @@
 
 #include "master/importer/fmu.h"
 #include "master/importer/unpacked_fmu.h"
+#include "master/util/archive/zip.h"
 #include "tests/build.h"
 #include "tests/master/importer/support.h"
 
@@ -100,6 +101,22 @@ TEST_CASE("a .fmu is packed again with other resources") {
                importer::pack({scratch / "first.fmu", {}, {}, scratch / "x.fmu"});
              }),
              Contains("is packed already") && Contains("--resources"));
+}
+
+TEST_CASE("an FMU whose description has another case is packed again, with a warning") {
+  const Scratch scratch;
+  importer::pack(stateless(scratch, "plain.fmu"));
+  const importer::UnpackedFmu plain(scratch / "plain.fmu");
+  archive::Contents contents;
+  archive::add_folder(contents, "", plain.folder());
+  contents["ModelDescription.xml"] = contents["modelDescription.xml"];
+  contents.erase("modelDescription.xml");
+  archive::write_zip(scratch / "other.FMU", contents);
+  const auto warnings =
+      importer::pack({scratch / "other.FMU", scratch / "resources", {}, scratch / "again.fmu"});
+  REQUIRE(warnings.size() == 1);
+  CHECK_THAT(warnings[0], Contains("has its modelDescription.xml as 'ModelDescription.xml'"));
+  CHECK(read(scratch / "again.fmu") == read(scratch / "plain.fmu"));
 }
 
 TEST_CASE("the same input gives the same bytes, at any time and in any time zone") {

@@ -28,8 +28,8 @@ std::map<std::string, SignalDictionary> read_dictionaries(
       ssd("<ssd:SignalDictionaries>" + inside + "</ssd:SignalDictionaries>"), "x.ssd");
   Files files;
   std::vector<std::string> warnings;
-  return read_signal_dictionaries(*document.root().child({kSsd, "SignalDictionaries"}), folder,
-                                  files, warnings);
+  return read_signal_dictionaries(*document.root().child({kSsd, "SignalDictionaries"}),
+                                  {&folder, 1}, files, warnings);
 }
 
 const std::string kSpeed =

@@ -17,7 +17,7 @@ std::filesystem::path resolve(const std::string& source,
   const TemporaryFolder folder;
   const stride::xml::Document document(folder.write("x.ssd", "<a source='" + source + "'/>"));
   std::vector<std::string> warnings;
-  return source_path(document.root(), base, warnings);
+  return source_path(document.root(), {&base, 1}, warnings);
 }
 
 }  // namespace

@@ -200,11 +200,23 @@ TEST_CASE("the indices of ModelStructure count from 1, in lists of knowns, too")
   CHECK(unit.initial_unknowns[0].dependencies == std::vector<core::ValueReference>{});
   CHECK(unit.initial_unknowns[1].reference == 8);
   CHECK(unit.initial_unknowns[1].dependencies == std::vector<core::ValueReference>{3});
-  CHECK_THAT(
-      fmi2_error_with("index=\"6\"", "index=\"0\""),
-      Contains("<Unknown> refers to the variable with the index 0; expected one from 1 to 10"));
-  CHECK_THAT(fmi2_error_with("dependencies=\"2 3\"", "dependencies=\"2 11\""),
-             Contains("with the index 11; expected one from 1 to 10"));
+}
+
+TEST_CASE("a ModelStructure with an index that no variable has is ignored, with a warning") {
+  const auto [part, replacement, index] = GENERATE(table<std::string, std::string, std::string>({
+      {"index=\"6\"", "index=\"0\"", "0"},
+      {"dependencies=\"2 3\"", "dependencies=\"2 11\"", "11"},
+  }));
+  std::string text = kTank;
+  const std::size_t at = text.find(part);
+  REQUIRE(at != text.npos);
+  const auto unit =
+      importer::parse_model_description(text.replace(at, part.size(), replacement), "unit.xml");
+  CHECK(unit.outputs.empty());
+  REQUIRE(!unit.warnings.empty());
+  CHECK_THAT(unit.warnings.back(),
+             Contains("<Unknown> refers to the variable with the index " + index +
+                      "; expected one from 1 to 10; <ModelStructure> is ignored"));
 }
 
 TEST_CASE("errors of broken FMI 2.0 descriptions have the line") {

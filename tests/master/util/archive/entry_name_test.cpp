@@ -32,6 +32,18 @@ TEST_CASE("an archive whose names are in another code page is unpacked to names 
   CHECK(read(unpacked.folder() / "resources/Größe.txt") == "hallo");
 }
 
+TEST_CASE("a name of Windows is one with folders, and cannot lead out of the archive's folder") {
+  CHECK(archive::entry_name("binaries\\linux64\\x.so") == "binaries/linux64/x.so");
+  CHECK(archive::entry_name("resources/a\\b") == "resources/a\\b");
+  const Scratch scratch;
+  const auto packed =
+      make_zip(scratch / "a.fmu", {{"a\\", ""}, {"a\\b\\", ""}, {"a\\b\\c", "hallo"}});
+  CHECK(read(archive::UnpackedArchive(packed, "a unit").folder() / "a/b/c") == "hallo");
+  const auto path = make_zip(scratch / "unit.fmu", {{"..\\x.txt", "hallo"}});
+  CHECK_THAT(input_error([&] { archive::UnpackedArchive(path, "a unit"); }),
+             Catch::Matchers::Contains("leads out of the archive's folder"));
+}
+
 TEST_CASE("a name in another code page cannot lead out of the archive's folder") {
   const Scratch scratch;
   const auto path = make_zip(scratch / "unit.fmu", {{"../__.txt", "hallo"}});

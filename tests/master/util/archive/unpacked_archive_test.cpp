@@ -92,8 +92,12 @@ TEST_CASE("entries that reach out of the folder are refused, and nothing is writ
       {{"resources/../../evil.txt", "x"}, "leads out of the archive's folder"},
       {{"resources/..", "x"}, "leads out"},
       {{(scratch / "evil.txt").string(), "x"}, "which is an absolute path"},
-      {{"link", "", AE_IFLNK, "/etc"}, "'link', a symbolic link"},
+      {{"link", "", AE_IFLNK, "/etc"}, "'link', a symbolic link to '/etc', which is no file"},
+      {{"link", "", AE_IFLNK, "/etc/passwd"}, "'link', a symbolic link"},
       {{"resources", "", AE_IFLNK, ".."}, "'resources', a symbolic link"},
+      {{"a/link", "", AE_IFLNK, "../../../../../../../etc/passwd"}, "'a/link', a symbolic link"},
+      {{"link", "", AE_IFLNK, "none"}, "'link', a symbolic link to 'none'"},
+      {{"modelDescription.xml", "", AE_IFLNK, "modelDescription.xml"}, "which it holds twice"},
   };
   for (const Case& c : cases) {
     CAPTURE(c.entry.name);
@@ -105,6 +109,18 @@ TEST_CASE("entries that reach out of the folder are refused, and nothing is writ
     const auto after = files_in(scratch.path());
     CHECK(after == before);
   }
+}
+
+TEST_CASE("a symbolic link to a file of the archive is this file") {
+  const Scratch scratch;
+  const auto path = make_zip(scratch / "unit.fmu", {{"libx.so", "", AE_IFLNK, "more/libx.so.1"},
+                                                    {"more/libx.so.1", "code"},
+                                                    {"more/up", "", AE_IFLNK, "../libx.so"}});
+  const UnpackedArchive unpacked(path, kExpected);
+  CHECK(files_in(unpacked.folder()) ==
+        std::map<std::string, std::string>{
+            {"libx.so", "code"}, {"more/libx.so.1", "code"}, {"more/up", "code"}});
+  CHECK_FALSE(fs::is_symlink(unpacked.folder() / "libx.so"));
 }
 
 TEST_CASE("devices and sockets are refused") {

@@ -69,6 +69,21 @@ TEST_CASE("A mistake within a tag that comes before one of the tags is the one r
   CHECK_THAT(error_in("<a>\n<b>\n<!-- <c>"), Contains("x.ssd:3: ") && Contains("a comment"));
 }
 
+TEST_CASE("Processing instructions are left out, wherever they are") {
+  const std::string text =
+      "<?xml version='1.0'?>\n<!-- <?x?> -->\n<?tool a='<b>'\n?>\n<a t='<?no?>'><?b "
+      "?><c/><![CDATA[<?d?>]]>"
+      "<?xml-stylesheet href='x'?>\n</a><?end?>";
+  const auto document = xml::Document::parse(text, "x.ssd");
+  CHECK(document.text() == text);
+  CHECK(document.root().attribute_or("t") == "<?no?>");
+  CHECK(document.root().where().line == 5);
+  CHECK(document.root().children().size() == 1);
+  CHECK_THAT(error_in("<a>\n<?b"), Contains("x.ssd:"));
+  CHECK_THAT(error_in("<a>\n<?xml version='1.0'?></a>"),
+             Contains("x.ssd:2: ") && Contains("a declaration"));
+}
+
 TEST_CASE("NUL characters behind the end of a document are ignored, with a warning") {
   const auto document = xml::Document::parse(std::string("<a/>\n\0\0\n", 8), "x.ssd");
   CHECK(document.text() == "<a/>\n");
