@@ -59,8 +59,12 @@ Guarded guarded;
 [[noreturn]] void conclude() {
   try {
     EndNote& note = end_note();
-    const UnitWork work{importer::unfinished_calls(note.end.thread),
-                        importer::unfinished_library_work(), bool(note.is_leaving)};
+    const UnitWork work{.calls = importer::unfinished_calls(note.end.thread),
+                        .library = importer::unfinished_library_work(),
+                        .users = importer::library_users(),
+                        .is_leaving = bool(note.is_leaving),
+                        .has_locked_output = is_output_locked()};
+    ignore_output_locks();
     const core::Error error = error_of(note.end, work);
     note.error.set(error.what());
     note.is_printed.set(print_error(error.what()));
@@ -197,7 +201,8 @@ void begin_time_limit() {
 /// What takes long is a unit's, or stride's own work with many files, which may.
 void on_time_limit() {
   const bool is_of_unit = bool(end_note().is_leaving) || importer::is_any_call_unfinished() ||
-                          !importer::unfinished_library_work().what.view().empty();
+                          !importer::unfinished_library_work().what.view().empty() ||
+                          is_output_locked();
   if (is_of_unit) end_process({.kind = ProcessEnd::Kind::TimeOut});
   begin_time_limit();
 }
@@ -331,13 +336,13 @@ int leave_with(int code) {
 
 void limit_end() {
   if (!is_guarded()) return;
-  restore_streams();
   handle(limit_signal(), SA_ONSTACK);
   sigset_t awaited;
   ::sigemptyset(&awaited);
   ::sigaddset(&awaited, limit_signal());
   ::pthread_sigmask(SIG_UNBLOCK, &awaited, nullptr);
   begin_time_limit();
+  restore_streams();  // which waits for their locks
 }
 
 CrashGuard::Scope::Scope(CrashGuard& guard, Conclusion conclusion)

@@ -144,6 +144,34 @@ TEST_CASE("a library that does not return when it is unloaded, or after the run,
   CHECK(workspace.left_behind().empty());
 }
 
+TEST_CASE("a thread that keeps the lock of a standard stream does not hold up the end") {
+  if (kSanitized) return;
+  const Workspace workspace(Parts{component("faulty", "fmi3_faulty.fmu")});
+  const auto start = [&](const char* fault, const char* folder, const Arguments& further = {}) {
+    const FaultOrder order(fault, "step", "0.5");
+    Arguments all{"run", "test.ssd", "--step", "0.125", "--out", folder};
+    all.insert(all.end(), further.begin(), further.end());
+    return Process(stride_command(all), workspace.scratch().path());
+  };
+  Process output = start("keep lock of output", "output");  // each takes 10 s
+  Process errors = start("keep lock of errors", "errors");
+  Process quiet = start("keep lock of output", "quiet", {"--quiet"});
+  for (Process* process : {&output, &errors, &quiet}) {
+    const Outcome outcome = process->wait();
+    INFO(outcome.err);
+    CHECK(outcome.exit_code == 1);
+    CHECK_THAT(outcome.err, Contains("unit 'faulty': stride has not ended for 10 s, since a thread "
+                                     "that it has started keeps the lock of the standard output"));
+  }
+  for (const char* const folder : {"output", "errors", "quiet"}) {
+    const Csv signals(workspace / (std::string(folder) + "/signals.csv"));
+    CHECK(signals.row(signals.size() - 1).front() == "1");
+    CHECK_THAT(read(workspace / (std::string(folder) + "/run.json")),
+               Contains("\"outcome\": \"failed\""));
+  }
+  CHECK(workspace.left_behind().empty());
+}
+
 TEST_CASE("a library that does not return when it is unloaded is cut off in other commands, too") {
   if (kSanitized) return;
   const Workspace workspace(Parts{component("faulty", "fmi3_faulty.fmu")});

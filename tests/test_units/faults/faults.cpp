@@ -104,6 +104,17 @@ void leave_short_thread() {
   std::thread([] { std::this_thread::sleep_for(std::chrono::milliseconds(5)); }).detach();
 }
 
+/// In a thread, until the process ends.
+void keep_lock_of(std::FILE* stream) {
+  static std::atomic<bool> is_locked{false};
+  std::thread([stream] {
+    ::flockfile(stream);
+    is_locked = true;
+    sleep_for_ever();
+  }).detach();
+  while (!is_locked) std::this_thread::yield();
+}
+
 void say_end(int, void*) { std::fputs("the function of on_exit() runs\n", stderr); }
 
 /// Another file takes the number of each one but the standard ones.
@@ -311,6 +322,8 @@ constexpr Fault kFaults[] = {
     {"leave deaf thread", leave_deaf_thread},
     {"leave short thread", leave_short_thread},
     {"leave handler", [] { std::signal(SIGPROF, [](int) {}); }},
+    {"keep lock of output", [] { keep_lock_of(stdout); }},
+    {"keep lock of errors", [] { keep_lock_of(stderr); }},
     {"on_exit", [] { ::on_exit(say_end, nullptr); }},
     {"daemon", start_daemon},
     {"die while another prints", die_while_another_prints},
