@@ -114,12 +114,13 @@ void HostProcess::finish(const std::function<void()>& meanwhile) {
   supervisor_ = 0;
 }
 
-/// It has not been waited for yet, so its group still has its number.
+/// It has not been waited for yet, so its group still has its number; unless a unit in this process
+/// has done so, or ignores the end of processes.
 bool HostProcess::is_supervisor_gone() const {
   siginfo_t info{};
   const int options = WEXITED | WNOWAIT | WNOHANG;
-  return ::waitid(P_PID, static_cast<id_t>(supervisor_), &info, options) == 0 &&
-         info.si_pid == supervisor_;
+  if (::waitid(P_PID, static_cast<id_t>(supervisor_), &info, options) != 0) return errno == ECHILD;
+  return info.si_pid == supervisor_;
 }
 
 /// Has no effect on one that runs. Nothing is done about a unit's process that was stopped: it may

@@ -63,10 +63,12 @@ void end_at_once(int status, void*) {
   std::exit(0);
 }
 
+/// Nothing is known of its end if the work of this process ignores that of children.
 bool has_ended(pid_t child) {
   siginfo_t info{};
-  return ::waitid(P_PID, static_cast<id_t>(child), &info, WEXITED | WNOWAIT | WNOHANG) == 0 &&
-         info.si_pid == child;
+  const int options = WEXITED | WNOWAIT | WNOHANG;
+  if (::waitid(P_PID, static_cast<id_t>(child), &info, options) != 0) return errno == ECHILD;
+  return info.si_pid == child;
 }
 
 /// Ends all of the child's group and takes the child's status away.
