@@ -161,7 +161,9 @@ constexpr void (*kSteps[])() = {stop_other_threads, core::OutputFile::rescue_all
     wait_for_end();
   }
   while (guarded.steps < std::size(kSteps)) kSteps[guarded.steps++]();
-  ::_exit(kRunFailed);  // not complete: a process that watches this one says what has happened
+  // not complete: a process that watches this one says what has happened
+  if (end.kind == ProcessEnd::Kind::Signal) end_by(end.number);
+  ::_exit(kRunFailed);
 }
 
 /// Forks of a guarded process, such as those of hosts, are not guarded.

@@ -17,6 +17,7 @@
 
 #include <fcntl.h>
 #include <netinet/in.h>
+#include <sys/mman.h>
 #include <sys/ptrace.h>
 #include <sys/resource.h>
 #include <sys/socket.h>
@@ -170,15 +171,27 @@ void die_while_another_prints() {
 }
 
 /// What it shares with other processes, whatever that is.
-void overwrite_shared_memory() {
+template <class Visit>
+void for_each_shared_memory(Visit&& visit) {
   std::ifstream maps("/proc/self/maps");
   for (std::string line; std::getline(maps, line);) {
     unsigned long begin = 0, end = 0;
     char mode[5] = "";
     if (std::sscanf(line.c_str(), "%lx-%lx %4s", &begin, &end, mode) != 3) continue;
-    if (std::string(mode) != "rw-s") continue;
-    std::memset(reinterpret_cast<void*>(begin), 0xee, end - begin);
+    if (std::string(mode) == "rw-s") visit(reinterpret_cast<void*>(begin), end - begin);
   }
+}
+
+void overwrite_shared_memory() {
+  for_each_shared_memory([](void* begin, std::size_t size) { std::memset(begin, 0xee, size); });
+}
+
+void unmap_shared_memory() {
+  for_each_shared_memory([](void* begin, std::size_t size) { ::munmap(begin, size); });
+}
+
+void protect_shared_memory() {
+  for_each_shared_memory([](void* begin, std::size_t size) { ::mprotect(begin, size, PROT_READ); });
 }
 
 void write_temporary() {
@@ -333,6 +346,8 @@ constexpr Fault kFaults[] = {
     {"write nameless file", write_nameless_file},
     {"write temporary file", write_temporary_file},
     {"overwrite", overwrite_shared_memory},
+    {"unmap shared memory", unmap_shared_memory},
+    {"protect shared memory", protect_shared_memory},
     {"overwrite and abort",
      [] {
        overwrite_shared_memory();
