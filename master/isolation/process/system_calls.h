@@ -23,9 +23,9 @@ void forbid_reaching_processes();
 /// call escapes the other filters because they were made before it was.
 void forbid_newer_calls();
 
-/// No change of owners, times and extended attributes, and of modes only such that give no rights
-/// to others than the owner: neither of the user's files nor of its own, since a filter cannot tell
-/// them apart.
+/// No change of owners, times, extended attributes and modes: neither of the user's files nor of
+/// its own, since a filter cannot tell them apart. A change of modes answers that it is done: what
+/// copies a file changes its mode, too, and goes on. A file gets its mode when it is made.
 void forbid_changing_attributes();
 
 /// No sendmsg() and sendmmsg(), by which open files are sent through a socket. A filter cannot see

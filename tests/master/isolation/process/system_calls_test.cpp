@@ -184,10 +184,7 @@ TEST_CASE("modes, owners, times and attributes of files stay as they are") {
   const gid_t group = ::getgid();
   int flags = 0;
   check_denied(forbid_changing_attributes,
-               {{"chmod", [&] { return ::chmod(file, 0644); }},
-                {"fchmod", [&] { return ::fchmod(open, 01700); }},
-                {"fchmodat", [&] { return ::fchmodat(AT_FDCWD, file, 0602, 0); }},
-                {"chown", [&] { return ::chown(file, user, group); }},
+               {{"chown", [&] { return ::chown(file, user, group); }},
                 {"fchown", [&] { return ::fchown(open, user, group); }},
                 {"lchown", [&] { return ::lchown(file, user, group); }},
                 {"fchownat", [&] { return ::fchownat(AT_FDCWD, file, user, group, 0); }},
@@ -202,9 +199,37 @@ TEST_CASE("modes, owners, times and attributes of files stay as they are") {
                 {"fremovexattr", [&] { return ::fremovexattr(open, "user.x"); }},
                 {"flags", [&] { return ::ioctl(open, FS_IOC_SETFLAGS, &flags); }},
                 {"version", [&] { return ::ioctl(open, FS_IOC_SETVERSION, &flags); }}});
-  const auto make_private = [&] { return answer(::chmod(file, 0700)); };
-  CHECK(say_filtered(forbid_changing_attributes, make_private) == "done");
   ::close(open);
+}
+
+TEST_CASE("a change of a file's mode is not made, and answers that it is") {
+  if (lacks_seccomp()) return;
+  const ScratchFolder scratch;
+  const auto path = write_file(scratch / "file", "text");
+  const char* const file = path.c_str();
+  ::chmod(file, 0640);
+  const mode_t mode = GENERATE(0, 0600, 0700, 0644, 01777, 04755);
+  const int open = ::open(file, O_RDONLY | O_CLOEXEC);
+  CHECK(say_filtered(forbid_changing_attributes, [&] {
+          return answer(::chmod(file, mode)) + answer(::fchmod(open, mode)) +
+                 answer(::fchmodat(AT_FDCWD, file, mode, 0));
+        }) == "donedonedone");
+  struct stat status {};
+  ::fstat(open, &status);
+  CHECK((status.st_mode & 07777) == 0640);
+  ::close(open);
+}
+
+TEST_CASE("files are copied by what sets the mode of the copy, too") {
+  if (lacks_seccomp()) return;
+  const ScratchFolder scratch;
+  const auto path = write_file(scratch / "file", "text");
+  ::chmod(path.c_str(), 0644);
+  const auto copy = scratch / "copy";
+  CHECK(say_filtered(forbid_changing_attributes, [&] {
+          std::filesystem::copy_file(path, copy);
+          return content(copy);
+        }) == "text");
 }
 
 TEST_CASE("nothing is made that runs with the rights of its owner or group") {
@@ -341,9 +366,16 @@ TEST_CASE("a 32-bit call changes no file, and reaches nothing, outside of the sa
   const long attribute = low.put("user.x");
   const std::uint32_t words[] = {AF_INET, SOCK_STREAM, 0};
   const long socket = low.put(words, sizeof words);
+  for (const auto& change_mode : {std::function<long()>([=] { return call32(15, file, 0); }),
+                                  std::function<long()>([=] { return call32(94, open, 0); }),
+                                  std::function<long()>([=] {
+                                    return call32(306, AT_FDCWD, file, 0);
+                                  })}) {
+    CHECK(in_sandbox(change_mode) == "done");
+    CHECK((std::filesystem::status(path).permissions() & std::filesystem::perms::owner_read) !=
+          std::filesystem::perms::none);
+  }
   const std::vector<Attempt> attempts{
-      {"chmod", [=] { return call32(15, file, 0606); }},
-      {"fchmodat", [=] { return call32(306, AT_FDCWD, file, 0606); }},
       {"lchown", [=] { return call32(16, file, 1, 1); }},
       {"lchown32", [=] { return call32(198, file, 1, 1); }},
       {"chown32", [=] { return call32(212, file, 1, 1); }},
