@@ -1,6 +1,7 @@
 #include "master/isolation/process/system_calls.h"
 
 #include <cerrno>
+#include <csignal>
 #include <cstddef>
 #include <cstdint>
 #include <initializer_list>
@@ -141,8 +142,10 @@ void forbid_reaching_processes() {
   for (const int call : {SCMP_SYS(fcntl), SCMP_SYS(fcntl64)}) {
     filter.deny(call, {argument(1, SCMP_CMP_MASKED_EQ, kInt, F_SETLEASE)});
   }
-  // hides the process from its supervisor
+  // hides the process from its supervisor, or lets it live on without one
   filter.deny(SCMP_SYS(prctl), {argument(0, SCMP_CMP_MASKED_EQ, kInt, PR_SET_DUMPABLE)});
+  filter.deny(SCMP_SYS(prctl), {argument(0, SCMP_CMP_MASKED_EQ, kInt, PR_SET_PDEATHSIG),
+                                argument(1, SCMP_CMP_NE, SIGKILL)});
   filter.deny_all({SCMP_SYS(process_vm_readv), SCMP_SYS(process_vm_writev),
                    SCMP_SYS(process_madvise), SCMP_SYS(process_mrelease), SCMP_SYS(pidfd_getfd),
                    SCMP_SYS(kcmp), SCMP_SYS(perf_event_open), SCMP_SYS(open_by_handle_at)});

@@ -143,6 +143,7 @@ TEST_CASE("no other process is reached by its number, a key or a name") {
        {"advice", [] { return ::syscall(SYS_process_madvise, -1, nullptr, 0L, 0, 0); }},
        {"counters", [] { return ::syscall(SYS_perf_event_open, nullptr, 0, -1, -1, ~0UL); }},
        {"hiding", [] { return ::prctl(PR_SET_DUMPABLE, 0, 0, 0, 0); }},
+       {"outliving", [] { return ::prctl(PR_SET_PDEATHSIG, 0, 0, 0, 0); }},
        {"the foreground", [] { return ::tcsetpgrp(STDIN_FILENO, ::getpgrp()); }},
        {"a terminal", [] { return ::ioctl(STDIN_FILENO, TIOCSCTTY, 0); }},
        {"System V memory", [] { return ::shmget(0x5712de, 1, 0); }},
@@ -167,6 +168,7 @@ TEST_CASE("a unit's own limits, priority and processors can be changed") {
           return answer(::setrlimit(RLIMIT_CORE, &limit));
         }) == "done");
   CHECK(say_of([] { return answer(::setpriority(PRIO_PROCESS, 0, 19)); }) == "done");
+  CHECK(say_of([] { return answer(::prctl(PR_SET_PDEATHSIG, SIGKILL, 0, 0, 0)); }) == "done");
   CHECK(say_of([] {
           cpu_set_t all;
           ::sched_getaffinity(0, sizeof all, &all);
