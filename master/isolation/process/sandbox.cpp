@@ -116,6 +116,8 @@ Protections enter_sandbox(std::span<const WritableFolder> writable, bool has_mem
   guard_files(protections, writable);
   put_on(protections, "no network: seccomp", forbid_network);
   put_on(protections, "no calls that name other processes: seccomp", forbid_reaching_processes);
+  put_on(protections, "no namespaces, mounts and other changes of the system: seccomp",
+         forbid_administration);
   put_on(protections,
          "no change of owners, times and modes of files (chmod() does nothing): seccomp",
          forbid_changing_attributes);

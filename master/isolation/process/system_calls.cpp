@@ -1,5 +1,6 @@
 #include "master/isolation/process/system_calls.h"
 
+#include <array>
 #include <cerrno>
 #include <csignal>
 #include <cstddef>
@@ -15,6 +16,7 @@
 #include <linux/fsverity.h>
 #include <linux/ioprio.h>
 #include <linux/seccomp.h>
+#include <sched.h>
 #include <seccomp.h>
 #include <sys/ioctl.h>
 #include <sys/prctl.h>
@@ -51,10 +53,11 @@ class Filter {
   Filter(const Filter&) = delete;
   Filter& operator=(const Filter&) = delete;
 
-  /// The call with such arguments.
-  void deny(int call, std::initializer_list<scmp_arg_cmp> arguments = {}) {
-    require(::seccomp_rule_add_array(context_, SCMP_ACT_ERRNO(EACCES), call,
-                                     static_cast<unsigned>(arguments.size()), arguments.begin()));
+  /// The call with such arguments; it answers with this error.
+  void deny(int call, std::initializer_list<scmp_arg_cmp> arguments = {}, int error = EACCES) {
+    require(::seccomp_rule_add_array(context_, SCMP_ACT_ERRNO(static_cast<std::uint16_t>(error)),
+                                     call, static_cast<unsigned>(arguments.size()),
+                                     arguments.begin()));
   }
 
   /// The call does nothing, and answers that it is done.
@@ -155,6 +158,33 @@ void forbid_reaching_processes() {
                    SCMP_SYS(msgctl), SCMP_SYS(ipc)});
   filter.deny_all({SCMP_SYS(mq_open), SCMP_SYS(mq_unlink)});
   filter.deny_all({SCMP_SYS(keyctl), SCMP_SYS(add_key), SCMP_SYS(request_key)});
+  filter.load();
+}
+
+void forbid_administration() {
+  Filter filter;
+  constexpr std::array<scmp_datum_t, 7> kNamespaces{CLONE_NEWNS,  CLONE_NEWCGROUP, CLONE_NEWUTS,
+                                                    CLONE_NEWIPC, CLONE_NEWUSER,   CLONE_NEWPID,
+                                                    CLONE_NEWNET};
+  for (const scmp_datum_t kind : kNamespaces) {
+    filter.deny(SCMP_SYS(clone), {argument(0, SCMP_CMP_MASKED_EQ, kind, kind)});
+  }
+  filter.deny(SCMP_SYS(clone3), {}, ENOSYS);
+  filter.deny_all({SCMP_SYS(unshare), SCMP_SYS(setns)});
+  filter.deny_all({SCMP_SYS(mount), SCMP_SYS(umount), SCMP_SYS(umount2), SCMP_SYS(pivot_root),
+                   SCMP_SYS(chroot), SCMP_SYS(open_tree), SCMP_SYS(move_mount), SCMP_SYS(fsopen),
+                   SCMP_SYS(fsconfig), SCMP_SYS(fsmount), SCMP_SYS(fspick),
+                   SCMP_SYS(mount_setattr)});
+  filter.deny_all({SCMP_SYS(bpf), SCMP_SYS(init_module), SCMP_SYS(finit_module),
+                   SCMP_SYS(delete_module), SCMP_SYS(kexec_load), SCMP_SYS(kexec_file_load),
+                   SCMP_SYS(reboot)});
+  filter.deny_all({SCMP_SYS(memfd_secret), SCMP_SYS(userfaultfd), SCMP_SYS(fanotify_init),
+                   SCMP_SYS(modify_ldt), SCMP_SYS(vm86), SCMP_SYS(vm86old), SCMP_SYS(iopl),
+                   SCMP_SYS(ioperm)});
+  filter.deny_all({SCMP_SYS(syslog), SCMP_SYS(acct), SCMP_SYS(quotactl), SCMP_SYS(quotactl_fd),
+                   SCMP_SYS(swapon), SCMP_SYS(swapoff), SCMP_SYS(sethostname),
+                   SCMP_SYS(setdomainname), SCMP_SYS(settimeofday), SCMP_SYS(stime),
+                   SCMP_SYS(clock_settime), SCMP_SYS(clock_settime64)});
   filter.load();
 }
 

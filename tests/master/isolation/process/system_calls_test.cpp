@@ -5,6 +5,7 @@
 #include <functional>
 #include <initializer_list>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include <linux/fs.h>
@@ -14,6 +15,7 @@
 #include <sys/ioctl.h>
 #include <sys/ipc.h>
 #include <sys/mman.h>
+#include <sys/mount.h>
 #include <sys/msg.h>
 #include <sys/resource.h>
 #include <sys/sem.h>
@@ -155,6 +157,72 @@ TEST_CASE("no other process is reached by its number, a key or a name") {
        {"keys", [] { return ::syscall(SYS_keyctl, 0, -3, 0); }},
        {"a lease", [&] { return ::fcntl(STDIN_FILENO, F_SETLEASE, F_RDLCK); }},
        {"a file by its handle", [] { return ::syscall(SYS_open_by_handle_at, -1, nullptr, 0); }}});
+}
+
+TEST_CASE("the system, and what a process sees of it, stay as they are") {
+  if (lacks_seccomp()) return;
+  const auto clone_with = [](unsigned long flags) {
+    return [=] {
+      const long child = ::syscall(SYS_clone, flags | SIGCHLD, nullptr, nullptr, nullptr, nullptr);
+      if (child == 0) ::_exit(0);
+      return child;
+    };
+  };
+  check_denied(
+      forbid_administration,
+      {{"a namespace of users", [] { return ::unshare(CLONE_NEWUSER); }},
+       {"of mounts", [] { return ::unshare(CLONE_NEWNS); }},
+       {"a process with one of users", clone_with(CLONE_NEWUSER)},
+       {"of mounts", clone_with(CLONE_NEWUSER | CLONE_NEWNS)},
+       {"of processes", clone_with(CLONE_NEWUSER | CLONE_NEWPID)},
+       {"of the network", clone_with(CLONE_NEWUSER | CLONE_NEWNET)},
+       {"of another process", [] { return ::setns(-1, 0); }},
+       {"a mount", [] { return ::mount("none", "", "tmpfs", 0, nullptr); }},
+       {"the end of one", [] { return ::umount2("", 0); }},
+       {"another root", [] { return ::chroot(""); }},
+       {"another root of all", [] { return ::syscall(SYS_pivot_root, "", ""); }},
+       {"a copy of mounts", [] { return ::syscall(SYS_open_tree, -1, "", 0); }},
+       {"a mount elsewhere", [] { return ::syscall(SYS_move_mount, -1, "", -1, "", 0); }},
+       {"a file system", [] { return ::syscall(SYS_fsopen, "", 0); }},
+       {"its settings", [] { return ::syscall(SYS_fsconfig, -1, 0, nullptr, nullptr, 0); }},
+       {"a mount of it", [] { return ::syscall(SYS_fsmount, -1, 0, 0); }},
+       {"one that is there", [] { return ::syscall(SYS_fspick, -1, "", 0); }},
+       {"attributes of a mount",
+        [] { return ::syscall(SYS_mount_setattr, -1, "", 0, nullptr, 0L); }},
+       {"a program in the kernel", [] { return ::syscall(SYS_bpf, -1, nullptr, 0); }},
+       {"a module", [] { return ::syscall(SYS_init_module, nullptr, 0L, ""); }},
+       {"a module from a file", [] { return ::syscall(SYS_finit_module, -1, "", 0); }},
+       {"the end of a module", [] { return ::syscall(SYS_delete_module, "", 0); }},
+       {"another kernel", [] { return ::syscall(SYS_kexec_load, 0L, ~0L, nullptr, ~0L); }},
+       {"a reboot", [] { return ::syscall(SYS_reboot, 0, 0, 0, nullptr); }},
+       {"secret memory", [] { return ::syscall(SYS_memfd_secret, ~0U); }},
+       {"faults of pages", [] { return ::syscall(SYS_userfaultfd, ~0U); }},
+       {"a watch over file systems", [] { return ::syscall(SYS_fanotify_init, ~0U, 0); }},
+       {"the kernel's log", [] { return ::syscall(SYS_syslog, -1, nullptr, 0); }},
+       {"accounting", [] { return ::acct(""); }},
+       {"quotas", [] { return ::syscall(SYS_quotactl, -1, "", 0, nullptr); }},
+       {"swap space", [] { return ::syscall(SYS_swapon, "", 0); }},
+       {"its end", [] { return ::syscall(SYS_swapoff, ""); }},
+       {"the host's name", [] { return ::syscall(SYS_sethostname, nullptr, -1L); }},
+       {"the domain's name", [] { return ::syscall(SYS_setdomainname, nullptr, -1L); }},
+       {"the clock", [] { return ::syscall(SYS_clock_settime, -1, nullptr); }}});
+#ifdef __x86_64__
+  check_denied(forbid_administration,
+               {{"segments", [] { return ::syscall(SYS_modify_ldt, 0, nullptr, 0L); }},
+                {"I/O ports", [] { return ::syscall(SYS_iopl, 99); }},
+                {"one of them", [] { return ::syscall(SYS_ioperm, 0L, 0L, 99); }}});
+#endif
+}
+
+TEST_CASE("threads and programs start without clone3(), whose flags cannot be seen") {
+  if (lacks_seccomp()) return;
+  CHECK(say_filtered(forbid_administration,
+                     [] { return answer(::syscall(SYS_clone3, nullptr, 0L)); }) == "ENOSYS");
+  CHECK(say_filtered(forbid_administration, [] {
+          int number = 0;
+          std::thread([&] { number = 42; }).join();
+          return std::to_string(number) + " " + std::to_string(std::system("exit 3") >> 8);
+        }) == "42 3");
 }
 
 TEST_CASE("a unit's own limits, priority and processors can be changed") {
@@ -368,11 +436,10 @@ TEST_CASE("a 32-bit call changes no file, and reaches nothing, outside of the sa
   const long attribute = low.put("user.x");
   const std::uint32_t words[] = {AF_INET, SOCK_STREAM, 0};
   const long socket = low.put(words, sizeof words);
-  for (const auto& change_mode : {std::function<long()>([=] { return call32(15, file, 0); }),
-                                  std::function<long()>([=] { return call32(94, open, 0); }),
-                                  std::function<long()>([=] {
-                                    return call32(306, AT_FDCWD, file, 0);
-                                  })}) {
+  for (const auto& change_mode :
+       {std::function<long()>([=] { return call32(15, file, 0); }),
+        std::function<long()>([=] { return call32(94, open, 0); }),
+        std::function<long()>([=] { return call32(306, AT_FDCWD, file, 0); })}) {
     CHECK(in_sandbox(change_mode) == "done");
     CHECK((std::filesystem::status(path).permissions() & std::filesystem::perms::owner_read) !=
           std::filesystem::perms::none);
@@ -402,6 +469,8 @@ TEST_CASE("a 32-bit call changes no file, and reaches nothing, outside of the sa
       {"mkdir", [=] { return call32(39, other, 0700); }},
       {"mknod", [=] { return call32(14, other, S_IFIFO | 0600, 0); }},
       {"unlink", [=] { return call32(10, file); }},
+      {"a namespace", [] { return call32(310, CLONE_NEWUSER); }},
+      {"a mount", [=] { return call32(21, file, file, 0, 0, 0); }},
       {"lease", [=] { return call32(55, open, F_SETLEASE, F_RDLCK); }},
       {"lease by fcntl64", [=] { return call32(221, open, F_SETLEASE, F_RDLCK); }},
       {"System V memory", [] { return call32(117, 23, 0x5712de, 1, 0); }},
