@@ -27,6 +27,7 @@
 #include "master/util/archive/temporary_folder.h"
 #include "master/util/error.h"
 #include "master/util/output_file.h"
+#include "master/util/process/own_exit.h"
 #include "master/util/process/signal_state.h"
 
 namespace stride::cli {
@@ -252,17 +253,19 @@ void set_handlers(int flags) {
 
 // ---- exit() and its like ----
 
-void on_exit() {
+void end_by_exit() {
   if (is_guarded()) end_process({.kind = ProcessEnd::Kind::ExitCall});
 }
 
-void on_exit_functions() {
-  if (!end_note().is_leaving) on_exit();
+void on_exit_called(int, void*) {
+  const bool is_own = core::OwnExit::is_caller_of(__builtin_frame_address(0));
+  if (!is_own || !end_note().is_leaving) end_by_exit();
 }
 
 /// Before any library of a unit is loaded, so that its exit functions come first.
 void register_exit_functions() {
-  static const int registered = std::atexit(on_exit_functions) + std::at_quick_exit(on_exit);
+  static const int registered =
+      ::on_exit(on_exit_called, nullptr) + std::at_quick_exit(end_by_exit);
   (void)registered;
 }
 
@@ -333,6 +336,7 @@ int leave_with(int code) {
   set_handlers(0);
   guarded.conclusion = &no_conclusion();
   limit_end();
+  core::OwnExit::begin();
   return code;
 }
 

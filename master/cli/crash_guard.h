@@ -76,9 +76,8 @@ struct LimitedEnd {
 void end_guarding();
 
 /// What main() returns after the last CrashGuard: from here on libraries of units that are still
-/// loaded call their destructors and exit functions. A crash or _exit() there is an error with the
-/// exit code 1, as is an end that takes longer than kLongestEnd, and exit() does not change the
-/// code.
+/// loaded call their destructors and exit functions. A crash, exit() or _exit() there is an error
+/// with the exit code 1, as is an end that takes longer than kLongestEnd.
 int leave_with(int code);
 
 }  // namespace stride::cli

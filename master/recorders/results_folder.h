@@ -60,7 +60,8 @@ void check_name_lengths(const std::filesystem::path& folder, const ResultFiles& 
 class ResultsLock {
  public:
   /// Throws core::Error (Input), with the number and the name of the process, if another one has
-  /// locked the folder: a run that writes there, or a unit. Where the file system has no locks (flock) there is none.
+  /// locked the folder: a run that writes there, or a unit. Where the file system has no locks
+  /// (flock) there is none.
   explicit ResultsLock(const std::filesystem::path& folder);
 
  private:

@@ -186,7 +186,8 @@ TEST_CASE("a second run into the folder of one that has not ended is refused") {
   await_first_results(first, workspace);
   const Outcome second = workspace.run({"--quiet"});
   CHECK(second.exit_code == 2);
-  CHECK_THAT(second.err, Contains("out: process ") && Contains(" ('stride') has locked this folder"));
+  CHECK_THAT(second.err,
+             Contains("out: process ") && Contains(" ('stride') has locked this folder"));
   CHECK(first.is_running());
   first.send(SIGINT);
   CHECK(first.wait().exit_code == 1);

@@ -34,10 +34,9 @@ TEST_CASE("Only one run at a time has a results folder, and the process that has
   ::prctl(PR_SET_NAME, "sensor");  // as that of a unit
   {
     const ResultsLock lock(folder / ".");
-    CHECK_THROWS_WITH(
-        ResultsLock(folder / "."),
-        Contains("process " + std::to_string(::getpid()) + " ('sensor') has locked this folder") &&
-            Contains("--out"));
+    CHECK_THROWS_WITH(ResultsLock(folder / "."), Contains("process " + std::to_string(::getpid()) +
+                                                          " ('sensor') has locked this folder") &&
+                                                     Contains("--out"));
   }
   CHECK_NOTHROW(ResultsLock(folder / "."));
 }

@@ -438,6 +438,7 @@ constexpr Fault kFaults[] = {
        write_to_nowhere();
      }},
     {"crash at exit", [] { ::on_exit([](int, void*) { write_to_nowhere(); }, nullptr); }},
+    {"exit at exit", [] { ::on_exit([](int, void*) { std::exit(0); }, nullptr); }},
     {"buffer output", buffer_output},
     {"drop output stream", [] { stdout = nullptr; }},
     {"use terminal", use_terminal},
