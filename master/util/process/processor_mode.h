@@ -1,6 +1,6 @@
 // How a thread rounds, and what it does with the smallest numbers.
-#ifndef STRIDE_MASTER_UTIL_PROCESS_FLOATING_POINT_MODE_H
-#define STRIDE_MASTER_UTIL_PROCESS_FLOATING_POINT_MODE_H
+#ifndef STRIDE_MASTER_UTIL_PROCESS_PROCESSOR_MODE_H
+#define STRIDE_MASTER_UTIL_PROCESS_PROCESSOR_MODE_H
 
 #include <cfenv>
 #include <cstdint>
@@ -11,11 +11,11 @@ namespace stride::core {
 /// The direction of rounding, whether subnormal numbers become 0, which exceptions raise a signal,
 /// and the precision of the x87 unit. Each thread has its own; a new one begins with that of the
 /// thread that starts it. Flags of exceptions that have occurred are no part of it.
-class FloatingPointMode {
+class ProcessorMode {
  public:
   /// That of the calling thread.
-  static FloatingPointMode present() noexcept {
-    FloatingPointMode mode;
+  static ProcessorMode present() noexcept {
+    ProcessorMode mode;
 #if defined(__x86_64__)
     mode.sse_ = __builtin_ia32_stmxcsr() & ~kFlags;
     asm volatile("fnstcw %0" : "=m"(mode.x87_));
@@ -32,9 +32,9 @@ class FloatingPointMode {
   /// Gives it to the calling thread.
   void set() const noexcept;
   /// What another mode does differently, in words: "rounding upward".
-  std::string differences(const FloatingPointMode& other) const;
+  std::string differences(const ProcessorMode& other) const;
 
-  bool operator==(const FloatingPointMode&) const = default;
+  bool operator==(const ProcessorMode&) const = default;
 
  private:
   int rounding() const noexcept;
@@ -52,15 +52,15 @@ class FloatingPointMode {
 };
 
 /// Gives the calling thread this mode, for as long as it lives.
-class FloatingPointScope {
+class ProcessorModeScope {
  public:
-  explicit FloatingPointScope(const FloatingPointMode& mode) noexcept { mode.set(); }
-  ~FloatingPointScope() { before_.set(); }
-  FloatingPointScope(const FloatingPointScope&) = delete;
-  FloatingPointScope& operator=(const FloatingPointScope&) = delete;
+  explicit ProcessorModeScope(const ProcessorMode& mode) noexcept { mode.set(); }
+  ~ProcessorModeScope() { before_.set(); }
+  ProcessorModeScope(const ProcessorModeScope&) = delete;
+  ProcessorModeScope& operator=(const ProcessorModeScope&) = delete;
 
  private:
-  const FloatingPointMode before_ = FloatingPointMode::present();
+  const ProcessorMode before_ = ProcessorMode::present();
 };
 
 }  // namespace stride::core

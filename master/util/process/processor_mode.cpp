@@ -1,4 +1,4 @@
-#include "master/util/process/floating_point_mode.h"
+#include "master/util/process/processor_mode.h"
 
 namespace stride::core {
 namespace {
@@ -23,13 +23,13 @@ const char* rounding_name(int rounding) {
 // Intel 64 and IA-32 Architectures Software Developer's Manual, volume 1, 10.2.3: the bits of
 // MXCSR; those of rounding are three higher than in the control word of x87, whose values the FE_
 // constants are.
-int FloatingPointMode::rounding() const noexcept {
+int ProcessorMode::rounding() const noexcept {
   return static_cast<int>((sse_ >> 3) & FE_TOWARDZERO);
 }
 
-bool FloatingPointMode::flushes_to_zero() const noexcept { return (sse_ & 0x8040) != 0; }
+bool ProcessorMode::flushes_to_zero() const noexcept { return (sse_ & 0x8040) != 0; }
 
-void FloatingPointMode::set() const noexcept {
+void ProcessorMode::set() const noexcept {
   __builtin_ia32_ldmxcsr((__builtin_ia32_stmxcsr() & kFlags) | sse_);
   asm volatile("fldcw %0" : : "m"(x87_));
 }
@@ -38,25 +38,23 @@ void FloatingPointMode::set() const noexcept {
 
 // Arm Architecture Reference Manual, FPCR: RMode are the bits 22 and 23, as the FE_ constants; FZ
 // is bit 24.
-int FloatingPointMode::rounding() const noexcept {
-  return static_cast<int>(control_ & FE_TOWARDZERO);
-}
+int ProcessorMode::rounding() const noexcept { return static_cast<int>(control_ & FE_TOWARDZERO); }
 
-bool FloatingPointMode::flushes_to_zero() const noexcept {
+bool ProcessorMode::flushes_to_zero() const noexcept {
   return (control_ & (std::uint64_t{1} << 24)) != 0;
 }
 
-void FloatingPointMode::set() const noexcept { asm volatile("msr fpcr, %0" : : "r"(control_)); }
+void ProcessorMode::set() const noexcept { asm volatile("msr fpcr, %0" : : "r"(control_)); }
 
 #else
 
-int FloatingPointMode::rounding() const noexcept { return rounding_; }
-bool FloatingPointMode::flushes_to_zero() const noexcept { return false; }
-void FloatingPointMode::set() const noexcept { std::fesetround(rounding_); }
+int ProcessorMode::rounding() const noexcept { return rounding_; }
+bool ProcessorMode::flushes_to_zero() const noexcept { return false; }
+void ProcessorMode::set() const noexcept { std::fesetround(rounding_); }
 
 #endif
 
-std::string FloatingPointMode::differences(const FloatingPointMode& other) const {
+std::string ProcessorMode::differences(const ProcessorMode& other) const {
   std::string text;
   const auto add = [&](const char* difference) {
     if (!text.empty()) text += ", ";
