@@ -189,11 +189,11 @@ void FmuInstance::restore_mode() {
   const core::ProcessorMode left = core::ProcessorMode::present();
   mode_.set();
   if (std::exchange(has_mode_warning_, true)) return;
-  warn(fmt::format(
-      "{} left another mode of the processor behind ({}); it is put back, here and after "
-      "later calls, since the numbers of all units depend on it: a function has to "
-      "restore it before it returns",
-      present_.function(), mode_.differences(left)));
+  warn(
+      fmt::format("{} left another mode of the processor behind ({}); it is put back, here and "
+                  "after later calls, since all units depend on it: a function has to restore it "
+                  "before it returns",
+                  present_.function(), mode_.differences(left)));
 }
 
 void FmuInstance::restore_process(const char* function) {

@@ -105,6 +105,7 @@ constexpr Fault kFaults[] = {
     {"fork and go on", kCompletes, kCompletes},
     {"round up", kCompletes, kCompletes},
     {"flush to zero", kCompletes, kCompletes},
+    {"set direction flag", kCompletes, kCompletes},
 };
 
 struct Call {

@@ -32,7 +32,12 @@ bool ProcessorMode::flushes_to_zero() const noexcept { return (sse_ & 0x8040) !=
 void ProcessorMode::set() const noexcept {
   __builtin_ia32_ldmxcsr((__builtin_ia32_stmxcsr() & kFlags) | sse_);
   asm volatile("fldcw %0" : : "m"(x87_));
+  const std::uint64_t flags = __builtin_ia32_readeflags_u64();
+  __builtin_ia32_writeeflags_u64((flags & ~(kBackward | kAligned)) | flags_);
 }
+
+bool ProcessorMode::goes_backward() const noexcept { return (flags_ & kBackward) != 0; }
+bool ProcessorMode::needs_alignment() const noexcept { return (flags_ & kAligned) != 0; }
 
 #elif defined(__aarch64__)
 
@@ -54,6 +59,11 @@ void ProcessorMode::set() const noexcept { std::fesetround(rounding_); }
 
 #endif
 
+#if !defined(__x86_64__)
+bool ProcessorMode::goes_backward() const noexcept { return false; }
+bool ProcessorMode::needs_alignment() const noexcept { return false; }
+#endif
+
 std::string ProcessorMode::differences(const ProcessorMode& other) const {
   std::string text;
   const auto add = [&](const char* difference) {
@@ -64,6 +74,14 @@ std::string ProcessorMode::differences(const ProcessorMode& other) const {
   if (other.flushes_to_zero() != flushes_to_zero()) {
     add(other.flushes_to_zero() ? "subnormal numbers become 0, as after linking with -ffast-math"
                                 : "subnormal numbers do not become 0");
+  }
+  if (other.goes_backward() != goes_backward()) {
+    add(other.goes_backward() ? "the direction flag is set: string instructions run backward"
+                              : "string instructions run forward");
+  }
+  if (other.needs_alignment() != needs_alignment()) {
+    add(other.needs_alignment() ? "the flag AC is set: accesses to memory have to be aligned"
+                                : "accesses to memory need not be aligned");
   }
   if (text.empty() && other != *this) add("other exceptions or another precision");
   return text;

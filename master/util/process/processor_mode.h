@@ -1,4 +1,4 @@
-// How a thread rounds, and what it does with the smallest numbers.
+// How a thread rounds, what it does with the smallest numbers, and how it accesses memory.
 #ifndef STRIDE_MASTER_UTIL_PROCESS_PROCESSOR_MODE_H
 #define STRIDE_MASTER_UTIL_PROCESS_PROCESSOR_MODE_H
 
@@ -9,8 +9,9 @@
 namespace stride::core {
 
 /// The direction of rounding, whether subnormal numbers become 0, which exceptions raise a signal,
-/// and the precision of the x87 unit. Each thread has its own; a new one begins with that of the
-/// thread that starts it. Flags of exceptions that have occurred are no part of it.
+/// the precision of the x87 unit, and, on x86-64, the direction of string instructions and whether
+/// accesses to memory have to be aligned. Each thread has its own; a new one begins with that of
+/// the thread that starts it. Flags of exceptions that have occurred are no part of it.
 class ProcessorMode {
  public:
   /// That of the calling thread.
@@ -19,6 +20,7 @@ class ProcessorMode {
 #if defined(__x86_64__)
     mode.sse_ = __builtin_ia32_stmxcsr() & ~kFlags;
     asm volatile("fnstcw %0" : "=m"(mode.x87_));
+    mode.flags_ = __builtin_ia32_readeflags_u64() & (kBackward | kAligned);
 #elif defined(__aarch64__)
     asm volatile("mrs %0, fpcr" : "=r"(mode.control_));
 #else
@@ -39,11 +41,15 @@ class ProcessorMode {
  private:
   int rounding() const noexcept;
   bool flushes_to_zero() const noexcept;
+  bool goes_backward() const noexcept;
+  bool needs_alignment() const noexcept;
 
 #if defined(__x86_64__)
   static constexpr std::uint32_t kFlags = 0x3f;
+  static constexpr std::uint64_t kBackward = 1 << 10, kAligned = 1 << 18;  ///< of RFLAGS
   std::uint32_t sse_ = 0;
   std::uint16_t x87_ = 0;
+  std::uint64_t flags_ = 0;
 #elif defined(__aarch64__)
   std::uint64_t control_ = 0;
 #else

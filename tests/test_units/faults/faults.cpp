@@ -252,6 +252,13 @@ void flush_to_zero() {
 #endif
 }
 
+/// String instructions run backward.
+void set_direction_flag() {
+#ifdef __x86_64__
+  asm volatile("std");
+#endif
+}
+
 void use_terminal() {
   const int terminal = ::open("/dev/tty", O_RDWR);
   if (terminal < 0) fail("there is no terminal");
@@ -411,6 +418,7 @@ constexpr Fault kFaults[] = {
     {"limit parent", limit_parent},
     {"round up", [] { std::fesetround(FE_UPWARD); }},
     {"flush to zero", flush_to_zero},
+    {"set direction flag", set_direction_flag},
     {"close streams", close_streams},
     {"close streams and crash",
      [] {

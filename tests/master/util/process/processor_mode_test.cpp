@@ -36,6 +36,18 @@ TEST_CASE("a mode is put back, and what another one does is said") {
 }
 
 #if defined(__x86_64__)
+TEST_CASE("the direction of string instructions and the check of alignment are parts of it") {
+  const auto [bit, words] = GENERATE(table<unsigned, const char*>(
+      {{1U << 10, "the direction flag is set: string instructions run backward"},
+       {1U << 18, "the flag AC is set: accesses to memory have to be aligned"}}));
+  const ProcessorMode usual = ProcessorMode::present();
+  __builtin_ia32_writeeflags_u64(__builtin_ia32_readeflags_u64() | bit);
+  const ProcessorMode left = ProcessorMode::present();
+  usual.set();
+  CHECK(usual.is_present());
+  CHECK(usual.differences(left) == words);
+}
+
 TEST_CASE("flushing of subnormal numbers, exceptions and the precision of x87 are parts of it") {
   const ProcessorMode usual = ProcessorMode::present();
   const unsigned bit = GENERATE(0x8000U, 0x0040U, 0x0200U);
