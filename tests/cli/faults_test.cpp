@@ -106,6 +106,7 @@ constexpr Fault kFaults[] = {
     {"round up", kCompletes, kCompletes},
     {"flush to zero", kCompletes, kCompletes},
     {"set direction flag", kCompletes, kCompletes},
+    {"cancel thread", kCompletes, kCompletes},
 };
 
 struct Call {

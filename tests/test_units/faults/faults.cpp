@@ -412,6 +412,7 @@ constexpr Fault kFaults[] = {
        open_all_files();
        write_to_nowhere();
      }},
+    {"cancel thread", [] { ::pthread_cancel(::pthread_self()); }},
     {"fork", fork_and_return},
     {"fork and go on", [] { static_cast<void>(::fork()); }},
     {"send nameless files", send_nameless_files},
