@@ -42,6 +42,15 @@ std::string describe(const ProcessEnd& end) {
                      end.origin == SignalOrigin::Outside ? " from outside" : "");
 }
 
+core::Error error_of_locked_output(const std::string& end, std::span<const core::Context> users) {
+  const bool is_known = users.size() == 1;
+  return {core::Error::Kind::Run, is_known ? users.front() : core::Context{},
+          fmt::format("{}, since a thread that {} has started keeps the lock of the standard "
+                      "output or error stream (flockfile)",
+                      end, is_known ? "it" : "a unit" + importer::names_in_brackets(users)),
+          hint_for(is_known ? users.front().unit : "")};
+}
+
 /// Of a process that calls no unit.
 core::Error error_outside_of_calls(const std::string& end, const UnitWork& work) {
   const importer::LibraryWork& library = work.library;
@@ -52,6 +61,7 @@ core::Error error_outside_of_calls(const std::string& end, const UnitWork& work)
             fmt::format("{} in the {} of '{}'", end, library.what.view(), library.library.view()),
             hint_for(unit)};
   }
+  if (work.has_locked_output) return error_of_locked_output(end, work.users);
   const char* const place =
       work.is_leaving ? " in a destructor or an exit function of a library, after the command"
                       : ", in no call of a unit";

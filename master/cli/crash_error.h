@@ -31,8 +31,10 @@ struct ProcessEnd {
 struct UnitWork {
   std::vector<importer::UnitCall> calls;  ///< those that have not returned
   importer::LibraryWork library;
-  bool is_leaving = false;      ///< the command is over
-  bool is_overwritten = false;  ///< this, so that it says nothing
+  std::vector<core::Context> users{};  ///< of the libraries that are loaded, as far as is known
+  bool is_leaving = false;             ///< the command is over
+  bool is_overwritten = false;         ///< this, so that it says nothing
+  bool has_locked_output = false;      ///< another thread has the lock of a standard stream
 };
 
 /// If the thread that ends the process makes none of the calls, a unit has started it.

@@ -27,6 +27,7 @@
 #include "master/util/archive/temporary_folder.h"
 #include "master/util/error.h"
 #include "master/util/output_file.h"
+#include "master/util/process/own_exit.h"
 #include "master/util/process/signal_state.h"
 
 namespace stride::cli {
@@ -59,8 +60,12 @@ Guarded guarded;
 [[noreturn]] void conclude() {
   try {
     EndNote& note = end_note();
-    const UnitWork work{importer::unfinished_calls(note.end.thread),
-                        importer::unfinished_library_work(), bool(note.is_leaving)};
+    const UnitWork work{.calls = importer::unfinished_calls(note.end.thread),
+                        .library = importer::unfinished_library_work(),
+                        .users = importer::library_users(),
+                        .is_leaving = bool(note.is_leaving),
+                        .has_locked_output = is_output_locked()};
+    ignore_output_locks();
     const core::Error error = error_of(note.end, work);
     note.error.set(error.what());
     note.is_printed.set(print_error(error.what()));
@@ -157,7 +162,9 @@ constexpr void (*kSteps[])() = {stop_other_threads, core::OutputFile::rescue_all
     wait_for_end();
   }
   while (guarded.steps < std::size(kSteps)) kSteps[guarded.steps++]();
-  ::_exit(kRunFailed);  // not complete: a process that watches this one says what has happened
+  // not complete: a process that watches this one says what has happened
+  if (end.kind == ProcessEnd::Kind::Signal) end_by(end.number);
+  ::_exit(kRunFailed);
 }
 
 /// Forks of a guarded process, such as those of hosts, are not guarded.
@@ -197,7 +204,8 @@ void begin_time_limit() {
 /// What takes long is a unit's, or stride's own work with many files, which may.
 void on_time_limit() {
   const bool is_of_unit = bool(end_note().is_leaving) || importer::is_any_call_unfinished() ||
-                          !importer::unfinished_library_work().what.view().empty();
+                          !importer::unfinished_library_work().what.view().empty() ||
+                          is_output_locked();
   if (is_of_unit) end_process({.kind = ProcessEnd::Kind::TimeOut});
   begin_time_limit();
 }
@@ -245,17 +253,19 @@ void set_handlers(int flags) {
 
 // ---- exit() and its like ----
 
-void on_exit() {
+void end_by_exit() {
   if (is_guarded()) end_process({.kind = ProcessEnd::Kind::ExitCall});
 }
 
-void on_exit_functions() {
-  if (!end_note().is_leaving) on_exit();
+void on_exit_called(int, void*) {
+  const bool is_own = core::OwnExit::is_caller_of(__builtin_frame_address(0));
+  if (!is_own || !end_note().is_leaving) end_by_exit();
 }
 
 /// Before any library of a unit is loaded, so that its exit functions come first.
 void register_exit_functions() {
-  static const int registered = std::atexit(on_exit_functions) + std::at_quick_exit(on_exit);
+  static const int registered =
+      ::on_exit(on_exit_called, nullptr) + std::at_quick_exit(end_by_exit);
   (void)registered;
 }
 
@@ -326,18 +336,19 @@ int leave_with(int code) {
   set_handlers(0);
   guarded.conclusion = &no_conclusion();
   limit_end();
+  core::OwnExit::begin();
   return code;
 }
 
 void limit_end() {
   if (!is_guarded()) return;
-  restore_streams();
   handle(limit_signal(), SA_ONSTACK);
   sigset_t awaited;
   ::sigemptyset(&awaited);
   ::sigaddset(&awaited, limit_signal());
   ::pthread_sigmask(SIG_UNBLOCK, &awaited, nullptr);
   begin_time_limit();
+  restore_streams();  // which waits for their locks
 }
 
 CrashGuard::Scope::Scope(CrashGuard& guard, Conclusion conclusion)

@@ -52,9 +52,10 @@ class CrashGuard {
   Conclusion conclusion_;
 };
 
-/// To be called when all units are freed, and their libraries are about to be unloaded: if one of
-/// these takes longer than kLongestEnd, that is an error which ends the process. Holds until the
-/// guard's end; does nothing without one. The standard streams are put back (restore_streams()).
+/// To be called when all units are freed, and again when their libraries are about to be unloaded:
+/// if one of these takes longer than kLongestEnd, or a thread of a unit has the lock of a standard
+/// stream for so long, that is an error which ends the process. Holds until the guard's end; does
+/// nothing without one. The standard streams are put back (restore_streams()).
 void limit_end();
 
 /// Ends a guarded process as a crash does, with the text of this error: where threads of units may
@@ -75,9 +76,8 @@ struct LimitedEnd {
 void end_guarding();
 
 /// What main() returns after the last CrashGuard: from here on libraries of units that are still
-/// loaded call their destructors and exit functions. A crash or _exit() there is an error with the
-/// exit code 1, as is an end that takes longer than kLongestEnd, and exit() does not change the
-/// code.
+/// loaded call their destructors and exit functions. A crash, exit() or _exit() there is an error
+/// with the exit code 1, as is an end that takes longer than kLongestEnd.
 int leave_with(int code);
 
 }  // namespace stride::cli

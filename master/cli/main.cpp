@@ -13,6 +13,7 @@
 #include <CLI/CLI.hpp>
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <pthread.h>
 #include <spdlog/spdlog.h>
 #include <unistd.h>
 
@@ -207,6 +208,7 @@ int execute(CLI::App& app, int argc, char** argv) {
 int main(int argc, char** argv) {
   open_missing_standard_files();
   stride::cli::set_up_output();
+  ::pthread_setcancelstate(PTHREAD_CANCEL_DISABLE, nullptr);  // a unit may leave one pending
   std::signal(SIGXFSZ, SIG_IGN);  // then writing fails with an error; the signal would kill
   stride::cli::go_on_watched();
   stride::cli::keep_hard_limits();

@@ -11,6 +11,7 @@
 #include <spdlog/pattern_formatter.h>
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
+#include <stdio_ext.h>
 #include <unistd.h>
 
 #include "master/cli/memory_limits.h"
@@ -98,9 +99,25 @@ void restore_streams() {
   stdout = own_output;
   stderr = own_errors;
   std::setvbuf(stderr, nullptr, _IONBF, 0);
+  ::flockfile(stdout);  // to be had, as for what is still printed
+  ::funlockfile(stdout);
   if (stdout->_IO_buf_base == output_buffer) return;
   std::fflush(stdout);
   give_buffer();
+}
+
+bool is_output_locked() {
+  for (std::FILE* const stream : {own_output, own_errors}) {
+    if (::ftrylockfile(stream) != 0) return true;
+    ::funlockfile(stream);
+  }
+  return false;
+}
+
+void ignore_output_locks() {
+  for (std::FILE* const stream : {own_output, own_errors}) {
+    ::__fsetlocking(stream, FSETLOCKING_BYCALLER);
+  }
 }
 
 }  // namespace stride::cli

@@ -52,6 +52,14 @@ void set_up_output();
 /// which may be in a library that is about to be unloaded. What the buffer holds is written.
 void restore_streams();
 
+/// Whether another thread has the lock of a standard stream (flockfile), so that this one could
+/// print nothing. For signal handlers, too.
+bool is_output_locked();
+
+/// From here on locks of the standard streams do not count: for a fork, which has none of the
+/// threads that may have had them.
+void ignore_output_locks();
+
 }  // namespace stride::cli
 
 #endif

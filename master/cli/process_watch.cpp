@@ -181,8 +181,10 @@ void Watch::run() {
   core::OutputFile::rescue_left();
   const bool is_ours = !is_ended_from_outside();
   if (!is_told) {
-    const UnitWork work{importer::left_calls(note_.has_end ? note_.end.thread : nullptr),
-                        importer::left_library_work(), bool(note_.is_leaving), !note_.is_whole};
+    const UnitWork work{.calls = importer::left_calls(note_.has_end ? note_.end.thread : nullptr),
+                        .library = importer::left_library_work(),
+                        .is_leaving = bool(note_.is_leaving),
+                        .is_overwritten = !note_.is_whole};
     const core::Error error = error_of(end(), work);
     if (is_ours && !note_.is_printed) print_error(error.what());
     report(error);

@@ -10,6 +10,7 @@
 #include <spdlog/spdlog.h>
 
 #include "master/algorithm/step_policies/unlimited_steps.h"
+#include "master/cli/crash_guard.h"
 #include "master/cli/end_note.h"
 #include "master/cli/output.h"
 #include "master/cli/report_page.h"
@@ -181,6 +182,7 @@ void RecordedRun::abandon(const std::string& error) {
 
 /// Files are written from here on, some of them named relative to the working folder.
 void RecordedRun::restore_process() const {
+  limit_end();
   core::SpareFiles::release_all();
   const std::vector<std::string> changes = setup_.loaded.process().restore();
   if (changes.empty()) return;

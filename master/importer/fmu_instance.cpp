@@ -186,13 +186,13 @@ void FmuInstance::leave_fork() const {
 // ---- What calls change of the process ----
 
 void FmuInstance::restore_mode() {
-  const core::FloatingPointMode left = core::FloatingPointMode::present();
+  const core::ProcessorMode left = core::ProcessorMode::present();
   mode_.set();
   if (std::exchange(has_mode_warning_, true)) return;
   warn(
-      fmt::format("{} left another floating-point mode behind ({}); it is put back, here and after "
-                  "later calls, since the numbers of all units depend on it: a function has to "
-                  "restore it before it returns",
+      fmt::format("{} left another mode of the processor behind ({}); it is put back, here and "
+                  "after later calls, since all units depend on it: a function has to restore it "
+                  "before it returns",
                   present_.function(), mode_.differences(left)));
 }
 

@@ -28,9 +28,9 @@
 #include "master/importer/unit_call.h"
 #include "master/util/error.h"
 #include "master/util/listed.h"
-#include "master/util/process/floating_point_mode.h"
 #include "master/util/process/fork_mark.h"
 #include "master/util/process/process_state.h"
+#include "master/util/process/processor_mode.h"
 
 namespace stride::importer {
 
@@ -56,8 +56,8 @@ struct InstanceOptions {
   /// With the array sizes that its structural parameters give; nothing = as in the FMU.
   std::shared_ptr<const core::UnitDescription> description{};
   /// What is put back after the instantiation and after the calls that change the mode, until the
-  /// end of the initialization; null = nothing. The floating-point mode is put back after each call
-  /// of any function. Only the first instances of an FMU are watched so.
+  /// end of the initialization; null = nothing. The mode of the processor is put back after each
+  /// call of any function. Only the first instances of an FMU are watched so.
   std::shared_ptr<const core::ProcessState> process{};
   /// Where each function is noted while it is called; null = nowhere. Must outlive the instance.
   CallNote* call_note = nullptr;
@@ -77,7 +77,7 @@ struct UnitParts {
 /// save_by().) After it the instance is freed, and no other function of it is called; after Fatal
 /// none of any instance of the FMU, so they are not freed either, and the library stays loaded.
 ///
-/// What a function has changed of the floating-point mode is put back when it returns, and, until
+/// What a function has changed of the mode of the processor is put back when it returns, and, until
 /// the end of the initialization, what it has changed of the process. A warning names the unit and
 /// the function.
 ///
@@ -282,7 +282,7 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics, public Call
   PresentCall present_;
   bool was_restored_ = false;  ///< from a kept state, and no step has ended since
   bool is_fork_ = false;       ///< the present function has made this process, by fork()
-  const core::FloatingPointMode mode_ = core::FloatingPointMode::present();
+  const core::ProcessorMode mode_ = core::ProcessorMode::present();
   std::optional<Time> time_;
   double stop_seconds_ = std::numeric_limits<double>::infinity();
   core::StepInterval present_step_{Time{}, Time{}};

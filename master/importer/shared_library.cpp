@@ -288,6 +288,21 @@ const LibraryWork& unfinished_library_work() noexcept {
   return work == nullptr ? kNone : *work;
 }
 
+std::vector<core::Context> library_users() {
+  std::vector<core::Context> users;
+  core::Listed<SharedLibrary>::for_each([&](const SharedLibrary& library) {
+    if (!library.user().unit.empty()) users.push_back(library.user());
+  });
+  std::ranges::reverse(users);
+  return users;
+}
+
+std::string names_in_brackets(std::span<const core::Context> users) {
+  std::vector<std::string> names;
+  for (const core::Context& user : users) names.push_back(user.unit);
+  return names.empty() ? "" : fmt::format(" ({})", core::quoted(names));
+}
+
 void SharedLibrary::require_values(const core::UnitDescription& unit, const std::string& prefix,
                                    const char* (*word_of)(core::ValueType)) const {
   std::set<std::string> needed;

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <iterator>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -17,6 +18,7 @@
 #include "master/model/description.h"
 #include "master/util/error.h"
 #include "master/util/fixed_text.h"
+#include "master/util/listed.h"
 #include "master/util/process/remnants.h"
 
 namespace stride::importer {
@@ -115,6 +117,7 @@ class SharedLibrary {
   std::vector<Handle> companion_handles_;
   Handle handle_;
   std::atomic<bool>* is_unusable_ = nullptr;
+  const core::Listed<SharedLibrary> listed_{*this};
 };
 
 /// Code of a library that is being run outside of calls of its instances.
@@ -130,6 +133,13 @@ struct LibraryWork {
 
 /// The work that has not ended, if there is some. Can be called by a signal handler.
 const LibraryWork& unfinished_library_work() noexcept;
+
+/// Of the libraries that are loaded, the first one first: see SharedLibrary::user(). None may be
+/// loaded or unloaded meanwhile. For errors that may be of any unit in this process.
+std::vector<core::Context> library_users();
+
+/// " ('a', 'b')", their components; empty if none is known.
+std::string names_in_brackets(std::span<const core::Context> users);
 
 /// A list of function names, for compile time.
 template <std::size_t kSize>

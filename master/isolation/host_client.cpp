@@ -186,7 +186,8 @@ void HostClient::log(importer::Status status, const std::string& category,
 void HostClient::fail(const std::string& what, std::optional<Time> time) {
   failure_ = what;
   if (process_.has_ended()) take_last_line();
-  std::string hint = sandbox_hint(output_tail_.text(), spec_.name, spec_.host);
+  std::string hint = process_.hint();
+  if (hint.empty()) hint = sandbox_hint(output_tail_.text(), spec_.name, spec_.host);
   if (hint.empty()) hint = importer::state_hint(what, spec_.name);
   if (hint.empty() && spec_.host.memory_limit) {
     hint = fmt::format("its memory is limited to {} MiB (memoryLimit); it may need more",

@@ -15,6 +15,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "master/importer/shared_library.h"
 #include "master/isolation/process/child.h"
 #include "master/isolation/process/children.h"
 
@@ -64,6 +65,7 @@ HostProcess::HostProcess(HostLink& link, MemoryAllowance memory,
     supervise(link, std::move(control.theirs), master, memory_, serve);
   }
   control_ = std::move(control.ours);
+  control_file_ = core::FileIdentity::of(control_.number());
   link.memory.hide_from_children();
   link.packets.hide_from_children();
 }
@@ -76,6 +78,7 @@ bool HostProcess::look_for_end() {
   }
   ::kill(-supervisor_, SIGKILL);
   is_supervisor_lost_ = true;
+  is_control_lost_ = !has_control();
   end_ = {HostEnd::How::Killed, SIGKILL};
   return true;
 }
@@ -98,6 +101,7 @@ void HostProcess::kill() {
 void HostProcess::finish(const std::function<void()>& meanwhile) {
   if (supervisor_ <= 0) return;
   send(Command::Finish);
+  if (!has_control()) control_.release();
   control_.close();
   const auto enough = Clock::now() + kLongestEnd;
   while (!is_supervisor_gone() && Clock::now() < enough) {
@@ -114,12 +118,13 @@ void HostProcess::finish(const std::function<void()>& meanwhile) {
   supervisor_ = 0;
 }
 
-/// It has not been waited for yet, so its group still has its number.
+/// It has not been waited for yet, so its group still has its number; unless a unit in this process
+/// has done so, or ignores the end of processes.
 bool HostProcess::is_supervisor_gone() const {
   siginfo_t info{};
   const int options = WEXITED | WNOWAIT | WNOHANG;
-  return ::waitid(P_PID, static_cast<id_t>(supervisor_), &info, options) == 0 &&
-         info.si_pid == supervisor_;
+  if (::waitid(P_PID, static_cast<id_t>(supervisor_), &info, options) != 0) return errno == ECHILD;
+  return info.si_pid == supervisor_;
 }
 
 /// Has no effect on one that runs. Nothing is done about a unit's process that was stopped: it may
@@ -139,11 +144,23 @@ void HostProcess::force_end() const {
   ::kill(supervisor_, SIGKILL);
 }
 
+/// Code in this process may have closed the file, or put another one in its place.
+bool HostProcess::has_control() const {
+  return core::FileIdentity::of(control_.number()) == control_file_;
+}
+
 void HostProcess::send(Command command) const {
   ::send(control_.number(), &command, sizeof command, MSG_NOSIGNAL);
 }
 
 std::string HostProcess::how_it_ended() const {
+  if (is_control_lost_) {
+    return fmt::format(
+        "its process has ended, since code in the process of stride, such as that of a unit "
+        "without a host{}, has closed the open file by which it is led, or put another one in its "
+        "place",
+        importer::names_in_brackets(importer::library_users()));
+  }
   if (is_supervisor_lost_)
     return "its process was killed, since something has ended its supervisor";
   using How = HostEnd::How;
@@ -163,6 +180,11 @@ std::string HostProcess::how_it_ended() const {
       break;
   }
   return fmt::format("its process was ended by signal {} ({})", code, signal_name(code));
+}
+
+std::string HostProcess::hint() const {
+  return is_control_lost_ ? "a unit may close its own files only; with --isolate it has no others"
+                          : "";
 }
 
 }  // namespace stride::isolation

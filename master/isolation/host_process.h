@@ -3,6 +3,7 @@
 #define STRIDE_MASTER_ISOLATION_HOST_PROCESS_H
 
 #include <functional>
+#include <optional>
 #include <string>
 
 #include <sys/types.h>
@@ -10,6 +11,7 @@
 #include "master/isolation/host_link.h"
 #include "master/isolation/process/descriptor.h"
 #include "master/isolation/supervisor.h"
+#include "master/util/file_identity.h"
 
 namespace stride::isolation {
 
@@ -38,10 +40,13 @@ class HostProcess {
 
   /// "its process was killed by SIGSEGV (signal 11)"
   std::string how_it_ended() const;
+  /// What may help, where that is known.
+  std::string hint() const;
 
  private:
   void send(Command command) const;
   bool take_end();
+  bool has_control() const;
   bool is_supervisor_gone() const;
   void continue_supervisor() const;
   void force_end() const;
@@ -49,8 +54,10 @@ class HostProcess {
   HostLinkMemory& link_;
   const MemoryAllowance memory_;
   Descriptor control_;
+  std::optional<core::FileIdentity> control_file_;
   pid_t supervisor_ = 0;
   bool is_supervisor_lost_ = false;
+  bool is_control_lost_ = false;  ///< so the supervisor took the master for ended
   HostEnd end_;
 };
 

@@ -24,6 +24,7 @@
 #include "master/isolation/process/process_memory.h"
 #include "master/isolation/process/surroundings.h"
 #include "master/isolation/sandbox_hint.h"
+#include "master/util/process/own_exit.h"
 #include "master/util/process/process_state.h"
 
 namespace stride::isolation {
@@ -39,7 +40,8 @@ struct CallbackFailure {};
 /// for this process.
 void on_exit_called(int status, void* server) {
   std::fflush(nullptr);
-  static_cast<Server*>(server)->confirm_end();
+  const bool is_own = core::OwnExit::is_caller_of(__builtin_frame_address(0));
+  if (is_own) static_cast<Server*>(server)->confirm_end();
   ::_exit(status);
 }
 
@@ -57,6 +59,7 @@ void serve(HostLink& link, const HostedUnitSpec& spec, pid_t supervisor) noexcep
   Server server(link, spec, supervisor);
   ::on_exit(&on_exit_called, &server);
   server.run();
+  core::OwnExit::begin();
   std::exit(0);
 }
 

@@ -43,6 +43,14 @@ std::optional<pid_t> lock_holder(int descriptor) {
 /// A process that a unit of an earlier run has left may still have that run's lock.
 bool has_ended(pid_t process) { return ::kill(process, 0) != 0 && errno == ESRCH; }
 
+/// "process 4711 ('stride')": a unit in a process of its own has its name there.
+std::string words_for(std::optional<pid_t> process) {
+  if (!process) return "another process";
+  std::string name;
+  std::getline(std::ifstream(fmt::format("/proc/{}/comm", *process)), name);
+  return fmt::format("process {} ('{}')", *process, name);
+}
+
 }  // namespace
 
 bool is_plain_file_name(const std::string& name) {
@@ -108,8 +116,9 @@ ResultsLock::ResultsLock(const fs::path& folder)
   const std::optional<pid_t> holder = lock_holder(open);
   if (holder && has_ended(*holder)) return;
   core::fail_input({.where = {folder.string(), 0}},
-                   fmt::format("another run writes its results into this folder{}",
-                               holder ? fmt::format(" (process {})", *holder) : ""),
+                   fmt::format("{} has locked this folder, as a run does while it writes its "
+                               "results there",
+                               words_for(holder)),
                    "wait for its end, or choose another results folder with --out");
 }
 

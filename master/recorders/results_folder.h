@@ -59,8 +59,9 @@ void check_name_lengths(const std::filesystem::path& folder, const ResultFiles& 
 /// Keeps other runs out of a results folder for as long as it lives, also if the process is killed.
 class ResultsLock {
  public:
-  /// Throws core::Error (Input), with the number of the process, if another run writes into the
-  /// folder. Where the file system has no locks (flock) there is none.
+  /// Throws core::Error (Input), with the number and the name of the process, if another one has
+  /// locked the folder: a run that writes there, or a unit. Where the file system has no locks
+  /// (flock) there is none.
   explicit ResultsLock(const std::filesystem::path& folder);
 
  private:

@@ -6,6 +6,7 @@
 #include <system_error>
 
 #include <fmt/format.h>
+#include <pthread.h>
 
 #include "master/util/error.h"
 
@@ -92,6 +93,7 @@ void ThreadPool::run_batch(std::size_t count, Call call, const void* task) {
 }
 
 void ThreadPool::work(std::size_t k, Waiter waiter) {
+  ::pthread_setcancelstate(PTHREAD_CANCEL_DISABLE, nullptr);  // a task may leave one pending
   const Worker& worker = workers_[k - 1];
   for (std::uint32_t batch = 0;; ++batch) {
     waiter.wait_while(worker.batches, batch);

@@ -187,7 +187,7 @@ TEST_CASE("a second run into the folder of one that has not ended is refused") {
   const Outcome second = workspace.run({"--quiet"});
   CHECK(second.exit_code == 2);
   CHECK_THAT(second.err,
-             Contains("out: another run writes its results into this folder (process "));
+             Contains("out: process ") && Contains(" ('stride') has locked this folder"));
   CHECK(first.is_running());
   first.send(SIGINT);
   CHECK(first.wait().exit_code == 1);

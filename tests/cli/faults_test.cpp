@@ -69,6 +69,10 @@ constexpr Fault kFaults[] = {
      "it ended its process with exit code 0 in FUNCTION"},
     {"default signal", "signal 11 (SIGSEGV) ends stride during FUNCTION",
      "its process was ended by signal 11 (SIGSEGV) in FUNCTION"},
+    {"unmap shared memory", "signal 11 (SIGSEGV) ends stride during FUNCTION",
+     "its process was ended by signal 11 (SIGSEGV) in FUNCTION"},
+    {"protect shared memory", "signal 11 (SIGSEGV) ends stride during FUNCTION",
+     "its process was ended by signal 11 (SIGSEGV) in FUNCTION"},
     {"exec", "the program '/usr/bin/sleep' has replaced stride during FUNCTION", nullptr},
     {"exec by system call", " stride during FUNCTION",
      "it ended its process with exit code 0 in FUNCTION"},
@@ -101,6 +105,8 @@ constexpr Fault kFaults[] = {
     {"fork and go on", kCompletes, kCompletes},
     {"round up", kCompletes, kCompletes},
     {"flush to zero", kCompletes, kCompletes},
+    {"set direction flag", kCompletes, kCompletes},
+    {"cancel thread", kCompletes, kCompletes},
 };
 
 struct Call {

@@ -73,15 +73,19 @@ TEST_CASE("a hosted unit's library that ends its process when it is unloaded is 
   CHECK(leftovers.all() == std::vector<std::string>{});
 }
 
-TEST_CASE("a hosted unit's exit function that crashes is an error") {
+TEST_CASE("a hosted unit's exit function that ends the process is an error") {
   const Workspace workspace(Parts{component("faulty", "fmi3_faulty.fmu")});
   const Leftovers leftovers;
-  const FaultOrder order("crash at exit", "step", "0.5");
+  const auto [fault, end] = GENERATE(table<const char*, std::string>({
+      {"crash at exit", "its process was ended by signal 11 (SIGSEGV)"},
+      {"exit at exit", "it ended its process with exit code 0"},
+  }));
+  const FaultOrder order(fault, "step", "0.5");
   const Outcome outcome = workspace.run({"--quiet", "--step", "0.125", "--isolate"});
   INFO(outcome.err);
   CHECK(outcome.exit_code == 1);
-  CHECK_THAT(outcome.err, Contains("unit 'faulty', at 1 s: its process was ended by signal 11 "
-                                   "(SIGSEGV) in an exit function of its library"));
+  CHECK_THAT(outcome.err,
+             Contains("unit 'faulty', at 1 s: " + end + " in an exit function of its library"));
   CHECK(run_json(workspace)["outcome"] == "failed");
   CHECK(last_time(workspace) == "1");
   CHECK(leftovers.all() == std::vector<std::string>{});
@@ -99,13 +103,27 @@ TEST_CASE("'stride check' fails where the process of a unit does not end well") 
                               Contains("ended by signal 11 (SIGSEGV)"));
 }
 
-TEST_CASE("'stride verify' fails where an exit function of the unit crashes") {
+TEST_CASE("'stride verify' fails where an exit function of the unit ends the process") {
   const Workspace workspace(Parts{component("faulty", "fmi3_faulty.fmu")});
-  const FaultOrder order("crash at exit", "step", "0");
+  const auto [fault, end] = GENERATE(table<const char*, std::string>(
+      {{"crash at exit", "SIGSEGV"}, {"exit at exit", "exit code 1"}}));
+  const FaultOrder order(fault, "step", "0");
   const Outcome outcome = workspace.stride({"verify", test_fmu("fmi3_faulty").string()});
   INFO(outcome.out);
   CHECK(outcome.exit_code == 1);
-  CHECK_THAT(outcome.out, Contains("SIGSEGV"));
+  CHECK_THAT(outcome.out, Contains(end));
+}
+
+TEST_CASE("an exit function that calls exit(0) is an error") {
+  if (kSanitized) return;
+  const Workspace workspace(Parts{component("faulty", "fmi3_faulty.fmu")});
+  const FaultOrder order("exit at exit", "step", "0.5");
+  const Outcome outcome = workspace.run({"--quiet", "--step", "0.125"});
+  INFO(outcome.err);
+  CHECK(outcome.exit_code == 1);
+  CHECK_THAT(outcome.err, Contains("exit() ends stride in a destructor or an exit function of a "
+                                   "library, after the command"));
+  CHECK(last_time(workspace) == "1");
 }
 
 TEST_CASE("a crash in the unloading of a library hides no earlier error") {
@@ -144,6 +162,34 @@ TEST_CASE("a library that does not return when it is unloaded, or after the run,
   CHECK(workspace.left_behind().empty());
 }
 
+TEST_CASE("a thread that keeps the lock of a standard stream does not hold up the end") {
+  if (kSanitized) return;
+  const Workspace workspace(Parts{component("faulty", "fmi3_faulty.fmu")});
+  const auto start = [&](const char* fault, const char* folder, const Arguments& further = {}) {
+    const FaultOrder order(fault, "step", "0.5");
+    Arguments all{"run", "test.ssd", "--step", "0.125", "--out", folder};
+    all.insert(all.end(), further.begin(), further.end());
+    return Process(stride_command(all), workspace.scratch().path());
+  };
+  Process output = start("keep lock of output", "output");  // each takes 10 s
+  Process errors = start("keep lock of errors", "errors");
+  Process quiet = start("keep lock of output", "quiet", {"--quiet"});
+  for (Process* process : {&output, &errors, &quiet}) {
+    const Outcome outcome = process->wait();
+    INFO(outcome.err);
+    CHECK(outcome.exit_code == 1);
+    CHECK_THAT(outcome.err, Contains("unit 'faulty': stride has not ended for 10 s, since a thread "
+                                     "that it has started keeps the lock of the standard output"));
+  }
+  for (const char* const folder : {"output", "errors", "quiet"}) {
+    const Csv signals(workspace / (std::string(folder) + "/signals.csv"));
+    CHECK(signals.row(signals.size() - 1).front() == "1");
+    CHECK_THAT(read(workspace / (std::string(folder) + "/run.json")),
+               Contains("\"outcome\": \"failed\""));
+  }
+  CHECK(workspace.left_behind().empty());
+}
+
 TEST_CASE("a library that does not return when it is unloaded is cut off in other commands, too") {
   if (kSanitized) return;
   const Workspace workspace(Parts{component("faulty", "fmi3_faulty.fmu")});
@@ -168,7 +214,7 @@ TEST_CASE("a library that forks when it is loaded, and returns in both processes
   CHECK(leftovers.all() == std::vector<std::string>{});
 }
 
-TEST_CASE("a library that calls exit(0) after the run does not change the exit code") {
+TEST_CASE("a library that calls exit(0) after the run is an error, and hides no earlier one") {
   const Workspace workspace(
       Parts{component("faulty", "faulty.fmu") + component("fuse", "thrower.fmu")});
   const Arguments options{"--quiet", "--set", "faulty.fault=exit with 0", "--set",
@@ -178,7 +224,11 @@ TEST_CASE("a library that calls exit(0) after the run does not change the exit c
     arguments.insert(arguments.end(), {"--set", "fuse.throw_at=" + throw_at});
     return workspace.run(arguments);
   };
-  CHECK(run("10").exit_code == 0);
+  const Outcome alone = run("10");
+  CHECK(alone.exit_code == 1);
+  CHECK_THAT(alone.err, Contains("exit() ends stride in a destructor or an exit function of a "
+                                 "library, after the command"));
+  CHECK_THAT(run_json(workspace)["error"].get<std::string>(), Contains("exit() ends stride"));
   const Outcome outcome = run("0.5");
   CHECK(outcome.exit_code == 1);
   CHECK_THAT(outcome.err, Contains("the fuse has blown"));

@@ -50,6 +50,23 @@ TEST_CASE("a hosted unit that closes or replaces all open files disturbs nothing
   CHECK(last_time(workspace) == "1");
 }
 
+TEST_CASE("a unit that closes files by which a host is led is named") {
+  const Workspace workspace(
+      Parts{component("first", "minimal.fmu") + component("faulty", "fmi3_faulty.fmu"), "",
+            "<stride:Results signals=\"none\" events=\"none\" trace=\"none\"/>"});
+  const FaultOrder order(GENERATE("close files", "replace files"), "step", "0.5");
+  const Outcome outcome = workspace.run({"--quiet", "--stop", "1e6", "--isolate=first"});
+  CHECK(outcome.exit_code == 1);
+  const nlohmann::json run = run_json(workspace);
+  CHECK(run["outcome"] == "failed");
+  CHECK_THAT(run["error"].get<std::string>(),
+             Contains("unit 'first', at ") &&
+                 Contains("such as that of a unit without a host ('faulty'), has closed the open "
+                          "file by which it is led, or put another one in its place") &&
+                 Contains("hint: a unit may close its own files only"));
+  CHECK(workspace.left_behind().empty());
+}
+
 TEST_CASE("a unit that moves within open files does no harm") {
   const Workspace workspace = with_file_faults("3");
   const std::string expected = [&] {

@@ -98,6 +98,18 @@ TEST_CASE("a process of its own for the unit changes nothing") {
   CHECK(results(workspace) == near);
 }
 
+TEST_CASE("a program that lost its permission to be executed in an archive runs in a host, too") {
+  const Workspace workspace(cistern("unpacked"));
+  const std::string unpack = "python3 -m zipfile -e '" + test_fmu("cistern").string() + "' '" +
+                             (workspace / "unpacked").string() + "'";
+  REQUIRE(std::system(unpack.c_str()) == 0);  // which keeps no permissions
+  const fs::path program = workspace / "unpacked/resources/cistern";
+  REQUIRE((fs::status(program).permissions() & fs::perms::owner_exec) == fs::perms::none);
+  const Outcome outcome = workspace.run(filling({"--isolate"}));
+  INFO(outcome.err);
+  CHECK(outcome.exit_code == 0);
+}
+
 TEST_CASE("a unit whose program would be left behind is not rolled back by a snapshot") {
   const Parts two = {component("one", "cistern.fmu") + component("two", "cistern.fmu"), "",
                      "<stride:Step size=\"0.3\"/>\n", "<ssd:DefaultExperiment stopTime=\"2\"/>\n"};
@@ -182,6 +194,7 @@ TEST_CASE("no program outlives the run, even if that is killed") {
   const Workspace workspace(parts);
   workspace.scratch().write("endless.sh",
                             "#!/bin/sh\necho $$ > $STRIDE_RESULTS/number\nexec sleep 1000\n");
+  fs::permissions(workspace / "endless.sh", fs::perms::owner_all);  // a host cannot
   const bool is_hosted = GENERATE(false, true);
   Arguments arguments =
       Workspace::run_arguments({"--set", "cistern.process.program=./endless.sh", "--quiet"});

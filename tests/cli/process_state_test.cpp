@@ -100,7 +100,7 @@ TEST_CASE("what a unit changes in its steps is put back at the end, the numbers'
       {"terminate", "fmi3Terminate"},
   }));
   INFO(phase);
-  const std::string mode = "unit 'meddler': " + function + " left another floating-point mode";
+  const std::string mode = "unit 'meddler': " + function + " left another mode of the processor";
   const Outcome here = run_with(workspace, phase + " " + kAll);
   INFO(here.err);
   CHECK(here.exit_code == 0);
@@ -146,7 +146,7 @@ TEST_CASE("the only unit without a host is the one that has changed the process"
   CHECK_THAT(read(workspace / "report.xml"), Contains("<testcase"));
 }
 
-TEST_CASE("FMI 2.0: a floating-point mode that a step leaves behind") {
+TEST_CASE("FMI 2.0: a mode of the processor that a step leaves behind") {
   const Workspace workspace = beside_others("fmi2_faulty.fmu");
   // the step is a power of 2, so the unit's own times are the same in any mode
   const Arguments step{"--step", "0.0009765625"};
@@ -155,7 +155,7 @@ TEST_CASE("FMI 2.0: a floating-point mode that a step leaves behind") {
   const FaultOrder order("round up", "step", "0.5");
   const Outcome outcome = run_without_meddling(workspace, step);
   CHECK(outcome.exit_code == 0);
-  CHECK_THAT(outcome.err, Contains("fmi2DoStep left another floating-point mode behind"));
+  CHECK_THAT(outcome.err, Contains("fmi2DoStep left another mode of the processor behind"));
   CHECK(numbers(workspace) == expected);
 }
 
@@ -169,7 +169,7 @@ TEST_CASE("a unit that is linked with -ffast-math changes no number, with or wit
   // later ones leave the mode as it is where a shared library is linked
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && __GNUC__ < 13
   CHECK_THAT(outcome.err, Contains("unit 'meddler': the loading of its library changed the "
-                                   "floating-point mode (subnormal numbers become 0"));
+                                   "mode of the processor (subnormal numbers become 0"));
 #endif
   CHECK(numbers(workspace) == expected);
 }

@@ -6,6 +6,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
+#include <fstream>
 #include <stdexcept>
 #include <thread>
 #include <utility>
@@ -67,12 +68,28 @@ std::string find_program(const std::string& program) {
                            folders + "); install it, or name it with its path");
 }
 
-/// For a file from an archive without permissions.
-void make_executable(const std::string& path) {
+/// Whether it is a file that lacks the permission to be executed.
+bool is_plain_file(const std::string& path) {
   struct stat status {};
-  if (::stat(path.c_str(), &status) != 0 || !S_ISREG(status.st_mode)) return;
-  // no more rights than these: a sandbox denies others
-  if ((status.st_mode & S_IXUSR) == 0) ::chmod(path.c_str(), S_IRWXU);
+  return ::stat(path.c_str(), &status) == 0 && S_ISREG(status.st_mode) &&
+         (status.st_mode & S_IXUSR) == 0;
+}
+
+/// By an executable one of the same content; if that fails it stays.
+void replace_by_executable(const std::string& path) {
+  const std::string copy = path + "." + std::to_string(::getpid());
+  if (!Descriptor(::open(copy.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, S_IRWXU)).is_open())
+    return;
+  std::ofstream file(copy, std::ios::binary);
+  file << std::ifstream(path, std::ios::binary).rdbuf();
+  file.close();
+  if (!file || ::rename(copy.c_str(), path.c_str()) != 0) ::unlink(copy.c_str());
+}
+
+/// For a file from an archive without permissions. In a sandbox modes do not change.
+void make_executable(const std::string& path) {
+  if (is_plain_file(path)) ::chmod(path.c_str(), S_IRWXU);
+  if (is_plain_file(path)) replace_by_executable(path);
 }
 
 /// What the child does between fork() and exec(): functions that are safe there, and no memory.

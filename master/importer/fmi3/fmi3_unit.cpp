@@ -280,7 +280,7 @@ void Fmi3Unit::on_intermediate_update(fmi3InstanceEnvironment environment, fmi3F
 /// Nothing may cross the unit's C code: step() throws what goes wrong here.
 void Fmi3Unit::update_inputs(double time) noexcept {
   if (!input_update_ || callback_failure_) return;
-  const core::FloatingPointScope mode(mode_);  // the unit may have one for its step
+  const core::ProcessorModeScope mode(mode_);  // the unit may have one for its step
   try {
     input_update_(time - step_point_);
   } catch (...) {

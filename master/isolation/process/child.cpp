@@ -15,6 +15,7 @@
 #include "master/isolation/process/descriptor.h"
 #include "master/isolation/process/surroundings.h"
 #include "master/util/outliving_memory.h"
+#include "master/util/process/own_exit.h"
 
 namespace stride::isolation {
 namespace {
@@ -39,10 +40,12 @@ void settle(pid_t parent, int output) {
   redirect_standard_files(output);
 }
 
-/// Behind the exit functions of what the work has loaded, and before those of this program.
+/// Behind the exit functions of what the work has loaded, and before those of this program. If one
+/// of these has called exit(0), that is no good end.
 void end_at_once(int status, void*) {
   std::fflush(nullptr);
-  ::_exit(status);
+  const bool is_own = core::OwnExit::is_caller_of(__builtin_frame_address(0));
+  ::_exit(is_own || status != 0 ? status : 1);
 }
 
 [[noreturn]] void be_child(const std::function<std::string()>& work, int answer) {
@@ -60,13 +63,16 @@ void end_at_once(int status, void*) {
   }
   write_all(answer, &kind, 1);
   write_all(answer, text.data(), text.size());
+  core::OwnExit::begin();
   std::exit(0);
 }
 
+/// Nothing is known of its end if the work of this process ignores that of children.
 bool has_ended(pid_t child) {
   siginfo_t info{};
-  return ::waitid(P_PID, static_cast<id_t>(child), &info, WEXITED | WNOWAIT | WNOHANG) == 0 &&
-         info.si_pid == child;
+  const int options = WEXITED | WNOWAIT | WNOHANG;
+  if (::waitid(P_PID, static_cast<id_t>(child), &info, options) != 0) return errno == ECHILD;
+  return info.si_pid == child;
 }
 
 /// Ends all of the child's group and takes the child's status away.

@@ -116,8 +116,10 @@ Protections enter_sandbox(std::span<const WritableFolder> writable, bool has_mem
   guard_files(protections, writable);
   put_on(protections, "no network: seccomp", forbid_network);
   put_on(protections, "no calls that name other processes: seccomp", forbid_reaching_processes);
+  put_on(protections, "no namespaces, mounts and other changes of the system: seccomp",
+         forbid_administration);
   put_on(protections,
-         "no change of owners and times of files, and of modes to private ones only: seccomp",
+         "no change of owners, times and modes of files (chmod() does nothing): seccomp",
          forbid_changing_attributes);
   if (has_memory_limit) {
     put_on(protections, "no files sent through sockets, for the memory limit: seccomp",

@@ -32,9 +32,10 @@ struct WritableFolder {
 /// - files are only read and executed, but for what is in the folders `writable` and below, and
 ///   /dev/null and its like. Nothing is made, removed, renamed, truncated or mounted elsewhere.
 ///   What is open already is not covered (Landlock);
-/// - owners, times and attributes of files are not changed, wherever they are, and their modes only
-///   to private ones (seccomp);
+/// - owners, times, attributes and modes of files are not changed, wherever they are; a change of
+///   modes answers that it is done (seccomp);
 /// - no call names another process, and nothing is shared by a key or a name (seccomp);
+/// - no namespaces, mounts and other changes of the system (seccomp);
 /// - signals reach, and debuggers attach to, processes in the same sandbox only;
 /// - no socket but AF_UNIX, and no input into a terminal (seccomp);
 /// - no system calls newer than Linux 6.4 (seccomp);

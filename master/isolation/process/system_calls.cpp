@@ -1,6 +1,8 @@
 #include "master/isolation/process/system_calls.h"
 
+#include <array>
 #include <cerrno>
+#include <csignal>
 #include <cstddef>
 #include <cstdint>
 #include <initializer_list>
@@ -14,6 +16,7 @@
 #include <linux/fsverity.h>
 #include <linux/ioprio.h>
 #include <linux/seccomp.h>
+#include <sched.h>
 #include <seccomp.h>
 #include <sys/ioctl.h>
 #include <sys/prctl.h>
@@ -50,11 +53,15 @@ class Filter {
   Filter(const Filter&) = delete;
   Filter& operator=(const Filter&) = delete;
 
-  /// The call with such arguments.
-  void deny(int call, std::initializer_list<scmp_arg_cmp> arguments = {}) {
-    require(::seccomp_rule_add_array(context_, SCMP_ACT_ERRNO(EACCES), call,
-                                     static_cast<unsigned>(arguments.size()), arguments.begin()));
+  /// The call with such arguments; it answers with this error.
+  void deny(int call, std::initializer_list<scmp_arg_cmp> arguments = {}, int error = EACCES) {
+    require(::seccomp_rule_add_array(context_, SCMP_ACT_ERRNO(static_cast<std::uint16_t>(error)),
+                                     call, static_cast<unsigned>(arguments.size()),
+                                     arguments.begin()));
   }
+
+  /// The call does nothing, and answers that it is done.
+  void ignore(int call) { require(::seccomp_rule_add(context_, SCMP_ACT_ERRNO(0), call, 0)); }
 
   /// All of these calls, with any arguments.
   void deny_all(std::initializer_list<int> calls) {
@@ -138,8 +145,10 @@ void forbid_reaching_processes() {
   for (const int call : {SCMP_SYS(fcntl), SCMP_SYS(fcntl64)}) {
     filter.deny(call, {argument(1, SCMP_CMP_MASKED_EQ, kInt, F_SETLEASE)});
   }
-  // hides the process from its supervisor
+  // hides the process from its supervisor, or lets it live on without one
   filter.deny(SCMP_SYS(prctl), {argument(0, SCMP_CMP_MASKED_EQ, kInt, PR_SET_DUMPABLE)});
+  filter.deny(SCMP_SYS(prctl), {argument(0, SCMP_CMP_MASKED_EQ, kInt, PR_SET_PDEATHSIG),
+                                argument(1, SCMP_CMP_NE, SIGKILL)});
   filter.deny_all({SCMP_SYS(process_vm_readv), SCMP_SYS(process_vm_writev),
                    SCMP_SYS(process_madvise), SCMP_SYS(process_mrelease), SCMP_SYS(pidfd_getfd),
                    SCMP_SYS(kcmp), SCMP_SYS(perf_event_open), SCMP_SYS(open_by_handle_at)});
@@ -152,6 +161,33 @@ void forbid_reaching_processes() {
   filter.load();
 }
 
+void forbid_administration() {
+  Filter filter;
+  constexpr std::array<scmp_datum_t, 7> kNamespaces{CLONE_NEWNS,  CLONE_NEWCGROUP, CLONE_NEWUTS,
+                                                    CLONE_NEWIPC, CLONE_NEWUSER,   CLONE_NEWPID,
+                                                    CLONE_NEWNET};
+  for (const scmp_datum_t kind : kNamespaces) {
+    filter.deny(SCMP_SYS(clone), {argument(0, SCMP_CMP_MASKED_EQ, kind, kind)});
+  }
+  filter.deny(SCMP_SYS(clone3), {}, ENOSYS);
+  filter.deny_all({SCMP_SYS(unshare), SCMP_SYS(setns)});
+  filter.deny_all({SCMP_SYS(mount), SCMP_SYS(umount), SCMP_SYS(umount2), SCMP_SYS(pivot_root),
+                   SCMP_SYS(chroot), SCMP_SYS(open_tree), SCMP_SYS(move_mount), SCMP_SYS(fsopen),
+                   SCMP_SYS(fsconfig), SCMP_SYS(fsmount), SCMP_SYS(fspick),
+                   SCMP_SYS(mount_setattr)});
+  filter.deny_all({SCMP_SYS(bpf), SCMP_SYS(init_module), SCMP_SYS(finit_module),
+                   SCMP_SYS(delete_module), SCMP_SYS(kexec_load), SCMP_SYS(kexec_file_load),
+                   SCMP_SYS(reboot)});
+  filter.deny_all({SCMP_SYS(memfd_secret), SCMP_SYS(userfaultfd), SCMP_SYS(fanotify_init),
+                   SCMP_SYS(modify_ldt), SCMP_SYS(vm86), SCMP_SYS(vm86old), SCMP_SYS(iopl),
+                   SCMP_SYS(ioperm)});
+  filter.deny_all({SCMP_SYS(syslog), SCMP_SYS(acct), SCMP_SYS(quotactl), SCMP_SYS(quotactl_fd),
+                   SCMP_SYS(swapon), SCMP_SYS(swapoff), SCMP_SYS(sethostname),
+                   SCMP_SYS(setdomainname), SCMP_SYS(settimeofday), SCMP_SYS(stime),
+                   SCMP_SYS(clock_settime), SCMP_SYS(clock_settime64)});
+  filter.load();
+}
+
 void forbid_changing_attributes() {
   Filter filter;
   filter.deny_all({SCMP_SYS(chown), SCMP_SYS(chown32), SCMP_SYS(fchown), SCMP_SYS(fchown32),
@@ -160,13 +196,9 @@ void forbid_changing_attributes() {
                    SCMP_SYS(utimensat_time64), SCMP_SYS(setxattr), SCMP_SYS(lsetxattr),
                    SCMP_SYS(fsetxattr), SCMP_SYS(removexattr), SCMP_SYS(lremovexattr),
                    SCMP_SYS(fremovexattr)});
-  // a program from an archive without permissions has to become executable
-  constexpr scmp_datum_t kPrivate = 0700;
-  for (scmp_datum_t right = 1; right <= 04000; right <<= 1) {
-    if ((right & kPrivate) != 0) continue;
-    filter.deny(SCMP_SYS(chmod), {argument(1, SCMP_CMP_MASKED_EQ, right, right)});
-    filter.deny(SCMP_SYS(fchmod), {argument(1, SCMP_CMP_MASKED_EQ, right, right)});
-    filter.deny(SCMP_SYS(fchmodat), {argument(2, SCMP_CMP_MASKED_EQ, right, right)});
+  // what copies or unpacks files takes a failure for that of its work, and rarely needs the effect
+  for (const int call : {SCMP_SYS(chmod), SCMP_SYS(fchmod), SCMP_SYS(fchmodat)}) {
+    filter.ignore(call);
   }
   deny_special_modes(filter);
   filter.deny_requests({FS_IOC_SETFLAGS, FS_IOC_FSSETXATTR, FS_IOC_SETVERSION, FS_IOC_SETFSLABEL,

@@ -19,13 +19,22 @@ void forbid_network();
 /// matter.
 void forbid_reaching_processes();
 
+/// Nothing that changes the system or what a process sees of it, and that no simulation needs:
+/// namespaces, mounts and other roots of the file system, modules and programs in the kernel,
+/// memory that is hidden from the kernel or filled in by the process (memfd_secret, userfaultfd),
+/// segments and I/O ports of the processor, watches over whole file systems, the kernel's log, the
+/// clock, names, quotas, swap space and accounting. Most of it needs privileges that a unit lacks;
+/// without these calls it cannot make a namespace in which it has them. clone3(), whose flags a
+/// filter cannot see, answers ENOSYS: the C library takes clone() instead.
+void forbid_administration();
+
 /// No system call that is newer than Linux 6.4: the answer is ENOSYS, as of an older kernel. So no
 /// call escapes the other filters because they were made before it was.
 void forbid_newer_calls();
 
-/// No change of owners, times and extended attributes, and of modes only such that give no rights
-/// to others than the owner: neither of the user's files nor of its own, since a filter cannot tell
-/// them apart.
+/// No change of owners, times, extended attributes and modes: neither of the user's files nor of
+/// its own, since a filter cannot tell them apart. A change of modes answers that it is done: what
+/// copies a file changes its mode, too, and goes on. A file gets its mode when it is made.
 void forbid_changing_attributes();
 
 /// No sendmsg() and sendmmsg(), by which open files are sent through a socket. A filter cannot see

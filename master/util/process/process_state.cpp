@@ -29,10 +29,10 @@ ProcessState::ProcessState(Extent extent) {
 
 std::vector<std::string> ProcessState::restore() const {
   std::vector<std::string> changes;
-  const FloatingPointMode now = FloatingPointMode::present();
+  const ProcessorMode now = ProcessorMode::present();
   if (now != mode_) {
     mode_.set();
-    changes.push_back("the floating-point mode (" + mode_.differences(now) + ")");
+    changes.push_back("the mode of the processor (" + mode_.differences(now) + ")");
   }
   locale_.restore(changes);
   if (rest_) rest_->restore(changes);

@@ -13,15 +13,15 @@
 #include "master/util/descriptor.h"
 #include "master/util/file_identity.h"
 #include "master/util/process/environment.h"
-#include "master/util/process/floating_point_mode.h"
 #include "master/util/process/locale_state.h"
+#include "master/util/process/processor_mode.h"
 #include "master/util/process/signal_state.h"
 
 namespace stride::core {
 
 /// What all code in a process shares, beside memory and open files: the working folder, the mask of
 /// the modes of new files, resource limits, environment variables, signals, the locale, and, in the
-/// calling thread, the floating-point mode.
+/// calling thread, the mode of the processor.
 ///
 /// An object has what is so when it is made. It belongs to one thread, and no other thread may
 /// change these things or read the environment meanwhile. Making and restoring take some tens of
@@ -30,7 +30,7 @@ class ProcessState {
  public:
   enum class Extent {
     Everything,
-    /// What numbers depend on: the floating-point mode and the locale.
+    /// What numbers depend on: the mode of the processor and the locale.
     Numbers,
   };
 
@@ -59,7 +59,7 @@ class ProcessState {
     SignalState signals;
   };
 
-  FloatingPointMode mode_ = FloatingPointMode::present();
+  ProcessorMode mode_ = ProcessorMode::present();
   LocaleState locale_;
   std::optional<Rest> rest_;
 };

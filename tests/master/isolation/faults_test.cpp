@@ -119,18 +119,22 @@ TEST_CASE("a killed process is noticed at the next call, and between calls") {
 }
 
 TEST_CASE("without its supervisor a unit's process ends, and the master notices") {
+  const bool ignores_children = GENERATE(false, true);  // as a unit in this process may
+  CAPTURE(ignores_children);
   const Belongings before;
   {
-    Fixture unit("faulty");
+    Fixture unit("faulty", true, {.call_limit = 5s});
     unit.start();
-    const pid_t server = Fixture::server();
-    ::kill(Fixture::supervisor(), SIGKILL);
+    const pid_t server = Fixture::server(), supervisor = Fixture::supervisor();
+    if (ignores_children) std::signal(SIGCHLD, SIG_IGN);
+    ::kill(supervisor, SIGKILL);
     CHECK_THAT(run_error([&] {
                  for (int i = 0; i < 100'000; ++i) unit.number("y");
                }),
                Contains("something has ended its supervisor"));
     CHECK(has_ended(server));
   }
+  std::signal(SIGCHLD, SIG_DFL);
   CHECK(Belongings() == before);
 }
 

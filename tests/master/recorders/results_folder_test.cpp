@@ -1,6 +1,7 @@
 #include "master/recorders/results_folder.h"
 
 #include <catch2/catch.hpp>
+#include <sys/prctl.h>
 #include <unistd.h>
 
 #include "tests/master/ssp/support.h"
@@ -28,14 +29,14 @@ TEST_CASE("What cannot be a results folder is named with the reason") {
   CHECK_THROWS_WITH(make_results_folder(""), Contains("its name is empty"));
 }
 
-TEST_CASE("Only one run at a time has a results folder") {
+TEST_CASE("Only one run at a time has a results folder, and the process that has it is named") {
   const TemporaryFolder folder;
+  ::prctl(PR_SET_NAME, "sensor");  // as that of a unit
   {
     const ResultsLock lock(folder / ".");
-    CHECK_THROWS_WITH(ResultsLock(folder / "."),
-                      Contains("another run writes its results into this folder (process " +
-                               std::to_string(::getpid()) + ")") &&
-                          Contains("--out"));
+    CHECK_THROWS_WITH(ResultsLock(folder / "."), Contains("process " + std::to_string(::getpid()) +
+                                                          " ('sensor') has locked this folder") &&
+                                                     Contains("--out"));
   }
   CHECK_NOTHROW(ResultsLock(folder / "."));
 }

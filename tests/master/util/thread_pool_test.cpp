@@ -5,6 +5,7 @@
 #include <set>
 
 #include <catch2/catch.hpp>
+#include <pthread.h>
 
 using namespace stride::core;
 using namespace std::chrono_literals;
@@ -49,6 +50,17 @@ TEST_CASE("a task has the same thread in every batch, the first one the caller's
   CHECK(seen[2].size() == 1);
   CHECK(seen[1] != seen[2]);
   CHECK(seen[1] != seen[0]);
+}
+
+TEST_CASE("a worker whose task cancels its thread goes on") {
+  ThreadPool pool(2);
+  std::vector<int> numbers(2);
+  pool.run(2, [](std::size_t k) noexcept {
+    if (k == 1) ::pthread_cancel(::pthread_self());
+  });
+  std::this_thread::sleep_for(1ms);  // until it sleeps, where it would be cancelled
+  add_one(numbers, pool);
+  CHECK(numbers == std::vector<int>(2, 1));
 }
 
 TEST_CASE("sleeping workers wake up, and so does the caller") {

@@ -17,6 +17,7 @@
 
 #include <fcntl.h>
 #include <netinet/in.h>
+#include <sys/mman.h>
 #include <sys/ptrace.h>
 #include <sys/resource.h>
 #include <sys/socket.h>
@@ -104,6 +105,17 @@ void leave_short_thread() {
   std::thread([] { std::this_thread::sleep_for(std::chrono::milliseconds(5)); }).detach();
 }
 
+/// In a thread, until the process ends.
+void keep_lock_of(std::FILE* stream) {
+  static std::atomic<bool> is_locked{false};
+  std::thread([stream] {
+    ::flockfile(stream);
+    is_locked = true;
+    sleep_for_ever();
+  }).detach();
+  while (!is_locked) std::this_thread::yield();
+}
+
 void say_end(int, void*) { std::fputs("the function of on_exit() runs\n", stderr); }
 
 /// Another file takes the number of each one but the standard ones.
@@ -159,15 +171,27 @@ void die_while_another_prints() {
 }
 
 /// What it shares with other processes, whatever that is.
-void overwrite_shared_memory() {
+template <class Visit>
+void for_each_shared_memory(Visit&& visit) {
   std::ifstream maps("/proc/self/maps");
   for (std::string line; std::getline(maps, line);) {
     unsigned long begin = 0, end = 0;
     char mode[5] = "";
     if (std::sscanf(line.c_str(), "%lx-%lx %4s", &begin, &end, mode) != 3) continue;
-    if (std::string(mode) != "rw-s") continue;
-    std::memset(reinterpret_cast<void*>(begin), 0xee, end - begin);
+    if (std::string(mode) == "rw-s") visit(reinterpret_cast<void*>(begin), end - begin);
   }
+}
+
+void overwrite_shared_memory() {
+  for_each_shared_memory([](void* begin, std::size_t size) { std::memset(begin, 0xee, size); });
+}
+
+void unmap_shared_memory() {
+  for_each_shared_memory([](void* begin, std::size_t size) { ::munmap(begin, size); });
+}
+
+void protect_shared_memory() {
+  for_each_shared_memory([](void* begin, std::size_t size) { ::mprotect(begin, size, PROT_READ); });
 }
 
 void write_temporary() {
@@ -225,6 +249,13 @@ void flush_to_zero() {
 #ifdef __SSE2__
   constexpr unsigned kFlushToZero = 0x8000, kDenormalsAreZero = 0x40;
   __builtin_ia32_ldmxcsr(__builtin_ia32_stmxcsr() | kFlushToZero | kDenormalsAreZero);
+#endif
+}
+
+/// String instructions run backward.
+void set_direction_flag() {
+#ifdef __x86_64__
+  asm volatile("std");
 #endif
 }
 
@@ -311,6 +342,8 @@ constexpr Fault kFaults[] = {
     {"leave deaf thread", leave_deaf_thread},
     {"leave short thread", leave_short_thread},
     {"leave handler", [] { std::signal(SIGPROF, [](int) {}); }},
+    {"keep lock of output", [] { keep_lock_of(stdout); }},
+    {"keep lock of errors", [] { keep_lock_of(stderr); }},
     {"on_exit", [] { ::on_exit(say_end, nullptr); }},
     {"daemon", start_daemon},
     {"die while another prints", die_while_another_prints},
@@ -320,6 +353,8 @@ constexpr Fault kFaults[] = {
     {"write nameless file", write_nameless_file},
     {"write temporary file", write_temporary_file},
     {"overwrite", overwrite_shared_memory},
+    {"unmap shared memory", unmap_shared_memory},
+    {"protect shared memory", protect_shared_memory},
     {"overwrite and abort",
      [] {
        overwrite_shared_memory();
@@ -377,12 +412,14 @@ constexpr Fault kFaults[] = {
        open_all_files();
        write_to_nowhere();
      }},
+    {"cancel thread", [] { ::pthread_cancel(::pthread_self()); }},
     {"fork", fork_and_return},
     {"fork and go on", [] { static_cast<void>(::fork()); }},
     {"send nameless files", send_nameless_files},
     {"limit parent", limit_parent},
     {"round up", [] { std::fesetround(FE_UPWARD); }},
     {"flush to zero", flush_to_zero},
+    {"set direction flag", set_direction_flag},
     {"close streams", close_streams},
     {"close streams and crash",
      [] {
@@ -410,6 +447,7 @@ constexpr Fault kFaults[] = {
        write_to_nowhere();
      }},
     {"crash at exit", [] { ::on_exit([](int, void*) { write_to_nowhere(); }, nullptr); }},
+    {"exit at exit", [] { ::on_exit([](int, void*) { std::exit(0); }, nullptr); }},
     {"buffer output", buffer_output},
     {"drop output stream", [] { stdout = nullptr; }},
     {"use terminal", use_terminal},

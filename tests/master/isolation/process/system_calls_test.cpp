@@ -5,6 +5,7 @@
 #include <functional>
 #include <initializer_list>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include <linux/fs.h>
@@ -14,6 +15,7 @@
 #include <sys/ioctl.h>
 #include <sys/ipc.h>
 #include <sys/mman.h>
+#include <sys/mount.h>
 #include <sys/msg.h>
 #include <sys/resource.h>
 #include <sys/sem.h>
@@ -143,6 +145,7 @@ TEST_CASE("no other process is reached by its number, a key or a name") {
        {"advice", [] { return ::syscall(SYS_process_madvise, -1, nullptr, 0L, 0, 0); }},
        {"counters", [] { return ::syscall(SYS_perf_event_open, nullptr, 0, -1, -1, ~0UL); }},
        {"hiding", [] { return ::prctl(PR_SET_DUMPABLE, 0, 0, 0, 0); }},
+       {"outliving", [] { return ::prctl(PR_SET_PDEATHSIG, 0, 0, 0, 0); }},
        {"the foreground", [] { return ::tcsetpgrp(STDIN_FILENO, ::getpgrp()); }},
        {"a terminal", [] { return ::ioctl(STDIN_FILENO, TIOCSCTTY, 0); }},
        {"System V memory", [] { return ::shmget(0x5712de, 1, 0); }},
@@ -156,6 +159,72 @@ TEST_CASE("no other process is reached by its number, a key or a name") {
        {"a file by its handle", [] { return ::syscall(SYS_open_by_handle_at, -1, nullptr, 0); }}});
 }
 
+TEST_CASE("the system, and what a process sees of it, stay as they are") {
+  if (lacks_seccomp()) return;
+  const auto clone_with = [](unsigned long flags) {
+    return [=] {
+      const long child = ::syscall(SYS_clone, flags | SIGCHLD, nullptr, nullptr, nullptr, nullptr);
+      if (child == 0) ::_exit(0);
+      return child;
+    };
+  };
+  check_denied(
+      forbid_administration,
+      {{"a namespace of users", [] { return ::unshare(CLONE_NEWUSER); }},
+       {"of mounts", [] { return ::unshare(CLONE_NEWNS); }},
+       {"a process with one of users", clone_with(CLONE_NEWUSER)},
+       {"of mounts", clone_with(CLONE_NEWUSER | CLONE_NEWNS)},
+       {"of processes", clone_with(CLONE_NEWUSER | CLONE_NEWPID)},
+       {"of the network", clone_with(CLONE_NEWUSER | CLONE_NEWNET)},
+       {"of another process", [] { return ::setns(-1, 0); }},
+       {"a mount", [] { return ::mount("none", "", "tmpfs", 0, nullptr); }},
+       {"the end of one", [] { return ::umount2("", 0); }},
+       {"another root", [] { return ::chroot(""); }},
+       {"another root of all", [] { return ::syscall(SYS_pivot_root, "", ""); }},
+       {"a copy of mounts", [] { return ::syscall(SYS_open_tree, -1, "", 0); }},
+       {"a mount elsewhere", [] { return ::syscall(SYS_move_mount, -1, "", -1, "", 0); }},
+       {"a file system", [] { return ::syscall(SYS_fsopen, "", 0); }},
+       {"its settings", [] { return ::syscall(SYS_fsconfig, -1, 0, nullptr, nullptr, 0); }},
+       {"a mount of it", [] { return ::syscall(SYS_fsmount, -1, 0, 0); }},
+       {"one that is there", [] { return ::syscall(SYS_fspick, -1, "", 0); }},
+       {"attributes of a mount",
+        [] { return ::syscall(SYS_mount_setattr, -1, "", 0, nullptr, 0L); }},
+       {"a program in the kernel", [] { return ::syscall(SYS_bpf, -1, nullptr, 0); }},
+       {"a module", [] { return ::syscall(SYS_init_module, nullptr, 0L, ""); }},
+       {"a module from a file", [] { return ::syscall(SYS_finit_module, -1, "", 0); }},
+       {"the end of a module", [] { return ::syscall(SYS_delete_module, "", 0); }},
+       {"another kernel", [] { return ::syscall(SYS_kexec_load, 0L, ~0L, nullptr, ~0L); }},
+       {"a reboot", [] { return ::syscall(SYS_reboot, 0, 0, 0, nullptr); }},
+       {"secret memory", [] { return ::syscall(SYS_memfd_secret, ~0U); }},
+       {"faults of pages", [] { return ::syscall(SYS_userfaultfd, ~0U); }},
+       {"a watch over file systems", [] { return ::syscall(SYS_fanotify_init, ~0U, 0); }},
+       {"the kernel's log", [] { return ::syscall(SYS_syslog, -1, nullptr, 0); }},
+       {"accounting", [] { return ::acct(""); }},
+       {"quotas", [] { return ::syscall(SYS_quotactl, -1, "", 0, nullptr); }},
+       {"swap space", [] { return ::syscall(SYS_swapon, "", 0); }},
+       {"its end", [] { return ::syscall(SYS_swapoff, ""); }},
+       {"the host's name", [] { return ::syscall(SYS_sethostname, nullptr, -1L); }},
+       {"the domain's name", [] { return ::syscall(SYS_setdomainname, nullptr, -1L); }},
+       {"the clock", [] { return ::syscall(SYS_clock_settime, -1, nullptr); }}});
+#ifdef __x86_64__
+  check_denied(forbid_administration,
+               {{"segments", [] { return ::syscall(SYS_modify_ldt, 0, nullptr, 0L); }},
+                {"I/O ports", [] { return ::syscall(SYS_iopl, 99); }},
+                {"one of them", [] { return ::syscall(SYS_ioperm, 0L, 0L, 99); }}});
+#endif
+}
+
+TEST_CASE("threads and programs start without clone3(), whose flags cannot be seen") {
+  if (lacks_seccomp()) return;
+  CHECK(say_filtered(forbid_administration,
+                     [] { return answer(::syscall(SYS_clone3, nullptr, 0L)); }) == "ENOSYS");
+  CHECK(say_filtered(forbid_administration, [] {
+          int number = 0;
+          std::thread([&] { number = 42; }).join();
+          return std::to_string(number) + " " + std::to_string(std::system("exit 3") >> 8);
+        }) == "42 3");
+}
+
 TEST_CASE("a unit's own limits, priority and processors can be changed") {
   if (lacks_seccomp()) return;
   const auto say_of = [](const auto& work) {
@@ -167,6 +236,7 @@ TEST_CASE("a unit's own limits, priority and processors can be changed") {
           return answer(::setrlimit(RLIMIT_CORE, &limit));
         }) == "done");
   CHECK(say_of([] { return answer(::setpriority(PRIO_PROCESS, 0, 19)); }) == "done");
+  CHECK(say_of([] { return answer(::prctl(PR_SET_PDEATHSIG, SIGKILL, 0, 0, 0)); }) == "done");
   CHECK(say_of([] {
           cpu_set_t all;
           ::sched_getaffinity(0, sizeof all, &all);
@@ -184,10 +254,7 @@ TEST_CASE("modes, owners, times and attributes of files stay as they are") {
   const gid_t group = ::getgid();
   int flags = 0;
   check_denied(forbid_changing_attributes,
-               {{"chmod", [&] { return ::chmod(file, 0644); }},
-                {"fchmod", [&] { return ::fchmod(open, 01700); }},
-                {"fchmodat", [&] { return ::fchmodat(AT_FDCWD, file, 0602, 0); }},
-                {"chown", [&] { return ::chown(file, user, group); }},
+               {{"chown", [&] { return ::chown(file, user, group); }},
                 {"fchown", [&] { return ::fchown(open, user, group); }},
                 {"lchown", [&] { return ::lchown(file, user, group); }},
                 {"fchownat", [&] { return ::fchownat(AT_FDCWD, file, user, group, 0); }},
@@ -202,9 +269,37 @@ TEST_CASE("modes, owners, times and attributes of files stay as they are") {
                 {"fremovexattr", [&] { return ::fremovexattr(open, "user.x"); }},
                 {"flags", [&] { return ::ioctl(open, FS_IOC_SETFLAGS, &flags); }},
                 {"version", [&] { return ::ioctl(open, FS_IOC_SETVERSION, &flags); }}});
-  const auto make_private = [&] { return answer(::chmod(file, 0700)); };
-  CHECK(say_filtered(forbid_changing_attributes, make_private) == "done");
   ::close(open);
+}
+
+TEST_CASE("a change of a file's mode is not made, and answers that it is") {
+  if (lacks_seccomp()) return;
+  const ScratchFolder scratch;
+  const auto path = write_file(scratch / "file", "text");
+  const char* const file = path.c_str();
+  ::chmod(file, 0640);
+  const mode_t mode = GENERATE(0, 0600, 0700, 0644, 01777, 04755);
+  const int open = ::open(file, O_RDONLY | O_CLOEXEC);
+  CHECK(say_filtered(forbid_changing_attributes, [&] {
+          return answer(::chmod(file, mode)) + answer(::fchmod(open, mode)) +
+                 answer(::fchmodat(AT_FDCWD, file, mode, 0));
+        }) == "donedonedone");
+  struct stat status {};
+  ::fstat(open, &status);
+  CHECK((status.st_mode & 07777) == 0640);
+  ::close(open);
+}
+
+TEST_CASE("files are copied by what sets the mode of the copy, too") {
+  if (lacks_seccomp()) return;
+  const ScratchFolder scratch;
+  const auto path = write_file(scratch / "file", "text");
+  ::chmod(path.c_str(), 0644);
+  const auto copy = scratch / "copy";
+  CHECK(say_filtered(forbid_changing_attributes, [&] {
+          std::filesystem::copy_file(path, copy);
+          return content(copy);
+        }) == "text");
 }
 
 TEST_CASE("nothing is made that runs with the rights of its owner or group") {
@@ -341,9 +436,15 @@ TEST_CASE("a 32-bit call changes no file, and reaches nothing, outside of the sa
   const long attribute = low.put("user.x");
   const std::uint32_t words[] = {AF_INET, SOCK_STREAM, 0};
   const long socket = low.put(words, sizeof words);
+  for (const auto& change_mode :
+       {std::function<long()>([=] { return call32(15, file, 0); }),
+        std::function<long()>([=] { return call32(94, open, 0); }),
+        std::function<long()>([=] { return call32(306, AT_FDCWD, file, 0); })}) {
+    CHECK(in_sandbox(change_mode) == "done");
+    CHECK((std::filesystem::status(path).permissions() & std::filesystem::perms::owner_read) !=
+          std::filesystem::perms::none);
+  }
   const std::vector<Attempt> attempts{
-      {"chmod", [=] { return call32(15, file, 0606); }},
-      {"fchmodat", [=] { return call32(306, AT_FDCWD, file, 0606); }},
       {"lchown", [=] { return call32(16, file, 1, 1); }},
       {"lchown32", [=] { return call32(198, file, 1, 1); }},
       {"chown32", [=] { return call32(212, file, 1, 1); }},
@@ -368,6 +469,8 @@ TEST_CASE("a 32-bit call changes no file, and reaches nothing, outside of the sa
       {"mkdir", [=] { return call32(39, other, 0700); }},
       {"mknod", [=] { return call32(14, other, S_IFIFO | 0600, 0); }},
       {"unlink", [=] { return call32(10, file); }},
+      {"a namespace", [] { return call32(310, CLONE_NEWUSER); }},
+      {"a mount", [=] { return call32(21, file, file, 0, 0, 0); }},
       {"lease", [=] { return call32(55, open, F_SETLEASE, F_RDLCK); }},
       {"lease by fcntl64", [=] { return call32(221, open, F_SETLEASE, F_RDLCK); }},
       {"System V memory", [] { return call32(117, 23, 0x5712de, 1, 0); }},

@@ -88,7 +88,7 @@ TEST_CASE("each change is put back once, and named") {
       {[] { std::signal(SIGABRT, SIG_IGN); }, "the handler of SIGABRT"},
       {[] { block(SIGTERM); }, "the blocking of SIGTERM"},
       {[] { set_open_files(20); }, "a resource limit"},
-      {[] { std::fesetround(FE_TOWARDZERO); }, "the floating-point mode (rounding toward zero)"},
+      {[] { std::fesetround(FE_TOWARDZERO); }, "the mode of the processor (rounding toward zero)"},
   }));
   const auto folder = fs::current_path();
   const mode_t mask = present_mask();
@@ -179,6 +179,6 @@ TEST_CASE("in a process of a unit's own only what numbers depend on is put back"
   std::fesetround(FE_UPWARD);
   std::signal(SIGINT, SIG_IGN);
   fs::current_path("/");
-  CHECK(numbers.restore() == Texts{"the floating-point mode (rounding upward)", "the locale"});
+  CHECK(numbers.restore() == Texts{"the mode of the processor (rounding upward)", "the locale"});
   CHECK(everything.restore() == Texts{"the working folder", "the handler of SIGINT"});
 }

@@ -1,12 +1,12 @@
-#include "master/util/process/floating_point_mode.h"
+#include "master/util/process/processor_mode.h"
 
 #include <limits>
 #include <thread>
 
 #include <catch2/catch.hpp>
 
-using stride::core::FloatingPointMode;
-using stride::core::FloatingPointScope;
+using stride::core::ProcessorMode;
+using stride::core::ProcessorModeScope;
 
 namespace {
 
@@ -19,11 +19,11 @@ double third() {
 }  // namespace
 
 TEST_CASE("a mode is put back, and what another one does is said") {
-  const FloatingPointMode usual = FloatingPointMode::present();
+  const ProcessorMode usual = ProcessorMode::present();
   const double expected = third();
   CHECK(usual.is_present());
   std::fesetround(FE_UPWARD);
-  const FloatingPointMode upward = FloatingPointMode::present();
+  const ProcessorMode upward = ProcessorMode::present();
   CHECK_FALSE(usual.is_present());
   CHECK(third() != expected);
   usual.set();
@@ -36,11 +36,23 @@ TEST_CASE("a mode is put back, and what another one does is said") {
 }
 
 #if defined(__x86_64__)
+TEST_CASE("the direction of string instructions and the check of alignment are parts of it") {
+  const auto [bit, words] = GENERATE(table<unsigned, const char*>(
+      {{1U << 10, "the direction flag is set: string instructions run backward"},
+       {1U << 18, "the flag AC is set: accesses to memory have to be aligned"}}));
+  const ProcessorMode usual = ProcessorMode::present();
+  __builtin_ia32_writeeflags_u64(__builtin_ia32_readeflags_u64() | bit);
+  const ProcessorMode left = ProcessorMode::present();
+  usual.set();
+  CHECK(usual.is_present());
+  CHECK(usual.differences(left) == words);
+}
+
 TEST_CASE("flushing of subnormal numbers, exceptions and the precision of x87 are parts of it") {
-  const FloatingPointMode usual = FloatingPointMode::present();
+  const ProcessorMode usual = ProcessorMode::present();
   const unsigned bit = GENERATE(0x8000U, 0x0040U, 0x0200U);
   __builtin_ia32_ldmxcsr(__builtin_ia32_stmxcsr() | bit);
-  const FloatingPointMode flushing = FloatingPointMode::present();
+  const ProcessorMode flushing = ProcessorMode::present();
   const bool is_present = usual.is_present();
   usual.set();
   CHECK(is_present == (bit == 0x0200U));  // that exception raises no signal as it is
@@ -50,7 +62,7 @@ TEST_CASE("flushing of subnormal numbers, exceptions and the precision of x87 ar
   }
   const unsigned short single_precision = 0x007f;
   asm volatile("fldcw %0" : : "m"(single_precision));
-  const FloatingPointMode single = FloatingPointMode::present();
+  const ProcessorMode single = ProcessorMode::present();
   usual.set();
   CHECK(usual.differences(single) == "other exceptions or another precision");
   ::feenableexcept(FE_DIVBYZERO);
@@ -62,7 +74,7 @@ TEST_CASE("flushing of subnormal numbers, exceptions and the precision of x87 ar
 
 TEST_CASE("exceptions that have occurred are no part of it, and stay noted") {
   std::feclearexcept(FE_ALL_EXCEPT);
-  const FloatingPointMode usual = FloatingPointMode::present();
+  const ProcessorMode usual = ProcessorMode::present();
   third();
   CHECK(usual.is_present());
   usual.set();
@@ -70,10 +82,10 @@ TEST_CASE("exceptions that have occurred are no part of it, and stay noted") {
 }
 
 TEST_CASE("a scope gives a mode to its thread and no other") {
-  const FloatingPointMode usual = FloatingPointMode::present();
+  const ProcessorMode usual = ProcessorMode::present();
   std::fesetround(FE_DOWNWARD);
   {
-    const FloatingPointScope scope(usual);
+    const ProcessorModeScope scope(usual);
     CHECK(std::fegetround() == FE_TONEAREST);
   }
   CHECK(std::fegetround() == FE_DOWNWARD);

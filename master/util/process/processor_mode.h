@@ -1,0 +1,74 @@
+// How a thread rounds, what it does with the smallest numbers, and how it accesses memory.
+#ifndef STRIDE_MASTER_UTIL_PROCESS_PROCESSOR_MODE_H
+#define STRIDE_MASTER_UTIL_PROCESS_PROCESSOR_MODE_H
+
+#include <cfenv>
+#include <cstdint>
+#include <string>
+
+namespace stride::core {
+
+/// The direction of rounding, whether subnormal numbers become 0, which exceptions raise a signal,
+/// the precision of the x87 unit, and, on x86-64, the direction of string instructions and whether
+/// accesses to memory have to be aligned. Each thread has its own; a new one begins with that of
+/// the thread that starts it. Flags of exceptions that have occurred are no part of it.
+class ProcessorMode {
+ public:
+  /// That of the calling thread.
+  static ProcessorMode present() noexcept {
+    ProcessorMode mode;
+#if defined(__x86_64__)
+    mode.sse_ = __builtin_ia32_stmxcsr() & ~kFlags;
+    asm volatile("fnstcw %0" : "=m"(mode.x87_));
+    mode.flags_ = __builtin_ia32_readeflags_u64() & (kBackward | kAligned);
+#elif defined(__aarch64__)
+    asm volatile("mrs %0, fpcr" : "=r"(mode.control_));
+#else
+    mode.rounding_ = std::fegetround();
+#endif
+    return mode;
+  }
+
+  /// Whether the calling thread has it: some nanoseconds.
+  bool is_present() const noexcept { return present() == *this; }
+  /// Gives it to the calling thread.
+  void set() const noexcept;
+  /// What another mode does differently, in words: "rounding upward".
+  std::string differences(const ProcessorMode& other) const;
+
+  bool operator==(const ProcessorMode&) const = default;
+
+ private:
+  int rounding() const noexcept;
+  bool flushes_to_zero() const noexcept;
+  bool goes_backward() const noexcept;
+  bool needs_alignment() const noexcept;
+
+#if defined(__x86_64__)
+  static constexpr std::uint32_t kFlags = 0x3f;
+  static constexpr std::uint64_t kBackward = 1 << 10, kAligned = 1 << 18;  ///< of RFLAGS
+  std::uint32_t sse_ = 0;
+  std::uint16_t x87_ = 0;
+  std::uint64_t flags_ = 0;
+#elif defined(__aarch64__)
+  std::uint64_t control_ = 0;
+#else
+  int rounding_ = FE_TONEAREST;
+#endif
+};
+
+/// Gives the calling thread this mode, for as long as it lives.
+class ProcessorModeScope {
+ public:
+  explicit ProcessorModeScope(const ProcessorMode& mode) noexcept { mode.set(); }
+  ~ProcessorModeScope() { before_.set(); }
+  ProcessorModeScope(const ProcessorModeScope&) = delete;
+  ProcessorModeScope& operator=(const ProcessorModeScope&) = delete;
+
+ private:
+  const ProcessorMode before_ = ProcessorMode::present();
+};
+
+}  // namespace stride::core
+
+#endif
