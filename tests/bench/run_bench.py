@@ -1,0 +1,126 @@
+#!/usr/bin/env python3
+"""Nanoseconds per unit step of `stride run`, with its defaults, beside a hand-written loop of the same FMI calls.
+
+Usage: run_bench.py PROGRAM BY_HAND UNITS [--short]
+
+PROGRAM is stride, BY_HAND the loop of by_hand.cpp, UNITS the folder with `relay.fmu` and `relay_with_state.fmu`. Each
+ring of units, in which each feeds the next one, runs at two lengths without files of results; the difference of the wall
+times, divided by that of the unit steps, leaves out what happens once. Both programs take turns, so that a machine
+that changes its speed changes it for both; the medians of the ratios and of the times are printed. What counts is the
+ratio. The Reference-FMUs for FMI 3.0 are measured, too, if the environment variable STRIDE_REFERENCE_FMUS names their
+folder. `--short` makes a few steps only, and tests that all of this runs.
+"""
+
+import argparse
+import os
+import platform
+import statistics
+import subprocess
+import tempfile
+import time
+import xml.etree.ElementTree as ElementTree
+import zipfile
+from pathlib import Path
+
+STEP = 0.1
+SIZES = (1, 2, 10, 100, 1000)
+UNIT_STEPS = 4_000_000  # of the difference between the two lengths
+ROUNDS = 5
+
+SYSTEM = """<?xml version="1.0" encoding="UTF-8"?>
+<ssd:SystemStructureDescription xmlns:ssd="http://ssp-standard.org/SSP1/SystemStructureDescription"
+    xmlns:ssc="http://ssp-standard.org/SSP1/SystemStructureCommon" version="1.0" name="ring">
+  <ssd:System name="ring">
+    <ssd:Elements>
+{components}    </ssd:Elements>
+    <ssd:Connections>
+{connections}    </ssd:Connections>
+  </ssd:System>
+  <ssd:Annotations>
+    <ssc:Annotation type="org.stride">
+      <stride:Scenario xmlns:stride="urn:org.stride:scenario:1">
+        <stride:Step size="{step}"/>
+        <stride:Results signals="none" events="none" trace="none" activity="none" statistics="none" report="none"/>
+      </stride:Scenario>
+    </ssc:Annotation>
+  </ssd:Annotations>
+</ssd:SystemStructureDescription>
+"""
+
+
+class Unit:
+    """An FMU with one input and one output of type Float64 that are wired to a ring."""
+
+    def __init__(self, fmu, input_name, output_name, folder):
+        self.fmu, self.input, self.output = fmu.resolve(), input_name, output_name
+        self.name = fmu.stem
+        target = folder / self.name
+        with zipfile.ZipFile(fmu) as archive:
+            archive.extractall(target)
+        description = ElementTree.parse(target / "modelDescription.xml").getroot()
+        identifier = description.find("CoSimulation").get("modelIdentifier")
+        self.token = description.get("instantiationToken")
+        self.library = target / "binaries" / f"{platform.machine()}-linux" / f"{identifier}.so"
+        references = {v.get("name"): v.get("valueReference") for v in description.find("ModelVariables")}
+        self.references = [references.get(input_name, "0"), references[output_name]]
+
+    def write_ring(self, file, size):
+        components = "".join(f'      <ssd:Component name="u{i}" source="{self.fmu.as_uri()}"/>\n' for i in range(size))
+        connections = "" if self.input is None else "".join(
+            f'      <ssd:Connection startElement="u{i}" startConnector="{self.output}" '
+            f'endElement="u{(i + 1) % size}" endConnector="{self.input}"/>\n' for i in range(size))
+        file.write_text(SYSTEM.format(components=components, connections=connections, step=STEP))
+
+
+def wall_time(program, system, steps, folder):
+    stop = f"{steps * STEP:.1f}"
+    began = time.perf_counter()
+    subprocess.run([program, "run", system, "--stop", stop, "--out", folder / "results", "--quiet"], check=True)
+    return time.perf_counter() - began
+
+
+def measure(program, by_hand, unit, size, unit_steps, rounds, folder):
+    system = folder / f"{unit.name}_{size}.ssd"
+    unit.write_ring(system, size)
+    few = max(1, unit_steps // size // 10)
+    many = few + max(1, unit_steps // size)
+    pairs = []
+    for _ in range(rounds):
+        difference = wall_time(program, system, many, folder) - wall_time(program, system, few, folder)
+        stride = 1e9 * difference / ((many - few) * size)
+        hand = subprocess.run([by_hand, unit.library, unit.token, *unit.references, str(size), str(many), str(STEP)],
+                              check=True, capture_output=True, text=True).stdout
+        pairs.append((stride, float(hand)))
+    ratio = statistics.median(stride / hand for stride, hand in pairs)
+    stride, hand = (statistics.median(times) for times in zip(*pairs))
+    print(f"| {unit.name} | {size} | {hand:.1f} | {stride:.1f} | {ratio:.2f} |", flush=True)
+
+
+def units_of(folder, unpacked):
+    yield Unit(folder / "relay.fmu", "u", "y", unpacked), SIZES
+    yield Unit(folder / "relay_with_state.fmu", "u", "y", unpacked), SIZES
+    reference = os.environ.get("STRIDE_REFERENCE_FMUS")
+    if reference is None:
+        return
+    yield Unit(Path(reference) / "3.0" / "Feedthrough.fmu", "Float64_continuous_input", "Float64_continuous_output",
+               unpacked), SIZES[1:]
+
+
+def main():
+    arguments = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    arguments.add_argument("program", type=Path)
+    arguments.add_argument("by_hand", type=Path)
+    arguments.add_argument("units", type=Path)
+    arguments.add_argument("--short", action="store_true")
+    request = arguments.parse_args()
+    unit_steps, rounds = (100, 1) if request.short else (UNIT_STEPS, ROUNDS)
+    print("| unit | units in the ring | by hand [ns] | stride run [ns] | ratio |\n|---|---|---|---|---|")
+    with tempfile.TemporaryDirectory() as temporary:
+        folder = Path(temporary)
+        for unit, sizes in units_of(request.units, folder):
+            for size in sizes[:2] if request.short else sizes:
+                measure(request.program.resolve(), request.by_hand.resolve(), unit, size, unit_steps, rounds, folder)
+
+
+if __name__ == "__main__":
+    main()
