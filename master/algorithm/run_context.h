@@ -34,7 +34,7 @@ struct RunContext {
   RunStatistics statistics;
   std::vector<Observer*> observers;
   Activities activities;
-  const WallClock clock;
+  WallClock clock;  ///< measures in some of the communication steps only (TimeSampling)
 };
 
 }  // namespace stride::core

@@ -21,6 +21,7 @@
 #include "master/algorithm/step_policies/step_policy.h"
 #include "master/algorithm/stepping/input_extrapolator.h"
 #include "master/algorithm/stepping/stepper.h"
+#include "master/algorithm/time_sampling.h"
 
 namespace stride::core {
 namespace {
@@ -65,7 +66,12 @@ class Simulation::Run {
     try {
       clock_.timed(statistics_.phases.initialization, [&] { initialize(); });
       is_initialized_ = true;
-      while (should_continue()) communication_step();
+      sampling_.begin();
+      while (should_continue()) {
+        sampling_.begin_step();
+        communication_step();
+        sampling_.end_step();
+      }
       if (idle_) idle_->catch_up_all(time_);
       if (statistics_.end != RunEnd::Interrupted) verdicts_ = read_verdicts(system_, units_);
     } catch (...) {
@@ -73,6 +79,7 @@ class Simulation::Run {
     }
     terminate_units(failure);
     statistics_.wall_time = WallClock::Source::now() - began_;
+    sampling_.end();
     collect_unit_statistics();
     free_units(failure);
     finish_suspensions(failure);
@@ -84,6 +91,7 @@ class Simulation::Run {
 
   void abandon() noexcept {
     statistics_.wall_time = WallClock::Source::now() - began_;
+    sampling_.end();
     std::exception_ptr ignored;
     finish_observers(ignored);
   }
@@ -309,7 +317,8 @@ class Simulation::Run {
   const RunOptions& options_ = context_.options;
   Exchange& exchange_ = context_.exchange;
   RunStatistics& statistics_ = context_.statistics;
-  const WallClock clock_ = context_.clock;
+  const WallClock& clock_ = context_.clock;
+  TimeSampling sampling_{context_.clock, context_.statistics};
 
   std::unique_ptr<StepPolicy> step_policy_;
   std::unique_ptr<InputExtrapolator> inputs_;  ///< nothing where inputs are held

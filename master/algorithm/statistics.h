@@ -41,6 +41,8 @@ struct UnitStatistics {
       initialization_time{};             ///< wall-clock time within the unit's own functions
   std::chrono::nanoseconds step_time{};  ///< likewise, its state saved and restored included
   std::chrono::nanoseconds event_time{};
+  /// Standard deviations of these, which are estimates where not all steps were measured.
+  std::chrono::nanoseconds step_time_uncertainty{}, event_time_uncertainty{};
   std::optional<HostStatistics> host{};  ///< of a hosted unit
 };
 
@@ -65,8 +67,12 @@ struct RunStatistics {
   std::uint64_t undone_steps = 0;  ///< of all units, since an input's error was too large
   std::uint64_t event_iterations = 0;
   std::uint64_t parallel_steps = 0;  ///< communication steps that were made on several threads
+  /// Communication steps in which the times of units and phases were measured: a random sample,
+  /// where measuring all would slow the run down. The times are scaled to all steps.
+  std::uint64_t measured_steps = 0;
   std::chrono::nanoseconds wall_time{};
   PhaseTimes phases{};
+  PhaseTimes phase_uncertainties{};  ///< standard deviations
   RunEnd end = RunEnd::Completed;
   std::vector<UnitStatistics> units;  ///< in the order of System::components()
 };

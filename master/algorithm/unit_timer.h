@@ -12,12 +12,12 @@
 
 namespace stride::core {
 
-/// Adds up in one of the times of UnitStatistics. The statistics must outlive it.
+/// Adds up in one of the times of UnitStatistics. The clock and the statistics must outlive it.
 class UnitTimer {
  public:
   using Sum = std::chrono::nanoseconds UnitStatistics::*;
 
-  UnitTimer(WallClock clock, std::vector<UnitStatistics>& statistics, Sum sum)
+  UnitTimer(const WallClock& clock, std::vector<UnitStatistics>& statistics, Sum sum)
       : clock_(clock), statistics_(statistics), sum_(sum) {}
 
   template <class Action>
@@ -26,7 +26,7 @@ class UnitTimer {
   }
 
  private:
-  WallClock clock_;
+  const WallClock& clock_;
   std::vector<UnitStatistics>& statistics_;
   Sum sum_;
 };

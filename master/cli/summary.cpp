@@ -26,6 +26,13 @@ std::string end_text(const core::RunStatistics& statistics) {
   return fmt::format(", {}", name(statistics.end));
 }
 
+/// With what it may be off by, where it was measured in some steps only.
+std::string wall_text(std::chrono::nanoseconds time, std::chrono::nanoseconds uncertainty) {
+  const std::string text = core::wall_seconds(time);
+  const std::string error = core::wall_seconds(uncertainty);
+  return error == core::wall_seconds({}) ? text : text + " ± " + error;
+}
+
 }  // namespace
 
 void Summary::on_start(std::span<const core::Signal> signals) {
@@ -182,8 +189,9 @@ std::string Summary::unit_table(const core::RunStatistics& statistics) const {
                std::to_string(unit.rollbacks), std::to_string(unit.events),
                fmt::format("{:.6g}", to_seconds(unit.suspended_time)),
                std::to_string(unit.messages_sent), std::to_string(unit.messages_received),
-               core::wall_seconds(unit.initialization_time), core::wall_seconds(unit.step_time),
-               core::wall_seconds(unit.event_time)});
+               core::wall_seconds(unit.initialization_time),
+               wall_text(unit.step_time, unit.step_time_uncertainty),
+               wall_text(unit.event_time, unit.event_time_uncertainty)});
   }
   return table.text();
 }

@@ -55,7 +55,9 @@ void add(Json& entry, const core::UnitStatistics& unit) {
   }
   entry["wall_time"] = {{"initialization", seconds(unit.initialization_time)},
                         {"steps", seconds(unit.step_time)},
-                        {"events", seconds(unit.event_time)}};
+                        {"events", seconds(unit.event_time)},
+                        {"steps_uncertainty", seconds(unit.step_time_uncertainty)},
+                        {"events_uncertainty", seconds(unit.event_time_uncertainty)}};
   if (unit.host) entry["host"] = host_entry(*unit.host);
 }
 
@@ -197,7 +199,9 @@ void add(Json& run, const core::RunStatistics& statistics) {
   run["event_iterations"] = statistics.event_iterations;
   run["parallel_steps"] = statistics.parallel_steps;
   run["wall_time"] = seconds(statistics.wall_time);
+  run["measured_steps"] = statistics.measured_steps;
   run["phases"] = phase_entry(statistics.phases);
+  run["phase_uncertainties"] = phase_entry(statistics.phase_uncertainties);
 }
 
 Json read(const std::filesystem::path& file) {

@@ -15,6 +15,7 @@ class WallClock {
   explicit WallClock(bool measures) : measures_(measures) {}
 
   bool measures() const { return measures_; }
+  void measure(bool measures) { measures_ = measures; }
 
   /// Runs the action and adds the time that it took, also where it throws, to the sum.
   template <class Action>

@@ -100,7 +100,7 @@ class EventHandler : private OrderedEvaluation::Participants {
   const std::vector<Observer*>& observers_;
   const Activities& activities_;
   RunStatistics& statistics_;
-  WallClock clock_;
+  const WallClock& clock_;
   IdleScheduler* idle_;
 
   Time time_{};

@@ -88,6 +88,7 @@ Time Stepper::advance(Time from, Time target) {
   early_stop_ = {};
   has_requests_ = false;
   is_short_end_ = target == stop_ && has_grid_ && target - from < regular_;
+  step_clock_.measure(clock_.measures() || balancer_.is_measuring());
   if (balancer_.is_deciding()) return make_timed_passes(from, target);
   const Time reached = make_passes(from, target);
   balancer_.end_step();
@@ -95,11 +96,9 @@ Time Stepper::advance(Time from, Time target) {
 }
 
 Time Stepper::make_timed_passes(Time from, Time target) {
-  step_clock_ = WallClock(clock_.measures() || balancer_.is_measuring());
   const auto began = WallClock::Source::now();
   const Time reached = make_passes(from, target);
   balancer_.end_step(WallClock::Source::now() - began);
-  step_clock_ = clock_;
   return reached;
 }
 

@@ -137,7 +137,7 @@ class Stepper {
   Exchange& exchange_;
   std::vector<UnitStatistics>& statistics_;
   const Activities& activities_;
-  WallClock clock_;
+  const WallClock& clock_;
   WallClock step_clock_;  ///< measures while the load balancer decides, too
   InputExtrapolator* inputs_;
   IdleScheduler* idle_;

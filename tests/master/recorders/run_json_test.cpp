@@ -51,9 +51,11 @@ TEST_CASE("run.json has what was run and how far the run came") {
   statistics.event_iterations = 3;
   statistics.parallel_steps = 14'000;
   statistics.wall_time = 250ms;
+  statistics.measured_steps = 300;
   statistics.phases = {10ms, 200ms, 30ms, 5ms};
+  statistics.phase_uncertainties.steps = 10ms;
   statistics.units = {
-      {71'000, 14'200, 5, 3, 8, 14'190, 2, 0, 4, 2500ms, 1000ms, 1, 0, 1ms, 2ms, 3ms},
+      {71'000, 14'200, 5, 3, 8, 14'190, 2, 0, 4, 2500ms, 1000ms, 1, 0, 1ms, 2ms, 3ms, 500us},
       {0, 14'201, 0, 0, 0, 0, 0, 0, 0, {}, {}, 0, 1, 0ms, 0ms, 0ms},
   };
   core::HostStatistics& host = statistics.units[1].host.emplace();
@@ -102,11 +104,18 @@ TEST_CASE("run.json has what was run and how far the run came") {
   "event_iterations": 3,
   "parallel_steps": 14000,
   "wall_time": 0.25,
+  "measured_steps": 300,
   "phases": {
     "initialization": 0.01,
     "steps": 0.2,
     "instants": 0.03,
     "observers": 0.005
+  },
+  "phase_uncertainties": {
+    "initialization": 0.0,
+    "steps": 0.01,
+    "instants": 0.0,
+    "observers": 0.0
   },
   "units": [
     {
@@ -130,7 +139,9 @@ TEST_CASE("run.json has what was run and how far the run came") {
       "wall_time": {
         "initialization": 0.001,
         "steps": 0.002,
-        "events": 0.003
+        "events": 0.003,
+        "steps_uncertainty": 0.0005,
+        "events_uncertainty": 0.0
       }
     },
     {
@@ -149,7 +160,9 @@ TEST_CASE("run.json has what was run and how far the run came") {
       "wall_time": {
         "initialization": 0.0,
         "steps": 0.0,
-        "events": 0.0
+        "events": 0.0,
+        "steps_uncertainty": 0.0,
+        "events_uncertainty": 0.0
       },
       "host": {
         "memory": 4096,
