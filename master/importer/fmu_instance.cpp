@@ -156,7 +156,7 @@ void FmuInstance::fail_thrown(const char* function) {
   }
   if (is_fork_ || !core::ForkMark::is_set()) leave_fork();
   failed_in_ = function;
-  if (!mode_.is_present()) restore_mode();
+  check_mode(function);
   present_.end();
   mark_unusable();
   log_held();
@@ -185,7 +185,7 @@ void FmuInstance::leave_fork() const {
 
 // ---- What calls change of the process ----
 
-void FmuInstance::restore_mode() {
+void FmuInstance::restore_mode(const char* function) {
   const core::ProcessorMode left = core::ProcessorMode::present();
   mode_.set();
   if (std::exchange(has_mode_warning_, true)) return;
@@ -193,7 +193,7 @@ void FmuInstance::restore_mode() {
       fmt::format("{} left another mode of the processor behind ({}); it is put back, here and "
                   "after later calls, since all units depend on it: a function has to restore it "
                   "before it returns",
-                  present_.function(), mode_.differences(left)));
+                  function, mode_.differences(left)));
 }
 
 void FmuInstance::restore_process(const char* function) {

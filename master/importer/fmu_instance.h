@@ -133,25 +133,43 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics, public Call
 
   /// To be called before each call, and end_call() after it has returned. What it throws leaves
   /// the note as it is: where the exception comes from.
-  void note_call(const char* name) {
+  [[gnu::always_inline]] void note_call(const char* name) {
     ++calls_;
     write_note(name);
   }
   /// For a call that does not count, or goes on.
-  void write_note(const char* name) {
+  [[gnu::always_inline]] void write_note(const char* name) {
     core::ForkMark::set();
     present_.begin(name, time_);
   }
-  void end_call() {
+  [[gnu::always_inline]] void end_call() {
     if (is_fork_ || !core::ForkMark::is_set()) [[unlikely]]
       leave_fork();
-    if (!mode_.is_present()) [[unlikely]]
-      restore_mode();
+    if (!is_in_sequence_) check_mode(present_.function());
     present_.end();
   }
+  /// Calls of one unit that nothing else runs between, so that it is enough to look at the end of
+  /// them whether the processor is in the mode that all units depend on.
+  class CallSequence {
+   public:
+    /// `function` is named if it is not.
+    CallSequence(FmuInstance& unit, const char* function) : unit_(unit), function_(function) {
+      unit_.is_in_sequence_ = true;
+    }
+    ~CallSequence() {
+      unit_.is_in_sequence_ = false;
+      unit_.check_mode(function_);
+    }
+    CallSequence(const CallSequence&) = delete;
+    CallSequence& operator=(const CallSequence&) = delete;
+
+   private:
+    FmuInstance& unit_;
+    const char* function_;
+  };
   /// After a call of this function: see InstanceOptions::process.
   void restore_process(const char* function);
-  void check_callable(const char* name) const {
+  [[gnu::always_inline]] void check_callable(const char* name) const {
     if (failed_in_ != nullptr || is_unusable_.load(std::memory_order_relaxed)) [[unlikely]]
       fail_not_callable(name);
   }
@@ -281,7 +299,8 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics, public Call
   std::uint64_t calls_ = 0;
   PresentCall present_;
   bool was_restored_ = false;  ///< from a kept state, and no step has ended since
-  bool is_fork_ = false;       ///< the present function has made this process, by fork()
+  bool is_in_sequence_ = false;
+  bool is_fork_ = false;  ///< the present function has made this process, by fork()
   const core::ProcessorMode mode_ = core::ProcessorMode::present();
   std::optional<Time> time_;
   double stop_seconds_ = std::numeric_limits<double>::infinity();
@@ -301,7 +320,11 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics, public Call
   static void note_fork() noexcept;
   [[noreturn]] void leave_fork() const;
   std::string short_step_hint() const;
-  void restore_mode();
+  [[gnu::always_inline]] void check_mode(const char* function) {
+    if (!mode_.is_present()) [[unlikely]]
+      restore_mode(function);
+  }
+  void restore_mode(const char* function);
   std::string status_name(Status status) const;
   std::string failure_of(const char* function, Status status);
   bool is_known(Status status) const;

@@ -27,7 +27,8 @@ struct LeftCall {
 
   std::atomic<const char*> function{nullptr};  ///< null if there is no call
   std::atomic<const char*> thread{nullptr};    ///< which makes it: its address of this_thread
-  std::optional<Time> time;
+  Time time{};
+  bool has_time = false;
   const core::FixedText<128> unit;
   const core::FixedText<256> file;  ///< with `line`, the component's position in the scenario
   const int line;
@@ -45,10 +46,12 @@ class PresentCall {
       : left_(unit, where), note_(note) {}
 
   /// `function` must outlive the call.
-  void begin(const char* function, const std::optional<Time>& time) noexcept {
+  [[gnu::always_inline]] void begin(const char* function,
+                                    const std::optional<Time>& time) noexcept {
     thread_.store(&this_thread, std::memory_order_relaxed);
     function_.store(function, std::memory_order_relaxed);
-    left_->time = time;
+    left_->has_time = time.has_value();  // not as a whole, which would wait for its last change
+    left_->time = time.value_or(Time{});
     left_->thread.store(&this_thread, std::memory_order_relaxed);
     left_->function.store(function, std::memory_order_relaxed);
     if (note_ != nullptr) [[unlikely]]
@@ -59,7 +62,7 @@ class PresentCall {
     variable_.store(variable, std::memory_order_relaxed);
     if (note_ != nullptr) note_->write_variable(*variable);
   }
-  void end() noexcept {
+  [[gnu::always_inline]] void end() noexcept {
     function_.store(nullptr, std::memory_order_relaxed);
     left_->function.store(nullptr, std::memory_order_relaxed);
     if (note_ != nullptr) [[unlikely]]

@@ -41,7 +41,7 @@ std::vector<UnitCall> left_calls(const char* thread) {
     calls.push_back({.function = name_at(function),
                      .unit = std::string(call.unit.view()),
                      .where = {std::string(call.file.view()), call.line},
-                     .time = call.time,
+                     .time = call.has_time ? std::optional(call.time) : std::nullopt,
                      .variable = {},
                      .is_by_thread = thread != nullptr && call.thread == thread});
   });

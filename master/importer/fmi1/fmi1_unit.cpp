@@ -125,6 +125,7 @@ void Fmi1Unit::negate(References references, core::ValueBlock& values) const {
 
 core::StepResult Fmi1Unit::step(const core::StepInterval& interval,
                                 const core::StepValues& values) {
+  const CallSequence calls(*this, "fmiDoStep");
   for (const core::BoundValues& input : values.inputs) set(input.references, *input.block);
   time_ = interval.from;
   const double size = size_of(interval);

@@ -132,6 +132,7 @@ void Fmi2Unit::get_directional_derivative(References unknowns, References knowns
 
 core::StepResult Fmi2Unit::step(const core::StepInterval& interval,
                                 const core::StepValues& values) {
+  const CallSequence calls(*this, "fmi2DoStep");
   for (const core::BoundValues& input : values.inputs) set(input);
   time_ = interval.from;
   const double size = size_of(interval);

@@ -233,6 +233,7 @@ void Fmi3Unit::get_directional_derivative(References unknowns, References knowns
 
 core::StepResult Fmi3Unit::step(const core::StepInterval& interval,
                                 const core::StepValues& values) {
+  const CallSequence calls(*this, "fmi3DoStep");
   for (const core::BoundValues& input : values.inputs) set(input);
   time_ = interval.from;
   const double size = size_of(interval);
