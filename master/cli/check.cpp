@@ -79,7 +79,7 @@ std::string connection_table(const core::System& system) {
   Table table({{"from"}, {"to"}, {"type"}, {"unit"}, {"conversion"}});
   for (const core::Connection& connection : system.connections()) {
     const core::Variable& target = system.variable(connection.to);
-    table.add({system.full_name(connection.from), system.full_name(connection.to),
+    table.add({system.range_name(connection.source()), system.range_name(connection.target()),
                core::name(target.type), target.unit, conversion(connection.conversion)});
   }
   return table.text();
@@ -130,7 +130,9 @@ std::string shortened(const std::vector<std::string>& names) {
 std::string solved_for(const core::System& system, const core::EvaluationBlock& loop) {
   std::vector<std::string> names;
   for (const core::TearingVariable& variable : loop.tearing_variables) {
-    for (const core::VariableId id : variable.inputs) names.push_back(system.full_name(id));
+    for (const core::ElementRange& input : variable.inputs) {
+      names.push_back(system.range_name(input));
+    }
   }
   return shortened(names);
 }

@@ -11,6 +11,7 @@
 
 #include <fmt/format.h>
 
+#include "master/model/array_element.h"
 #include "master/model/meant_value.h"
 #include "master/model/number_range.h"
 #include "master/model/unknown_variable.h"
@@ -112,6 +113,11 @@ System::System(const SystemDeclaration& declaration) : name_(declaration.name) {
 
 std::string System::prefix(VariableId id) const {
   return is_output(id) ? "" : components_[id.component].name + ".";
+}
+
+std::string System::range_name(const ElementRange& range) const {
+  if (is_whole(range)) return full_name(range.id);
+  return prefix(range.id) + element_name(variable(range.id), range.first);
 }
 
 bool System::is_sampled(VariableId id) const {
@@ -244,7 +250,7 @@ Connection System::connect(const ConnectionDeclaration& wanted, const Ends& ends
   check_ends(wanted, from, to);
   Way way(path_connector(from));
   way.go(wanted, path_connector(to));
-  return {from, to, converted_on(way.path, way.segments, wanted.where)};
+  return {from, to, converted_on(way.path, way.segments, wanted.where), 0, 0, variable(to).size};
 }
 
 /// With a warning for each change of type that the standards do not define.
@@ -365,11 +371,11 @@ void System::add_structural_values(const std::vector<Target>& targets) {
 /// A value that was set by name, and is not the one that the unit gets.
 void System::note_replaced(const StartDeclaration& wanted, VariableId id) {
   if (wanted.is_optional) return;
-  const Connection* const source = connection_to(id);
-  if (source == nullptr) return;
+  const std::span<const Connection> sources = connections_to(id);
+  if (sources.empty()) return;
   warnings_.push_back(fmt::format(
       "{}'{}' is connected to '{}', whose value replaces this one at the initialisation",
-      core::to_text(Context{wanted.where}), full_name(id), full_name(source->from)));
+      core::to_text(Context{wanted.where}), full_name(id), full_name(sources.front().from)));
 }
 
 void System::add_start_values(const std::vector<Target>& targets, Diagnostics& diagnostics) {

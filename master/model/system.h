@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -32,10 +33,17 @@ struct Component {
   bool may_return_early() const { return early_return_allowed && description->may_return_early; }
   bool can_save_state() const { return description->can_save_state || has_snapshots; }
 };
+/// Each element of `from` is connected to the one of `to` that has the same place in its range.
 struct Connection {
   VariableId from;
   VariableId to;
   Conversion conversion;
+  std::size_t from_first = 0;  ///< element
+  std::size_t to_first = 0;
+  std::size_t size = 1;  ///< the number of elements
+
+  ElementRange source() const { return {from, from_first, size}; }
+  ElementRange target() const { return {to, to_first, size}; }
 };
 /// An output connector of the system: a component's variable, converted, with another name.
 struct SystemOutput {
@@ -49,7 +57,7 @@ struct StartValue {
 };
 
 /// An immutable, valid system. Components are in the order of the file, connections are sorted by
-/// target.
+/// target; no two of them lead to the same element.
 class System {
  public:
   /// Checks names, types, causality, units, sizes, clocks and that each input has one source at
@@ -60,6 +68,10 @@ class System {
   const std::string& name() const { return name_; }
   const std::vector<Component>& components() const { return components_; }
   const std::vector<Connection>& connections() const { return connections_; }
+  /// Those that end at the input: several, where they end at different elements.
+  std::span<const Connection> connections_to(VariableId input) const;
+  /// The one whose target() this is. It has to be there.
+  const Connection& connection_to(const ElementRange& target) const;
   const std::vector<StartValue>& start_values() const { return start_values_; }
   /// Outputs of the system; see output_id() for their ids. No output is a message.
   const std::vector<SystemOutput>& outputs() const { return outputs_; }
@@ -86,6 +98,9 @@ class System {
   bool ticks_triggered(VariableId id) const { return message_clocks_.contains(id); }
   /// "component.variable"; of an output of the system its name.
   std::string full_name(VariableId id) const { return prefix(id) + variable(id).name; }
+  /// Likewise, with its indices if it is an element of an array: "component.variable[2]".
+  std::string range_name(const ElementRange& range) const;
+  bool is_whole(const ElementRange& range) const { return range.size == variable(range.id).size; }
   /// "component.", or empty for an output of the system.
   std::string prefix(VariableId id) const;
 
@@ -115,8 +130,6 @@ class System {
   void note_other_kin(const Context& context, const ConnectorDeclaration& connector,
                       const Variable& variable);
   void check_clocks(const ComponentDeclaration& component) const;
-  /// Once they are sorted; null if there is none.
-  const Connection* connection_to(VariableId input) const;
   void find_message_clocks(const SystemDeclaration& declaration);
   std::optional<VariableId> find_end(const std::string& component,
                                      const std::string& connector) const;

@@ -77,7 +77,7 @@ void System::add_connections(const SystemDeclaration& declaration, Diagnostics& 
     });
   }
   std::sort(connections_.begin(), connections_.end(),
-            [](const Connection& a, const Connection& b) { return a.to < b.to; });
+            [](const Connection& a, const Connection& b) { return a.target() < b.target(); });
   if (diagnostics.any()) return;  // a clock's connection may be among them
   for (const Connection& connection : connections_) {
     diagnostics.attempt([&] { check_message(*sources.at(connection.to).wanted, connection); });
@@ -111,9 +111,13 @@ void System::sum_up_misfits(const SystemDeclaration& declaration, Diagnostics& d
   }
 }
 
-const Connection* System::connection_to(VariableId input) const {
-  const auto found = std::ranges::lower_bound(connections_, input, {}, &Connection::to);
-  return found != connections_.end() && found->to == input ? &*found : nullptr;
+std::span<const Connection> System::connections_to(VariableId input) const {
+  const auto found = std::ranges::equal_range(connections_, input, {}, &Connection::to);
+  return {found.begin(), found.end()};
+}
+
+const Connection& System::connection_to(const ElementRange& target) const {
+  return *std::ranges::lower_bound(connections_, target, {}, &Connection::target);
 }
 
 /// A tick without the values that both sides have for it is possible, and seldom meant.
@@ -130,7 +134,7 @@ void System::note_missing_data(const ConnectionDeclaration& wanted, const Connec
   const std::vector<VariableId> sent = data_of(clocks.from, Causality::Output);
   const std::vector<VariableId> expected = data_of(clocks.to, Causality::Input);
   if (sent.empty() || expected.empty()) return;
-  const auto is_connected = [&](VariableId input) { return connection_to(input) != nullptr; };
+  const auto is_connected = [&](VariableId input) { return !connections_to(input).empty(); };
   if (std::ranges::any_of(expected, is_connected)) return;
   warnings_.push_back(fmt::format(
       "{}the clock '{}' is connected to '{}', but none of the values that belong to it: it ticks, "
@@ -220,8 +224,8 @@ void System::check_message(const ConnectionDeclaration& wanted,
   if (is_sampled(connection.to)) return;
   const auto from_clocks = clocks_of(*this, connection.from);
   for (const VariableId to_clock : clocks_of(*this, connection.to)) {
-    const Connection* const clock = connection_to(to_clock);
-    if (clock != nullptr && std::ranges::count(from_clocks, clock->from) > 0) continue;
+    const std::span<const Connection> ticks = connections_to(to_clock);
+    if (!ticks.empty() && std::ranges::count(from_clocks, ticks.front().from) > 0) continue;
     fail_input(
         {wanted.where, components_[connection.to.component].name, variable(connection.to).name, {}},
         fmt::format("its clock '{}' is not connected to the clock of '{}'", full_name(to_clock),

@@ -21,10 +21,10 @@ OrderedEvaluation::OrderedEvaluation(RunContext& context, Phase phase, UnitTimer
       order_(evaluation_order(system_, phase)),
       ordered_exchange_(context, UnitTimer(context.clock, context.statistics.units, time),
                         phase == Phase::Initialization) {
-  std::map<VariableId, std::vector<VariableId>> targets;
+  Targets targets;
   for (const Connection& connection : system_.connections()) {
     if (carries_value(system_, connection, phase)) {
-      targets[connection.from].push_back(connection.to);
+      targets[connection.from].push_back(connection.target());
     }
   }
   blocks_.reserve(order_.size());
@@ -37,17 +37,17 @@ void OrderedEvaluation::plan(const EvaluationBlock& planned, const Targets& targ
   Block& block = blocks_.emplace_back();
   block.plan = &planned;
   std::set<VariableId> inner(planned.inputs.begin(), planned.inputs.end());
-  std::set<VariableId> torn;
+  std::set<ElementRange> torn;
   if (planned.is_loop()) block.loop.emplace(context, planned, ordered_exchange_);
   for (const TearingVariable& variable : planned.tearing_variables)
     torn.insert(variable.inputs.begin(), variable.inputs.end());
-  std::vector<VariableId> onward;
+  std::vector<ElementRange> onward;
   for (const OutputGroup& group : planned.groups) {
     GroupEvaluation& evaluation =
         block.groups.emplace_back(GroupEvaluation{ordered_exchange_.plan_read(group), {}});
     for (const VariableId output : group.outputs) {
-      for (const VariableId input : targets.at(output)) {
-        if (planned.is_loop() && inner.count(input) == 0) {
+      for (const ElementRange& input : targets.at(output)) {
+        if (planned.is_loop() && inner.count(input.id) == 0) {
           onward.push_back(input);
         } else if (torn.count(input) == 0) {
           evaluation.links.push_back(ordered_exchange_.plan_link(input));
@@ -55,7 +55,8 @@ void OrderedEvaluation::plan(const EvaluationBlock& planned, const Targets& targ
       }
     }
   }
-  for (const VariableId input : onward) block.onward.push_back(ordered_exchange_.plan_link(input));
+  for (const ElementRange& input : onward)
+    block.onward.push_back(ordered_exchange_.plan_link(input));
 }
 
 void OrderedEvaluation::find_direct_inputs() {
@@ -107,7 +108,7 @@ void OrderedEvaluation::evaluate(GroupEvaluation& group) {
 }
 
 void OrderedEvaluation::route(OrderedExchange::Link& link) {
-  if (ordered_exchange_.route(link)) report(link.target());
+  if (ordered_exchange_.route(link)) report(link.target().id);
 }
 
 void OrderedEvaluation::report(VariableId input) {
