@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "master/model/connector_elements.h"
 #include "master/model/conversion.h"
 #include "master/model/description.h"
 #include "master/model/name_index.h"
@@ -45,11 +46,13 @@ struct Connection {
   ElementRange source() const { return {from, from_first, size}; }
   ElementRange target() const { return {to, to_first, size}; }
 };
-/// An output connector of the system: a component's variable, converted, with another name.
+/// An output connector of the system: a component's variable, or an element of one, converted, with
+/// another name.
 struct SystemOutput {
   VariableId from;
   Conversion conversion;
   Variable variable;  ///< its name, type, size and unit
+  std::size_t from_first = 0;
 };
 struct StartValue {
   VariableId id;
@@ -70,6 +73,10 @@ class System {
   const std::vector<Connection>& connections() const { return connections_; }
   /// Those that end at the input: several, where they end at different elements.
   std::span<const Connection> connections_to(VariableId input) const;
+  /// Inputs of which some elements are connected, and others are not, sorted.
+  std::vector<VariableId> partly_connected_inputs() const;
+  /// The elements of the input that no connection leads to.
+  std::vector<ElementRange> unconnected_elements(VariableId input) const;
   /// The one whose target() this is. It has to be there.
   const Connection& connection_to(const ElementRange& target) const;
   const std::vector<StartValue>& start_values() const { return start_values_; }
@@ -105,11 +112,13 @@ class System {
   std::string prefix(VariableId id) const;
 
  private:
-  void add_components(const SystemDeclaration& declaration, Diagnostics& diagnostics);
+  void add_components(const SystemDeclaration& declaration);
   void add_connections(const SystemDeclaration& declaration, Diagnostics& diagnostics);
   void sum_up_misfits(const SystemDeclaration& declaration, Diagnostics& diagnostics) const;
   void add_outputs(const SystemDeclaration& declaration);
-  void add_output(const OutputDeclaration& declaration);
+  void add_output(const OutputDeclaration& output, const SystemDeclaration& declaration);
+  void add_output(const OutputDeclaration& declaration, const ElementRange& from,
+                  const std::string& name);
   /// A start value and what it is for.
   struct Target {
     const StartDeclaration* declaration;
@@ -121,34 +130,51 @@ class System {
   void resize(const StartDeclaration& declaration, VariableId structural_parameter,
               std::size_t size);
   std::size_t find_component(const std::string& name, const Location& where) const;
-  VariableId find_variable(const std::string& component, const std::string& variable,
-                           const Location& where, const SystemDeclaration* expecting = nullptr);
   [[noreturn]] void fail_unknown(const Context& context, const UnitDescription& description,
                                  const SystemDeclaration* expecting);
-  void check_connector(const SystemDeclaration& declaration, const ComponentDeclaration& component,
+  void check_connectors(const SystemDeclaration& declaration, Diagnostics& diagnostics);
+  void check_connector(const SystemDeclaration& declaration, std::size_t component,
                        const ConnectorDeclaration& connector);
+  void check_dimensions(const Context& context, const ConnectorDeclaration& connector,
+                        const ConnectorElements& elements) const;
+  void check_element(const Context& context, const ConnectorDeclaration& connector,
+                     const ElementRange& element);
   void note_other_kin(const Context& context, const ConnectorDeclaration& connector,
                       const Variable& variable);
   void check_clocks(const ComponentDeclaration& component) const;
   void find_message_clocks(const SystemDeclaration& declaration);
   std::optional<VariableId> find_end(const std::string& component,
                                      const std::string& connector) const;
-  void check_clocked(const ConnectionDeclaration& declaration, VariableId from,
-                     VariableId to) const;
+  void check_clocked(const ConnectionDeclaration& declaration, const ElementRange& from,
+                     const ElementRange& to) const;
   void check_event_mode(const ConnectionDeclaration& declaration, VariableId id) const;
   void check_message(const ConnectionDeclaration& declaration, const Connection& connection) const;
   void note_missing_data(const ConnectionDeclaration& declaration, const Connection& clocks);
-  using Ends = std::pair<VariableId, VariableId>;
+  using Ends = std::pair<ConnectorElements, ConnectorElements>;
+  ConnectorElements find_elements(const Context& context, const SystemDeclaration& expecting);
+  bool is_known(const std::string& component, const std::string& connector) const;
   std::optional<Ends> find_ends(const SystemDeclaration& declaration,
                                 const ConnectionDeclaration& wanted, Diagnostics& diagnostics);
+  /// Where the connections come from, until they are sorted: by their targets.
+  struct Declared {
+    const ConnectionDeclaration* wanted;
+    std::size_t place;
+  };
+  using DeclaredConnections = std::map<ElementRange, Declared>;
+  void add_connection(const ConnectionDeclaration& declaration, const Connection& connection,
+                      DeclaredConnections& declared);
   void add_second(const ConnectionDeclaration& declaration, const Connection& connection,
                   const ConnectionDeclaration& first, const Connection& same);
+  void check_alike(const DeclaredConnections& declared, const Connection& connection) const;
   bool is_backwards(VariableId from, VariableId to) const;
-  Connection connect(const ConnectionDeclaration& declaration, const Ends& ends);
+  std::vector<Connection> connect(const ConnectionDeclaration& declaration, const Ends& ends);
+  void check_shapes(const ConnectionDeclaration& declaration, const Ends& ends) const;
   Conversion converted_on(const std::vector<PathConnector>& path,
                           const std::vector<PathSegment>& segments, const Location& where);
-  void check_ends(const ConnectionDeclaration& declaration, VariableId from, VariableId to) const;
-  PathConnector path_connector(VariableId id) const;
+  void check_ends(const ConnectionDeclaration& declaration, const ElementRange& from,
+                  const ElementRange& to) const;
+  PathConnector path_connector(const ElementRange& element) const;
+  ElementRange whole(VariableId id) const { return {id, 0, variable(id).size}; }
   void note_missing(const StartDeclaration& declaration);
   void note_replaced(const StartDeclaration& declaration, VariableId id);
   ValueBlock start_value(const StartDeclaration& declaration, VariableId id);
@@ -161,7 +187,7 @@ class System {
   std::vector<SystemOutput> outputs_;
   std::vector<StartValue> structural_values_;
   std::vector<std::string> warnings_;
-  std::map<VariableId, UnitOfMeasure> connector_units_;  ///< those that connectors declare
+  std::map<ElementRange, UnitOfMeasure> connector_units_;  ///< those that connectors declare
   std::set<VariableId> message_clocks_;  ///< time-based clocks that are connected to triggered ones
   std::size_t unknown_variables_ = 0;    ///< reported so far
 };

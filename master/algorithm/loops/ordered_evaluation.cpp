@@ -12,6 +12,21 @@ class AllUnits : public OrderedEvaluation::Participants {
   bool include(std::size_t) override { return false; }
 };
 
+/// Of arrays that are connected in part: they are written as a whole, so what is not connected is
+/// written, too.
+void read_start_values(RunContext& context) {
+  const UnitTimer timer(context.clock, context.statistics.units,
+                        &UnitStatistics::initialization_time);
+  for (const VariableId id : context.system.partly_connected_inputs()) {
+    const Variable& input = context.system.variable(id);
+    ValueBlock values(input.type, input.size);
+    timer.timed(id.component, [&] {
+      context.units[id.component]->get({&input.reference, 1}, values);
+    });
+    copy_elements(context.exchange.slice(id), {&values, 0, input.size});
+  }
+}
+
 }  // namespace
 
 OrderedEvaluation::OrderedEvaluation(RunContext& context, Phase phase, UnitTimer::Sum time)
@@ -170,6 +185,7 @@ void OrderedEvaluation::check_nan(const Block& block) const {
 
 void set_initial_values(RunContext& context, Time start) {
   AllUnits all;
+  read_start_values(context);
   OrderedEvaluation(context, Phase::Initialization, &UnitStatistics::initialization_time)
       .run(start, all);
 }
