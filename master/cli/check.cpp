@@ -15,6 +15,7 @@
 #include "master/cli/output.h"
 #include "master/cli/scenario_options.h"
 #include "master/cli/table.h"
+#include "master/model/array_element.h"
 #include "master/scenario/loaded_scenario.h"
 #include "master/util/time_text.h"
 
@@ -79,10 +80,35 @@ std::string connection_table(const core::System& system) {
   Table table({{"from"}, {"to"}, {"type"}, {"unit"}, {"conversion"}});
   for (const core::Connection& connection : system.connections()) {
     const core::Variable& target = system.variable(connection.to);
-    table.add({system.full_name(connection.from), system.full_name(connection.to),
+    table.add({system.range_name(connection.source()), system.range_name(connection.target()),
                core::name(target.type), target.unit, conversion(connection.conversion)});
   }
   return table.text();
+}
+
+/// "a, b, c, d and 3 more"
+std::string shortened(const std::vector<std::string>& names) {
+  const std::size_t shown = names.size() <= kMostNames + 1 ? names.size() : kMostNames;
+  std::string text = fmt::format(
+      "{}", fmt::join(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(shown), ", "));
+  if (shown < names.size()) text += fmt::format(" and {} more", names.size() - shown);
+  return text;
+}
+
+/// Empty if there are none.
+std::string unconnected_elements_text(const core::System& system) {
+  std::string text;
+  for (const core::VariableId input : system.partly_connected_inputs()) {
+    std::vector<std::string> names;
+    for (const core::ElementRange& free : system.unconnected_elements(input)) {
+      for (std::size_t i = 0; i < free.size; ++i) {
+        names.push_back(core::element_name(system.variable(input), free.first + i));
+      }
+    }
+    text += fmt::format("  {}: {}\n", system.full_name(input), shortened(names));
+  }
+  return text.empty() ? ""
+                      : "\nElements without connection, which keep their start values\n" + text;
 }
 
 std::string steps(const core::RunOptions& options) {
@@ -118,19 +144,12 @@ std::string check_table(std::span<const checks::Definition> checks) {
   return table.size() == 0 ? "" : "\nChecks\n" + table.text();
 }
 
-/// "a, b, c, d and 3 more"
-std::string shortened(const std::vector<std::string>& names) {
-  const std::size_t shown = names.size() <= kMostNames + 1 ? names.size() : kMostNames;
-  std::string text = fmt::format(
-      "{}", fmt::join(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(shown), ", "));
-  if (shown < names.size()) text += fmt::format(" and {} more", names.size() - shown);
-  return text;
-}
-
 std::string solved_for(const core::System& system, const core::EvaluationBlock& loop) {
   std::vector<std::string> names;
   for (const core::TearingVariable& variable : loop.tearing_variables) {
-    for (const core::VariableId id : variable.inputs) names.push_back(system.full_name(id));
+    for (const core::ElementRange& input : variable.inputs) {
+      names.push_back(system.range_name(input));
+    }
   }
   return shortened(names);
 }
@@ -206,6 +225,7 @@ void check(const scenario::ScenarioRequest& request) {
              steps(options));
   print_text("\nUnits\n{}{}\nConnections\n{}", unit_table(loaded), host_table(loaded),
              connection_table(system));
+  print_text("{}", unconnected_elements_text(system));
   print_text("{}", check_table(loaded.checks()));
   print_text("\nStep order\n{}", order_table(loaded));
   print_text("\nOrder of the initial values\n{}", initial_order_text(system));

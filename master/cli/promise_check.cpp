@@ -16,7 +16,7 @@
 #include "master/algorithm/simulation.h"
 #include "master/cli/crash_guard.h"
 #include "master/cli/interruption.h"
-#include "master/recorders/signal_text.h"
+#include "master/model/array_element.h"
 #include "master/recorders/unit_folders.h"
 #include "master/util/archive/temporary_folder.h"
 
@@ -55,7 +55,7 @@ class OutputPair {
     for (std::size_t e = 0; e < variable_.size; ++e) {
       if (agrees(e)) continue;
       return BrokenPromise{
-          time, recorders::element_name(variable_, e),
+          time, core::element_name(variable_, e),
           fmt::format("the value is {}, and {} of an instance with the same inputs that is never "
                       "suspended{}",
                       core::element_text(*unit_.block, unit_.first + e),

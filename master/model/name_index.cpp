@@ -41,4 +41,15 @@ std::optional<std::size_t> NameIndex::variable(std::size_t component, std::strin
   return found->second;
 }
 
+std::vector<std::pair<std::string_view, std::size_t>> NameIndex::variables(
+    std::size_t component, std::string_view beginning) const {
+  const auto& variables = variables_[component]->places;
+  std::vector<std::pair<std::string_view, std::size_t>> found;
+  for (auto it = variables.lower_bound(beginning);
+       it != variables.end() && it->first.starts_with(beginning); ++it) {
+    found.emplace_back(*it);
+  }
+  return found;
+}
+
 }  // namespace stride::core

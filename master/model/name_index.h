@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "master/model/description.h"
@@ -27,6 +28,11 @@ class NameIndex {
   /// The index of the component's variable with this name or alias, as UnitDescription::find() has
   /// it. Of letters with marks either form is found: see composed().
   std::optional<std::size_t> variable(std::size_t component, std::string_view name) const;
+
+  /// The names and aliases of the component's variables that begin with the text, and the indices
+  /// of these variables, sorted by name.
+  std::vector<std::pair<std::string_view, std::size_t>> variables(std::size_t component,
+                                                                  std::string_view beginning) const;
 
  private:
   struct Variables {

@@ -10,7 +10,9 @@
 #include <type_traits>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include "master/model/array_element.h"
 #include "master/model/meant_value.h"
 #include "master/model/number_range.h"
 #include "master/model/unknown_variable.h"
@@ -100,9 +102,10 @@ struct Way {
 /// Mistakes are reported together, except those that follow from others.
 System::System(const SystemDeclaration& declaration) : name_(declaration.name) {
   Diagnostics diagnostics;
-  add_components(declaration, diagnostics);
+  add_components(declaration);
   const std::vector<Target> targets = find_targets(declaration, diagnostics);
   if (!diagnostics.attempt([&] { add_structural_values(targets); })) diagnostics.raise();
+  check_connectors(declaration, diagnostics);
   add_connections(declaration, diagnostics);
   add_start_values(targets, diagnostics);
   if (diagnostics.any()) sum_up_misfits(declaration, diagnostics);
@@ -112,6 +115,11 @@ System::System(const SystemDeclaration& declaration) : name_(declaration.name) {
 
 std::string System::prefix(VariableId id) const {
   return is_output(id) ? "" : components_[id.component].name + ".";
+}
+
+std::string System::range_name(const ElementRange& range) const {
+  if (is_whole(range)) return full_name(range.id);
+  return prefix(range.id) + element_name(variable(range.id), range.first);
 }
 
 bool System::is_sampled(VariableId id) const {
@@ -135,7 +143,7 @@ bool System::is_signal(VariableId id) const {
   return is_output(id) || (variable(id).type != ValueType::Clock && !is_message(id));
 }
 
-void System::add_components(const SystemDeclaration& declaration, Diagnostics& diagnostics) {
+void System::add_components(const SystemDeclaration& declaration) {
   if (declaration.components.empty()) {
     fail_input({}, "the system has no component, so there is nothing to simulate");
   }
@@ -144,24 +152,50 @@ void System::add_components(const SystemDeclaration& declaration, Diagnostics& d
       fail_input({component.where}, fmt::format("two components are named '{}'", component.name),
                  "give one of them another name");
     }
-    for (const ConnectorDeclaration& connector : component.connectors) {
-      diagnostics.attempt([&] { check_connector(declaration, component, connector); });
-    }
     check_clocks(component);
     components_.push_back({component.name, component.description, component.early_return_allowed,
                            component.has_snapshots});
   }
 }
 
-void System::check_connector(const SystemDeclaration& declaration,
-                             const ComponentDeclaration& component,
-                             const ConnectorDeclaration& connector) {
-  const Context context{connector.where, component.name, connector.name, {}};
-  const auto found = names_.variable(components_.size(), connector.name);
-  if (!found) {
-    fail_unknown(context, *component.description, &declaration);
+/// With the sizes that arrays have by the values of structural parameters.
+void System::check_connectors(const SystemDeclaration& declaration, Diagnostics& diagnostics) {
+  for (std::size_t i = 0; i < declaration.components.size(); ++i) {
+    for (const ConnectorDeclaration& connector : declaration.components[i].connectors) {
+      diagnostics.attempt([&] { check_connector(declaration, i, connector); });
+    }
   }
-  const Variable& variable = component.description->variables[*found];
+}
+
+void System::check_connector(const SystemDeclaration& declaration, std::size_t component,
+                             const ConnectorDeclaration& connector) {
+  const Context context{connector.where, components_[component].name, connector.name, {}};
+  const ConnectorElements elements = find_elements(context, declaration);
+  check_dimensions(context, connector, elements);
+  for (const ElementRange& element : elements.parts) check_element(context, connector, element);
+}
+
+void System::check_dimensions(const Context& context, const ConnectorDeclaration& connector,
+                              const ConnectorElements& elements) const {
+  if (connector.dimensions.empty()) return;
+  bool is_same = connector.dimensions.size() == elements.dimensions.size();
+  std::vector<std::string> declared;
+  for (std::size_t i = 0; i < connector.dimensions.size(); ++i) {
+    const auto& [size, size_connector] = connector.dimensions[i];
+    declared.push_back(size ? std::to_string(*size) : fmt::format("'{}'", size_connector));
+    is_same = is_same && (!size || *size == elements.dimensions[i]);
+  }
+  if (is_same) return;
+  fail_input(context,
+             fmt::format(
+                 "the connector has the dimensions {}, the unit has {}", fmt::join(declared, " × "),
+                 elements.dimensions.empty() ? "a scalar" : dimensions_text(elements.dimensions)));
+}
+
+void System::check_element(const Context& context, const ConnectorDeclaration& connector,
+                           const ElementRange& element) {
+  const Variable& variable = this->variable(element.id);
+  const UnitDescription& description = *components_[element.id.component].description;
   if (connector.causality && *connector.causality != variable.causality) {
     fail_input(context,
                fmt::format("the connector has {}, the unit has {}",
@@ -173,12 +207,12 @@ void System::check_connector(const SystemDeclaration& declaration,
   }
   note_other_kin(context, connector, variable);
   if (connector.unit.name.empty()) return;
-  const UnitOfMeasure unit = known_unit(connector.unit, *component.description);
-  if (!convert(unit, known_unit({variable.unit}, *component.description))) {
+  const UnitOfMeasure unit = known_unit(connector.unit, description);
+  if (!convert(unit, known_unit({variable.unit}, description))) {
     fail_input(context, fmt::format("the connector is in '{}', the unit's variable in '{}'",
                                     unit.name, variable.unit));
   }
-  connector_units_[{components_.size(), *found}] = unit;
+  connector_units_[element] = unit;
 }
 
 /// A warning only: the type of a connector of SSP 1.0 does not change what is exchanged.
@@ -214,12 +248,12 @@ std::size_t System::find_component(const std::string& name, const Location& wher
 }
 
 /// If it is not there, the error contains what the declaration expects.
-VariableId System::find_variable(const std::string& component, const std::string& variable,
-                                 const Location& where, const SystemDeclaration* expecting) {
-  const std::size_t index = find_component(component, where);
+ConnectorElements System::find_elements(const Context& context,
+                                        const SystemDeclaration& expecting) {
+  const std::size_t index = find_component(context.unit, context.where);
   const UnitDescription& description = *components_[index].description;
-  if (const auto found = names_.variable(index, variable)) return {index, *found};
-  fail_unknown({where, component, variable, {}}, description, expecting);
+  if (auto found = core::find_elements(names_, index, description, context)) return *found;
+  fail_unknown(context, description, &expecting);
 }
 
 void System::fail_unknown(const Context& context, const UnitDescription& description,
@@ -228,23 +262,39 @@ void System::fail_unknown(const Context& context, const UnitDescription& descrip
   fail_unknown_variable(context, description, expecting, has_hint);
 }
 
-/// In the unit that the variable has, or else in the one that its connector declares.
-PathConnector System::path_connector(VariableId id) const {
-  const Variable& end = variable(id);
-  const auto declared = connector_units_.find(id);
+/// In the unit that the variable has, or else in the one that a connector declares, its own or that
+/// of the whole array.
+PathConnector System::path_connector(const ElementRange& element) const {
+  const Variable& end = variable(element.id);
+  auto declared = connector_units_.find(element);
+  if (declared == connector_units_.end()) declared = connector_units_.find(whole(element.id));
   const bool is_declared = end.unit.empty() && declared != connector_units_.end();
-  return {full_name(id), end.type,
+  return {range_name(element), end.type,
           is_declared ? declared->second
-                      : known_unit({end.unit}, *components_[id.component].description),
+                      : known_unit({end.unit}, *components_[element.id.component].description),
           end.items, false};
 }
 
-Connection System::connect(const ConnectionDeclaration& wanted, const Ends& ends) {
-  const auto [from, to] = ends;
-  check_ends(wanted, from, to);
-  Way way(path_connector(from));
-  way.go(wanted, path_connector(to));
-  return {from, to, converted_on(way.path, way.segments, wanted.where)};
+/// Element by element where one end consists of scalars.
+std::vector<Connection> System::connect(const ConnectionDeclaration& wanted, const Ends& ends) {
+  check_ends(wanted, ends.first.parts.front(), ends.second.parts.front());
+  check_shapes(wanted, ends);
+  const std::size_t count = std::max(ends.first.parts.size(), ends.second.parts.size());
+  const auto part = [&](const ConnectorElements& end, std::size_t i) -> ElementRange {
+    if (end.parts.size() == count) return end.parts[i];
+    return {end.parts.front().id, end.parts.front().first + i, 1};
+  };
+  std::vector<Connection> made;
+  for (std::size_t i = 0; i < count; ++i) {
+    const ElementRange from = part(ends.first, i);
+    const ElementRange to = part(ends.second, i);
+    check_ends(wanted, from, to);
+    Way way(path_connector(from));
+    way.go(wanted, path_connector(to));
+    made.push_back({from.id, to.id, converted_on(way.path, way.segments, wanted.where), from.first,
+                    to.first, to.size});
+  }
+  return made;
 }
 
 /// With a warning for each change of type that the standards do not define.
@@ -270,7 +320,9 @@ Conversion System::converted_on(const std::vector<PathConnector>& path,
 /// Nothing, and a warning, where a parameter set holds a value for no component, as SSP allows.
 void System::note_missing(const StartDeclaration& wanted) {
   try {
-    find_variable(wanted.component, wanted.variable, wanted.where);
+    const std::size_t component = find_component(wanted.component, wanted.where);
+    fail_unknown({wanted.where, wanted.component, wanted.variable, {}},
+                 *components_[component].description, nullptr);
   } catch (const Error& mistake) {
     if (!wanted.is_optional) throw;
     warnings_.push_back(fmt::format("{}\n  the value is ignored, as SSP requires", mistake.what()));
@@ -314,14 +366,14 @@ ValueBlock System::start_value(const StartDeclaration& wanted, VariableId id) {
   const Context context{wanted.where, wanted.component, wanted.variable, {}};
   const UnitOfMeasure unit = known_unit(wanted.unit, description);
   if (wanted.via.empty() && !wanted.suppress_unit_conversion &&
-      !convert(unit, path_connector(id).unit)) {
+      !convert(unit, path_connector(whole(id)).unit)) {
     fail_input(context,
                fmt::format("the value is in '{}', the variable in '{}'", unit.name,
-                           path_connector(id).unit.name),
+                           path_connector(whole(id)).unit.name),
                "give the value in the variable's unit");
   }
   Way way({"the value", {}, unit, {}, true});
-  way.go(wanted, path_connector(id));
+  way.go(wanted, path_connector(whole(id)));
   const auto [text, linear] = compose_text(wanted.value, way.path, way.segments, context);
   const std::optional<std::string> meant = meant_value(target.type, text);
   if (meant) {
@@ -362,14 +414,14 @@ void System::add_structural_values(const std::vector<Target>& targets) {
   for (auto& [id, value] : values) structural_values_.push_back({id, std::move(value)});
 }
 
-/// A value that was set by name, and is not the one that the unit gets.
+/// A value that was set by name, and nothing of which is what the unit gets.
 void System::note_replaced(const StartDeclaration& wanted, VariableId id) {
   if (wanted.is_optional) return;
-  const Connection* const source = connection_to(id);
-  if (source == nullptr) return;
+  const std::span<const Connection> sources = connections_to(id);
+  if (sources.empty() || !unconnected_elements(id).empty()) return;
   warnings_.push_back(fmt::format(
       "{}'{}' is connected to '{}', whose value replaces this one at the initialisation",
-      core::to_text(Context{wanted.where}), full_name(id), full_name(source->from)));
+      core::to_text(Context{wanted.where}), full_name(id), range_name(sources.front().source())));
 }
 
 void System::add_start_values(const std::vector<Target>& targets, Diagnostics& diagnostics) {
@@ -391,20 +443,33 @@ void System::add_outputs(const SystemDeclaration& declaration) {
   }
   for (const OutputDeclaration& wanted : declaration.outputs) {
     // a variable of that name is recorded as it is
-    if (!names.contains(wanted.via.back().connector.name)) add_output(wanted);
+    if (!names.contains(wanted.via.back().connector.name)) add_output(wanted, declaration);
   }
 }
 
-void System::add_output(const OutputDeclaration& wanted) {
-  const VariableId from = find_variable(wanted.component, wanted.variable, wanted.where);
-  const Variable& source = variable(from);
-  if (!is_signal(from)) return;  // it is seen where it is sent
+/// Scalars of an array become as many outputs.
+void System::add_output(const OutputDeclaration& wanted, const SystemDeclaration& declaration) {
+  const ConnectorElements from =
+      find_elements({wanted.where, wanted.component, wanted.variable, {}}, declaration);
+  for (std::size_t i = 0; i < from.parts.size(); ++i) {
+    const std::string& name = wanted.via.back().connector.name;
+    add_output(wanted, from.parts[i],
+               from.are_scalars() ? element_name(name, from.dimensions, i) : name);
+  }
+}
+
+void System::add_output(const OutputDeclaration& wanted, const ElementRange& from,
+                        const std::string& name) {
+  const Variable& source = variable(from.id);
+  if (!is_signal(from.id)) return;  // it is seen where it is sent
   Way way(path_connector(from));
   for (const ViaDeclaration& via : wanted.via) way.go(via.connector, via.segment);
   const std::vector<PathConnector> path = completed(way.path);
   const PathConnector& end = path.back();
-  SystemOutput output{from, converted_on(path, way.segments, wanted.where), source};
-  output.variable.name = end.name;
+  SystemOutput output{from.id, converted_on(path, way.segments, wanted.where), source, from.first};
+  output.variable.name = name;
+  if (!is_whole(from)) output.variable.dimensions.clear();
+  output.variable.size = from.size;
   output.variable.aliases.clear();
   output.variable.type = *end.type;
   output.variable.unit = end.unit.name;

@@ -6,10 +6,12 @@
 #include <memory>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "master/model/connector_elements.h"
 #include "master/model/conversion.h"
 #include "master/model/description.h"
 #include "master/model/name_index.h"
@@ -32,16 +34,25 @@ struct Component {
   bool may_return_early() const { return early_return_allowed && description->may_return_early; }
   bool can_save_state() const { return description->can_save_state || has_snapshots; }
 };
+/// Each element of `from` is connected to the one of `to` that has the same place in its range.
 struct Connection {
   VariableId from;
   VariableId to;
   Conversion conversion;
+  std::size_t from_first = 0;  ///< element
+  std::size_t to_first = 0;
+  std::size_t size = 1;  ///< the number of elements
+
+  ElementRange source() const { return {from, from_first, size}; }
+  ElementRange target() const { return {to, to_first, size}; }
 };
-/// An output connector of the system: a component's variable, converted, with another name.
+/// An output connector of the system: a component's variable, or an element of one, converted, with
+/// another name.
 struct SystemOutput {
   VariableId from;
   Conversion conversion;
   Variable variable;  ///< its name, type, size and unit
+  std::size_t from_first = 0;
 };
 struct StartValue {
   VariableId id;
@@ -49,7 +60,7 @@ struct StartValue {
 };
 
 /// An immutable, valid system. Components are in the order of the file, connections are sorted by
-/// target.
+/// target; no two of them lead to the same element.
 class System {
  public:
   /// Checks names, types, causality, units, sizes, clocks and that each input has one source at
@@ -60,6 +71,14 @@ class System {
   const std::string& name() const { return name_; }
   const std::vector<Component>& components() const { return components_; }
   const std::vector<Connection>& connections() const { return connections_; }
+  /// Those that end at the input: several, where they end at different elements.
+  std::span<const Connection> connections_to(VariableId input) const;
+  /// Inputs of which some elements are connected, and others are not, sorted.
+  std::vector<VariableId> partly_connected_inputs() const;
+  /// The elements of the input that no connection leads to.
+  std::vector<ElementRange> unconnected_elements(VariableId input) const;
+  /// The one whose target() this is. It has to be there.
+  const Connection& connection_to(const ElementRange& target) const;
   const std::vector<StartValue>& start_values() const { return start_values_; }
   /// Outputs of the system; see output_id() for their ids. No output is a message.
   const std::vector<SystemOutput>& outputs() const { return outputs_; }
@@ -86,15 +105,20 @@ class System {
   bool ticks_triggered(VariableId id) const { return message_clocks_.contains(id); }
   /// "component.variable"; of an output of the system its name.
   std::string full_name(VariableId id) const { return prefix(id) + variable(id).name; }
+  /// Likewise, with its indices if it is an element of an array: "component.variable[2]".
+  std::string range_name(const ElementRange& range) const;
+  bool is_whole(const ElementRange& range) const { return range.size == variable(range.id).size; }
   /// "component.", or empty for an output of the system.
   std::string prefix(VariableId id) const;
 
  private:
-  void add_components(const SystemDeclaration& declaration, Diagnostics& diagnostics);
+  void add_components(const SystemDeclaration& declaration);
   void add_connections(const SystemDeclaration& declaration, Diagnostics& diagnostics);
   void sum_up_misfits(const SystemDeclaration& declaration, Diagnostics& diagnostics) const;
   void add_outputs(const SystemDeclaration& declaration);
-  void add_output(const OutputDeclaration& declaration);
+  void add_output(const OutputDeclaration& output, const SystemDeclaration& declaration);
+  void add_output(const OutputDeclaration& declaration, const ElementRange& from,
+                  const std::string& name);
   /// A start value and what it is for.
   struct Target {
     const StartDeclaration* declaration;
@@ -106,36 +130,51 @@ class System {
   void resize(const StartDeclaration& declaration, VariableId structural_parameter,
               std::size_t size);
   std::size_t find_component(const std::string& name, const Location& where) const;
-  VariableId find_variable(const std::string& component, const std::string& variable,
-                           const Location& where, const SystemDeclaration* expecting = nullptr);
   [[noreturn]] void fail_unknown(const Context& context, const UnitDescription& description,
                                  const SystemDeclaration* expecting);
-  void check_connector(const SystemDeclaration& declaration, const ComponentDeclaration& component,
+  void check_connectors(const SystemDeclaration& declaration, Diagnostics& diagnostics);
+  void check_connector(const SystemDeclaration& declaration, std::size_t component,
                        const ConnectorDeclaration& connector);
+  void check_dimensions(const Context& context, const ConnectorDeclaration& connector,
+                        const ConnectorElements& elements) const;
+  void check_element(const Context& context, const ConnectorDeclaration& connector,
+                     const ElementRange& element);
   void note_other_kin(const Context& context, const ConnectorDeclaration& connector,
                       const Variable& variable);
   void check_clocks(const ComponentDeclaration& component) const;
-  /// Once they are sorted; null if there is none.
-  const Connection* connection_to(VariableId input) const;
   void find_message_clocks(const SystemDeclaration& declaration);
   std::optional<VariableId> find_end(const std::string& component,
                                      const std::string& connector) const;
-  void check_clocked(const ConnectionDeclaration& declaration, VariableId from,
-                     VariableId to) const;
+  void check_clocked(const ConnectionDeclaration& declaration, const ElementRange& from,
+                     const ElementRange& to) const;
   void check_event_mode(const ConnectionDeclaration& declaration, VariableId id) const;
   void check_message(const ConnectionDeclaration& declaration, const Connection& connection) const;
   void note_missing_data(const ConnectionDeclaration& declaration, const Connection& clocks);
-  using Ends = std::pair<VariableId, VariableId>;
+  using Ends = std::pair<ConnectorElements, ConnectorElements>;
+  ConnectorElements find_elements(const Context& context, const SystemDeclaration& expecting);
+  bool is_known(const std::string& component, const std::string& connector) const;
   std::optional<Ends> find_ends(const SystemDeclaration& declaration,
                                 const ConnectionDeclaration& wanted, Diagnostics& diagnostics);
+  /// Where the connections come from, until they are sorted: by their targets.
+  struct Declared {
+    const ConnectionDeclaration* wanted;
+    std::size_t place;
+  };
+  using DeclaredConnections = std::map<ElementRange, Declared>;
+  void add_connection(const ConnectionDeclaration& declaration, const Connection& connection,
+                      DeclaredConnections& declared);
   void add_second(const ConnectionDeclaration& declaration, const Connection& connection,
                   const ConnectionDeclaration& first, const Connection& same);
+  void check_alike(const DeclaredConnections& declared, const Connection& connection) const;
   bool is_backwards(VariableId from, VariableId to) const;
-  Connection connect(const ConnectionDeclaration& declaration, const Ends& ends);
+  std::vector<Connection> connect(const ConnectionDeclaration& declaration, const Ends& ends);
+  void check_shapes(const ConnectionDeclaration& declaration, const Ends& ends) const;
   Conversion converted_on(const std::vector<PathConnector>& path,
                           const std::vector<PathSegment>& segments, const Location& where);
-  void check_ends(const ConnectionDeclaration& declaration, VariableId from, VariableId to) const;
-  PathConnector path_connector(VariableId id) const;
+  void check_ends(const ConnectionDeclaration& declaration, const ElementRange& from,
+                  const ElementRange& to) const;
+  PathConnector path_connector(const ElementRange& element) const;
+  ElementRange whole(VariableId id) const { return {id, 0, variable(id).size}; }
   void note_missing(const StartDeclaration& declaration);
   void note_replaced(const StartDeclaration& declaration, VariableId id);
   ValueBlock start_value(const StartDeclaration& declaration, VariableId id);
@@ -148,7 +187,7 @@ class System {
   std::vector<SystemOutput> outputs_;
   std::vector<StartValue> structural_values_;
   std::vector<std::string> warnings_;
-  std::map<VariableId, UnitOfMeasure> connector_units_;  ///< those that connectors declare
+  std::map<ElementRange, UnitOfMeasure> connector_units_;  ///< those that connectors declare
   std::set<VariableId> message_clocks_;  ///< time-based clocks that are connected to triggered ones
   std::size_t unknown_variables_ = 0;    ///< reported so far
 };

@@ -1,11 +1,13 @@
 // The part of System that checks and makes its connections.
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <set>
 #include <string>
 
 #include <fmt/format.h>
 
+#include "master/model/array_element.h"
 #include "master/model/system.h"
 #include "master/model/unknown_variable.h"
 
@@ -39,9 +41,14 @@ const char* direction_hint(const Variable& source, const Variable& target) {
   return "a connection starts at an output and ends at an input";
 }
 
-std::string shape(const Variable& variable) {
-  if (variable.dimensions.empty()) return "a scalar";
-  return fmt::format("an array of {} elements", variable.size);
+std::string shape(const ConnectorElements& elements) {
+  if (elements.dimensions.empty()) return "a scalar";
+  return fmt::format("{} of {} elements", elements.are_scalars() ? "scalars" : "an array",
+                     dimensions_text(elements.dimensions));
+}
+
+bool overlap(const ElementRange& a, const ElementRange& b) {
+  return a == b || (a.id == b.id && a.first < b.first + b.size && b.first < a.first + a.size);
 }
 
 /// The variable that carries a value through a connection between clocked variables also needs its
@@ -59,32 +66,45 @@ std::vector<VariableId> clocks_of(const System& system, VariableId id) {
 
 void System::add_connections(const SystemDeclaration& declaration, Diagnostics& diagnostics) {
   find_message_clocks(declaration);
-  struct Source {
-    const ConnectionDeclaration* wanted;
-    std::size_t place;  ///< until they are sorted
-  };
-  std::map<VariableId, Source> sources;
+  DeclaredConnections declared;
   for (const ConnectionDeclaration& wanted : declaration.connections) {
     const std::optional<Ends> ends = find_ends(declaration, wanted, diagnostics);
     if (!ends) continue;
     diagnostics.attempt([&] {
-      const Connection connection = connect(wanted, *ends);
-      const auto [source, is_first] =
-          sources.try_emplace(connection.to, &wanted, connections_.size());
-      const auto& [first, place] = source->second;
-      if (!is_first) return add_second(wanted, connection, *first, connections_[place]);
-      connections_.push_back(connection);
+      for (const Connection& connection : connect(wanted, *ends)) {
+        add_connection(wanted, connection, declared);
+      }
     });
   }
-  std::sort(connections_.begin(), connections_.end(),
-            [](const Connection& a, const Connection& b) { return a.to < b.to; });
+  std::ranges::sort(connections_, {}, &Connection::target);
   if (diagnostics.any()) return;  // a clock's connection may be among them
   for (const Connection& connection : connections_) {
-    diagnostics.attempt([&] { check_message(*sources.at(connection.to).wanted, connection); });
-    if (variable(connection.to).is_triggered_clock()) {
-      note_missing_data(*sources.at(connection.to).wanted, connection);
-    }
+    const ConnectionDeclaration& wanted = *declared.at(connection.target()).wanted;
+    diagnostics.attempt([&] {
+      check_message(wanted, connection);
+      check_alike(declared, connection);
+    });
+    if (variable(connection.to).is_triggered_clock()) note_missing_data(wanted, connection);
   }
+}
+
+/// No two of those that are declared so far overlap, so only the neighbours of one more may.
+void System::add_connection(const ConnectionDeclaration& wanted, const Connection& connection,
+                            DeclaredConnections& declared) {
+  const ElementRange target = connection.target();
+  const auto behind = declared.lower_bound(target);
+  auto same = declared.end();
+  if (behind != declared.end() && overlap(behind->first, target)) {
+    same = behind;
+  } else if (behind != declared.begin() && overlap(std::prev(behind)->first, target)) {
+    same = std::prev(behind);
+  }
+  if (same != declared.end()) {
+    const auto& [first, place] = same->second;
+    return add_second(wanted, connection, *first, connections_[place]);
+  }
+  declared.emplace_hint(behind, target, Declared{&wanted, connections_.size()});
+  connections_.push_back(connection);
 }
 
 /// A unit that has few of them is another one than was meant.
@@ -99,10 +119,8 @@ void System::sum_up_misfits(const SystemDeclaration& declaration, Diagnostics& d
     for (const ConnectorDeclaration& declared : component.connectors) {
       variables.insert(declared.name);
     }
-    const auto known =
-        static_cast<std::size_t>(std::ranges::count_if(variables, [&](const std::string& name) {
-          return find_end(component.name, name).has_value();
-        }));
+    const auto known = static_cast<std::size_t>(std::ranges::count_if(
+        variables, [&](const std::string& name) { return is_known(component.name, name); }));
     if (known == variables.size() || variables.size() == 1) continue;
     diagnostics.sum_up(component.name, component.where,
                        fmt::format("its model '{}' has {} of the {} variables that are expected",
@@ -111,9 +129,50 @@ void System::sum_up_misfits(const SystemDeclaration& declaration, Diagnostics& d
   }
 }
 
-const Connection* System::connection_to(VariableId input) const {
-  const auto found = std::ranges::lower_bound(connections_, input, {}, &Connection::to);
-  return found != connections_.end() && found->to == input ? &*found : nullptr;
+/// Whether the name denotes anything that the unit has, be it with a wrong index.
+bool System::is_known(const std::string& component, const std::string& connector) const {
+  const std::optional<std::size_t> index = names_.component(component);
+  if (!index) return false;
+  try {
+    const Context context{{}, component, connector, {}};
+    return core::find_elements(names_, *index, *components_[*index].description, context)
+        .has_value();
+  } catch (const Error&) {
+    return true;
+  }
+}
+
+std::span<const Connection> System::connections_to(VariableId input) const {
+  const auto found = std::ranges::equal_range(connections_, input, {}, &Connection::to);
+  return {found.begin(), found.end()};
+}
+
+std::vector<ElementRange> System::unconnected_elements(VariableId input) const {
+  std::vector<ElementRange> free;
+  std::size_t next = 0;
+  const auto skip_to = [&](std::size_t element) {
+    if (element > next) free.push_back({input, next, element - next});
+  };
+  for (const Connection& connection : connections_to(input)) {
+    skip_to(connection.to_first);
+    next = connection.to_first + connection.size;
+  }
+  skip_to(variable(input).size);
+  return free;
+}
+
+std::vector<VariableId> System::partly_connected_inputs() const {
+  std::vector<VariableId> inputs;
+  for (const Connection& connection : connections_) {
+    const bool is_first = connections_to(connection.to).data() == &connection;
+    if (!is_first || is_whole(connection.target())) continue;
+    if (!unconnected_elements(connection.to).empty()) inputs.push_back(connection.to);
+  }
+  return inputs;
+}
+
+const Connection& System::connection_to(const ElementRange& target) const {
+  return *std::ranges::lower_bound(connections_, target, {}, &Connection::target);
 }
 
 /// A tick without the values that both sides have for it is possible, and seldom meant.
@@ -130,7 +189,7 @@ void System::note_missing_data(const ConnectionDeclaration& wanted, const Connec
   const std::vector<VariableId> sent = data_of(clocks.from, Causality::Output);
   const std::vector<VariableId> expected = data_of(clocks.to, Causality::Input);
   if (sent.empty() || expected.empty()) return;
-  const auto is_connected = [&](VariableId input) { return connection_to(input) != nullptr; };
+  const auto is_connected = [&](VariableId input) { return !connections_to(input).empty(); };
   if (std::ranges::any_of(expected, is_connected)) return;
   warnings_.push_back(fmt::format(
       "{}the clock '{}' is connected to '{}', but none of the values that belong to it: it ticks, "
@@ -166,27 +225,30 @@ std::optional<System::Ends> System::find_ends(const SystemDeclaration& declarati
                                               const ConnectionDeclaration& wanted,
                                               Diagnostics& diagnostics) {
   const auto find = [&](const std::string& component, const std::string& connector) {
-    std::optional<VariableId> end;
+    std::optional<ConnectorElements> end;
     if (diagnostics.mentions(component, connector)) return end;
-    diagnostics.attempt(
-        [&] { end = find_variable(component, connector, wanted.where, &declaration); });
+    diagnostics.attempt([&] {
+      end = find_elements({wanted.where, component, connector, {}}, declaration);
+    });
     return end;
   };
-  const auto from = find(wanted.from_component, wanted.from_connector);
-  const auto to = find(wanted.to_component, wanted.to_connector);
+  auto from = find(wanted.from_component, wanted.from_connector);
+  auto to = find(wanted.to_component, wanted.to_connector);
   if (!from || !to) return std::nullopt;
-  if (is_backwards(*from, *to)) return Ends{*to, *from};
-  if (!wanted.via.empty() || !is_from_input_to_source(variable(*from), variable(*to))) {
-    return Ends{*from, *to};
+  const ElementRange& start = from->parts.front();
+  const ElementRange& end = to->parts.front();
+  if (is_backwards(start.id, end.id)) return Ends{std::move(*to), std::move(*from)};
+  if (!wanted.via.empty() || !is_from_input_to_source(variable(start.id), variable(end.id))) {
+    return Ends{std::move(*from), std::move(*to)};
   }
   warnings_.push_back(to_text({.where = wanted.where}) +
                       fmt::format("the connection starts at '{0}', which is {1}, and ends at "
                                   "'{2}', which is {3}: it is taken for one from '{2}' to '{0}'"
                                   "\n  hint: swap start and end, or declare both connectors with "
                                   "their kinds",
-                                  full_name(*from), core::name(variable(*from).causality),
-                                  full_name(*to), core::name(variable(*to).causality)));
-  return Ends{*to, *from};
+                                  range_name(start), core::name(variable(start.id).causality),
+                                  range_name(end), core::name(variable(end.id).causality)));
+  return Ends{std::move(*to), std::move(*from)};
 }
 
 /// A time-based and a triggered clock are inputs both, so connectors do not tell the direction.
@@ -199,19 +261,49 @@ bool System::is_backwards(VariableId from, VariableId to) const {
 /// One that says the same once more is ignored.
 void System::add_second(const ConnectionDeclaration& wanted, const Connection& connection,
                         const ConnectionDeclaration& first, const Connection& same) {
-  if (same.from == connection.from && same.conversion == connection.conversion) {
+  const std::string source = range_name(connection.source());
+  const std::string target = range_name(connection.target());
+  if (same.source() == connection.source() && same.target() == connection.target() &&
+      same.conversion == connection.conversion) {
     warnings_.push_back(to_text({.where = wanted.where}) +
                         fmt::format("the connection of '{}' to '{}' is there already, in line {}; "
                                     "this one is ignored",
-                                    full_name(connection.from), full_name(connection.to),
-                                    first.where.line));
+                                    source, target, first.where.line));
     return;
   }
+  const bool is_same_target = same.target() == connection.target();
   fail_input(
-      {wanted.where, components_[connection.to.component].name, variable(connection.to).name, {}},
-      fmt::format("this input has two sources: '{}' here and '{}' in line {}",
-                  full_name(connection.from), full_name(same.from), first.where.line),
+      {wanted.where,
+       components_[connection.to.component].name,
+       target.substr(prefix(connection.to).size()),
+       {}},
+      fmt::format("this input has two sources: '{}' here and '{}' in line {}{}", source,
+                  range_name(same.source()), first.where.line,
+                  is_same_target ? "" : fmt::format(", for '{}'", range_name(same.target()))),
       "remove one of the two connections");
+}
+
+/// A continuous input is written at communication points, except where its source belongs to a
+/// clock: that changes it in Event Mode. An array is written as a whole.
+void System::check_alike(const DeclaredConnections& declared, const Connection& connection) const {
+  const Variable& input = variable(connection.to);
+  if (is_whole(connection.target()) || input.variability != Variability::Continuous) return;
+  const Connection& first = connections_to(connection.to).front();
+  const bool is_first_sampled = is_sampled(first.from);
+  if (is_sampled(connection.from) == is_first_sampled) return;
+  fail_input(
+      {declared.at(connection.target()).wanted->where,
+       components_[connection.to.component].name,
+       input.name,
+       {}},
+      fmt::format("'{}', which {} to a clock, is connected to '{}', and '{}', which {}, to "
+                  "'{}' in line {}",
+                  range_name(connection.source()), is_first_sampled ? "does not belong" : "belongs",
+                  range_name(connection.target()), range_name(first.source()),
+                  is_first_sampled ? "does" : "does not", range_name(first.target()),
+                  declared.at(first.target()).wanted->where.line),
+      "the elements of a continuous input change together: connect all of them to outputs "
+      "that belong to clocks, or none");
 }
 
 /// What carries a message from clock to clock needs its clock connected, too.
@@ -220,8 +312,8 @@ void System::check_message(const ConnectionDeclaration& wanted,
   if (is_sampled(connection.to)) return;
   const auto from_clocks = clocks_of(*this, connection.from);
   for (const VariableId to_clock : clocks_of(*this, connection.to)) {
-    const Connection* const clock = connection_to(to_clock);
-    if (clock != nullptr && std::ranges::count(from_clocks, clock->from) > 0) continue;
+    const std::span<const Connection> ticks = connections_to(to_clock);
+    if (!ticks.empty() && std::ranges::count(from_clocks, ticks.front().from) > 0) continue;
     fail_input(
         {wanted.where, components_[connection.to.component].name, variable(connection.to).name, {}},
         fmt::format("its clock '{}' is not connected to the clock of '{}'", full_name(to_clock),
@@ -232,9 +324,12 @@ void System::check_message(const ConnectionDeclaration& wanted,
 
 /// A message goes to a message. A value that is sampled at a time-based clock's ticks, on either
 /// side, may be connected to any other value that is no message.
-void System::check_clocked(const ConnectionDeclaration& wanted, VariableId from,
-                           VariableId to) const {
-  const std::string wire = fmt::format("'{}' to '{}'", full_name(from), full_name(to));
+void System::check_clocked(const ConnectionDeclaration& wanted, const ElementRange& from_range,
+                           const ElementRange& to_range) const {
+  const VariableId from = from_range.id;
+  const VariableId to = to_range.id;
+  const std::string wire =
+      fmt::format("'{}' to '{}'", range_name(from_range), range_name(to_range));
   const Context context{wanted.where, {}, {}, {}};
   if (variable(to).is_time_based_clock()) {
     fail_input(
@@ -242,6 +337,14 @@ void System::check_clocked(const ConnectionDeclaration& wanted, VariableId from,
         fmt::format("cannot connect {}: '{}' is a {} clock, which ticks by the time alone", wire,
                     full_name(to), core::name(variable(to).clock->variability)),
         "remove the connection; the master ticks such a clock at the times that its unit gives");
+  }
+  for (const ElementRange& range : {from_range, to_range}) {
+    if (!is_message(range.id) || is_whole(range)) continue;
+    fail_input(context,
+               fmt::format("cannot connect {}: '{}' is a message, which is sent and received as a "
+                           "whole",
+                           wire, full_name(range.id)),
+               "connect the whole array to another one");
   }
   if (is_message(from) == is_message(to)) return;
   const VariableId message = is_message(from) ? from : to;
@@ -263,15 +366,16 @@ void System::check_event_mode(const ConnectionDeclaration& wanted, VariableId id
              "use a unit that has Event Mode");
 }
 
-void System::check_ends(const ConnectionDeclaration& wanted, VariableId from, VariableId to) const {
-  const Variable& source = variable(from);
-  const Variable& target = variable(to);
-  const std::string wire = fmt::format("'{}' to '{}'", full_name(from), full_name(to));
+void System::check_ends(const ConnectionDeclaration& wanted, const ElementRange& from,
+                        const ElementRange& to) const {
+  const Variable& source = variable(from.id);
+  const Variable& target = variable(to.id);
+  const std::string wire = fmt::format("'{}' to '{}'", range_name(from), range_name(to));
   const Context context{wanted.where, {}, {}, {}};
   if (!is_source(source)) {
     fail_input(context,
                fmt::format("cannot connect {}: '{}' is not an output but {}, and '{}' is {}", wire,
-                           full_name(from), core::name(source.causality), full_name(to),
+                           range_name(from), core::name(source.causality), range_name(to),
                            core::name(target.causality)),
                direction_hint(source, target));
   }
@@ -280,17 +384,33 @@ void System::check_ends(const ConnectionDeclaration& wanted, VariableId from, Va
                               target.causality == Causality::StructuralParameter;
     fail_input(context,
                fmt::format("cannot connect {}: '{}' is not an input but {}, and '{}' is {}", wire,
-                           full_name(to), core::name(target.causality), full_name(from),
+                           range_name(to), core::name(target.causality), range_name(from),
                            core::name(source.causality)),
                is_parameter ? "give the parameter its value in a <ssd:ParameterBinding>"
                             : direction_hint(source, target));
   }
   check_clocked(wanted, from, to);
-  for (const VariableId end : {from, to}) check_event_mode(wanted, end);
-  if (source.size != target.size) {
-    fail_input(context,
-               fmt::format("cannot connect {}: {} and {}", wire, shape(source), shape(target)));
-  }
+  for (const ElementRange& end : {from, to}) check_event_mode(wanted, end.id);
+}
+
+/// Arrays may differ in their dimensions, if they have as many elements; the scalars of an array
+/// are found by their indices, so there the dimensions are the same.
+void System::check_shapes(const ConnectionDeclaration& wanted, const Ends& ends) const {
+  const auto& [from, to] = ends;
+  const bool has_scalars = from.are_scalars() || to.are_scalars();
+  if (has_scalars ? from.dimensions == to.dimensions : from.size() == to.size()) return;
+  const auto name_of = [&](const ConnectorElements& end) {
+    const VariableId id = end.parts.front().id;
+    if (!end.are_scalars()) return range_name(end.parts.front());
+    const std::string scalar = full_name(id);
+    return scalar.substr(0, scalar.rfind('['));
+  };
+  fail_input({wanted.where, {}, {}, {}},
+             fmt::format("cannot connect '{}' to '{}': {} and {}", name_of(from), name_of(to),
+                         shape(from), shape(to)),
+             from.dimensions.empty() != to.dimensions.empty()
+                 ? "an element of an array is named by its indices, such as 'x[1]'"
+                 : "");
 }
 
 }  // namespace stride::core

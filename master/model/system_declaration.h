@@ -15,6 +15,11 @@
 
 namespace stride::core {
 
+/// A dimension that a connector declares: its size, or the connector that has it.
+struct DimensionDeclaration {
+  std::optional<std::size_t> size;
+  std::string size_connector;
+};
 struct ConnectorDeclaration {
   std::string name;
   std::optional<ValueType> type;
@@ -25,6 +30,7 @@ struct ConnectorDeclaration {
   /// Where `type` leaves the width open, as SSP 1.0 does: Float64 for any floating-point number,
   /// Int32 for any integer.
   std::optional<ValueType> kin{};
+  std::vector<DimensionDeclaration> dimensions{};  ///< none: not checked
 };
 struct ComponentDeclaration {
   std::string name;
@@ -39,6 +45,8 @@ struct ViaDeclaration {
   PathConnector connector;
   PathSegment segment;
 };
+/// A connector is a variable, an element of an array ("m[1,2]"), or an array of which the unit has
+/// the elements as scalars: see find_elements().
 struct ConnectionDeclaration {
   std::string from_component, from_connector;
   std::string to_component, to_connector;

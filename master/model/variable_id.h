@@ -14,6 +14,14 @@ struct VariableId {
   auto operator<=>(const VariableId&) const = default;
 };
 
+/// Adjacent elements of a variable; a scalar has one.
+struct ElementRange {
+  VariableId id;
+  std::size_t first = 0;
+  std::size_t size = 1;
+  auto operator<=>(const ElementRange&) const = default;
+};
+
 }  // namespace stride::core
 
 #endif

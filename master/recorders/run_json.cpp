@@ -108,8 +108,8 @@ const char* kind(const core::System& system, const core::Connection& connection)
 Json connection_entries(const core::System& system) {
   Json entries = Json::array();
   for (const core::Connection& connection : system.connections()) {
-    entries.push_back({{"from", system.full_name(connection.from)},
-                       {"to", system.full_name(connection.to)},
+    entries.push_back({{"from", system.range_name(connection.source())},
+                       {"to", system.range_name(connection.target())},
                        {"kind", kind(system, connection)}});
   }
   return entries;

@@ -2,22 +2,12 @@
 
 #include <type_traits>
 
-#include <fmt/format.h>
+#include "master/model/array_element.h"
 
 namespace stride::recorders {
 
-std::string element_name(const core::Variable& variable, std::size_t element) {
-  if (variable.dimensions.empty()) return variable.name;
-  std::string indices;
-  for (auto it = variable.dimensions.rbegin(); it != variable.dimensions.rend(); ++it) {
-    indices = fmt::format("{}{}{}", element % it->size + 1, indices.empty() ? "" : ",", indices);
-    element /= it->size;
-  }
-  return fmt::format("{}[{}]", variable.name, indices);
-}
-
 std::string column_name(const core::System& system, core::VariableId id, std::size_t element) {
-  return system.prefix(id) + element_name(system.variable(id), element);
+  return system.prefix(id) + core::element_name(system.variable(id), element);
 }
 
 std::string csv_field(std::string_view text) {

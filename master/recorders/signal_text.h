@@ -11,10 +11,6 @@
 
 namespace stride::recorders {
 
-/// The name of an element: that of a scalar variable, else "name[1]" or "name[2,1]", counted from 1
-/// in row-major order.
-std::string element_name(const core::Variable& variable, std::size_t element);
-
 /// That of the column which the element has in signals.csv, without its unit: "component.name[1]".
 std::string column_name(const core::System& system, core::VariableId id, std::size_t element);
 

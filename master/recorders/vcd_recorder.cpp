@@ -10,7 +10,7 @@
 
 #include <fmt/format.h>
 
-#include "master/recorders/signal_text.h"
+#include "master/model/array_element.h"
 #include "master/util/vcd_code.h"
 
 namespace stride::recorders {
@@ -149,7 +149,7 @@ std::string VcdRecorder::next_code() { return core::vcd_code(codes_++); }
 std::string VcdRecorder::declare(VcdScope& top, core::VariableId id, std::size_t element) {
   const core::Variable& variable = system_.variable(id);
   std::string code = next_code();
-  top.add(system_.prefix(id) + element_name(variable, element), variable.type, code);
+  top.add(system_.prefix(id) + core::element_name(variable, element), variable.type, code);
   return code;
 }
 

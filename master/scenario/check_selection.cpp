@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "master/recorders/signal_text.h"
+#include "master/model/array_element.h"
 #include "master/scenario/signal_selection.h"
 #include "master/util/diagnostics.h"
 #include "master/util/glob.h"
@@ -151,7 +151,7 @@ std::vector<Element> Selection::find_elements(const CheckDeclaration& check) con
     if (!variable.is_signal) return;
     const core::Variable& described = system_.variable(variable.id);
     for (std::size_t i = 0; i < described.size; ++i) {
-      std::string name = system_.prefix(variable.id) + recorders::element_name(described, i);
+      std::string name = system_.prefix(variable.id) + core::element_name(described, i);
       const bool is_one = name == pattern || core::matches_glob(pattern, name);
       if (is_whole || is_one) found.push_back({&variable, i, std::move(name)});
     }

@@ -58,13 +58,26 @@ std::optional<ValueType> type_of(const xml::Element& type, const std::string& ss
             core::suggestion(std::string(name), known));
 }
 
+core::DimensionDeclaration read_dimension(const xml::Element& element) {
+  element.allow_attributes({"size", "sizeConnector"});
+  if (element.attribute("size").has_value() == element.attribute("sizeConnector").has_value()) {
+    element.fail(
+        fmt::format("{} needs one of the attributes 'size' and 'sizeConnector'", element.tag()));
+  }
+  return {element.number<std::size_t>("size"), element.attribute_or("sizeConnector")};
+}
+
 void read_child(const xml::Element& child, const SspFile& file,
                 core::ConnectorDeclaration& connector, bool& has_type) {
   const xml::Name name = child.name();
-  // a unit's own dimensions and clocks hold; geometry and annotations change nothing
-  if (name == xml::Name{kSsc, "Dimension"} || name == xml::Name{kSsd, "Clock"} ||
-      name == xml::Name{kSsd, "ConnectorGeometry"} || name == xml::Name{kSsd, "Annotations"} ||
-      name == xml::Name{kSsc, "MetaData"} || name == xml::Name{kSsc, "Signature"}) {
+  if (name == xml::Name{kSsc, "Dimension"}) {
+    connector.dimensions.push_back(read_dimension(child));
+    return;
+  }
+  // a unit's own clocks hold; geometry and annotations change nothing
+  if (name == xml::Name{kSsd, "Clock"} || name == xml::Name{kSsd, "ConnectorGeometry"} ||
+      name == xml::Name{kSsd, "Annotations"} || name == xml::Name{kSsc, "MetaData"} ||
+      name == xml::Name{kSsc, "Signature"}) {
     return;
   }
   if (!read_type(child, file, connector)) {

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "master/model/array_element.h"
 #include "master/util/suggest.h"
 
 namespace stride::ssp {
@@ -153,7 +154,11 @@ std::size_t PortGraph::find_port(const ElementNode& element, const System& syste
   const auto [entry, is_new] = shared_.try_emplace({&element, connector}, ports_.size());
   if (!is_new) return entry->second;
   Port port{joined(path, connector), Flow::Unsaid, places_.at(&element), connector, {}};
-  const auto declared = declared_flows_.find({&element, connector});
+  auto declared = declared_flows_.find({&element, connector});
+  const auto indexed = core::indexed_name(connector);
+  if (declared == declared_flows_.end() && indexed) {
+    declared = declared_flows_.find({&element, indexed->array});
+  }
   if (declared != declared_flows_.end()) port.flow = declared->second;
   ports_.push_back(std::move(port));
   return entry->second;

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "master/ssp/connectors.h"
 #include "master/ssp/parameters.h"
@@ -296,6 +297,15 @@ class SystemReader {
     return SystemReader(root, path, reading_).read();
   }
 
+  /// With its indices, if the connection is restricted to an element: "m[1,2]".
+  static std::string connector(const xml::Element& connection, const std::string& end) {
+    const std::string name = connection.required((end + "Connector").c_str());
+    const std::string indices = end + "Indices";
+    if (!connection.attribute(indices.c_str())) return name;
+    return fmt::format("{}[{}]", name,
+                       fmt::join(connection.number_list<std::uint64_t>(indices.c_str()), ","));
+  }
+
   SystemConnection read_connection(const xml::Element& element) {
     element.allow_attributes({"startElement", "startConnector", "startIndices", "endElement",
                               "endConnector", "endIndices", "suppressUnitConversion"});
@@ -307,12 +317,8 @@ class SystemReader {
                             {kSsc, "MetaData"},
                             {kSsc, "Signature"},
                             {kSsd, "Annotations"}});
-    if (element.attribute("startIndices") || element.attribute("endIndices")) {
-      element.fail_unsupported("connections of parts of an array (startIndices, endIndices)",
-                               "connect the whole array");
-    }
-    return {{element.attribute_or("startElement"), element.required("startConnector")},
-            {element.attribute_or("endElement"), element.required("endConnector")},
+    return {{element.attribute_or("startElement"), connector(element, "start")},
+            {element.attribute_or("endElement"), connector(element, "end")},
             read_path_segment(element, reading_.warnings),
             element.where()};
   }

@@ -80,3 +80,68 @@ TEST_CASE("more columns than a table can have are refused before the run") {
       Contains("have 1000001 columns") && Contains("1000000 at most") && Contains("--signals"));
   CHECK_FALSE(fs::exists(workspace / "out"));
 }
+
+namespace {
+
+/// An FMU of FMI 2.0 with the scalars u[1] and y[1], `y` being `u` at once.
+void write_scalars(const Workspace& workspace, const std::string& folder) {
+  const stride::importer::UnpackedFmu unpacked(test_fmu("fmi2_types"));
+  fs::copy(unpacked.folder(), workspace / folder, fs::copy_options::recursive);
+  std::string text = read(unpacked.folder() / "modelDescription.xml");
+  for (const auto& [name, other] :
+       {std::pair{"\"real\"", "\"u[1]\""}, std::pair{"\"real.echo\"", "\"y[1]\""}}) {
+    text.replace(text.find(name), std::string(name).size(), other);
+  }
+  workspace.scratch().write(folder + "/modelDescription.xml", text);
+}
+
+}  // namespace
+
+TEST_CASE("elements of arrays are connected one by one, and check says which are not") {
+  const Workspace workspace(
+      Parts{component("first", "resizable.fmu") + component("second", "resizable.fmu"),
+            connection("first.y[2]", "second.u[1]") + connection("first.y[1]", "second.u[3]")});
+  const std::initializer_list<std::string> settings{"first.u=2 3", "second.n=4",
+                                                    "second.u=10 20 30 40", "second.gain=1 1 1 1"};
+  const Outcome outcome = workspace.run(with(settings));
+  CAPTURE(outcome.err);
+  REQUIRE(outcome.exit_code == 0);
+  const Csv signals = workspace.signals();
+  for (const auto& [name, value] :
+       {std::pair{"second.y[1]", 3.0}, std::pair{"second.y[2]", 20.0},
+        std::pair{"second.y[3]", 2.0}, std::pair{"second.y[4]", 40.0}}) {
+    CHECK(signals.numbers(name).front() == value);
+    CHECK(signals.numbers(name).back() == value);
+  }
+  const Outcome checked = workspace.stride({"check", "test.ssd", "--set", "second.n=4"});
+  CAPTURE(checked.err);
+  CHECK_THAT(checked.out, Contains("first.y[2]  second.u[1]  Float64") &&
+                              Contains("Elements without connection, which keep their start "
+                                       "values\n  second.u: u[2], u[4]\n"));
+}
+
+TEST_CASE("bounds are those of the sizes that were set") {
+  const Workspace workspace(
+      Parts{component("first", "resizable.fmu") + component("second", "resizable.fmu"),
+            connection("first.y[3]", "second.u[1]")});
+  CHECK(workspace.run(with({"first.n=3", "first.gain=1 1 1"})).exit_code == 0);
+  CHECK_THAT(input_error_of(workspace.run(with({}))),
+             Contains(workspace.at("startElement=\"first\"")) &&
+                 Contains("unit 'first', variable 'y[3]': 'y' is an array of 2 elements, and the "
+                          "index 3 in [3] is not from 1 to 2"));
+}
+
+TEST_CASE("an array of FMI 3.0 is connected to scalars of FMI 2.0, and these to an array") {
+  const Workspace workspace(
+      Parts{component("first", "resizable.fmu") + component("old", "scalars") +
+                component("second", "resizable.fmu"),
+            connection("first.y", "old.u") + connection("old.y", "second.u")});
+  write_scalars(workspace, "scalars");
+  const Outcome outcome = workspace.run(with(
+      {"first.n=1", "second.n=1", "first.u=2", "first.gain=3", "old.gain=1", "second.gain=5"}));
+  CAPTURE(outcome.err);
+  REQUIRE(outcome.exit_code == 0);
+  CHECK(workspace.signals().numbers("second.y[1]").back() == 30);
+  CHECK_THAT(input_error_of(workspace.run(with({"second.n=1"}))),
+             Contains("cannot connect 'first.y' to 'old.u"));
+}

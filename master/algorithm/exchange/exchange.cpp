@@ -156,11 +156,18 @@ ValueSlice Exchange::slice(VariableId id) {
   return {&slot.transfer->block, slot.first, system_.variable(id).size};
 }
 
+ValueSlice Exchange::slice(const ElementRange& range) {
+  const ValueSlice whole = slice(range.id);
+  return {whole.block, whole.first + range.first, range.size};
+}
+
 void Exchange::add_copies(const Connection& connection) {
   const TransferSlot from = locate_output(connection.from);
   const TransferSlot to = locate_input(connection.to);
-  for (std::size_t i = 0; i < system_.variable(connection.from).size; ++i) {
-    add_copy(connection, to.transfer->block, to.first + i, from.transfer->block, from.first + i);
+  const std::size_t from_first = from.first + connection.from_first;
+  const std::size_t to_first = to.first + connection.to_first;
+  for (std::size_t i = 0; i < connection.size; ++i) {
+    add_copy(connection, to.transfer->block, to_first + i, from.transfer->block, from_first + i);
   }
 }
 
@@ -313,13 +320,13 @@ std::vector<ContinuousLink> Exchange::continuous_links() {
     const bool continuous = source.variability == Variability::Continuous &&
                             target.variability == Variability::Continuous;
     if (!continuous || source.is_clocked() || target.is_clocked()) continue;
-    const TransferSlot from = locate_output(connection.from);
-    const TransferSlot to = locate_input(connection.to);
-    for (std::size_t i = 0; i < source.size; ++i) {
+    const ValueSlice from = slice(connection.source());
+    const ValueSlice to = slice(connection.target());
+    for (std::size_t i = 0; i < connection.size; ++i) {
       links.push_back({connection.from,
                        connection.to,
-                       {&from.transfer->block, from.first + i},
-                       {&to.transfer->block, to.first + i},
+                       {from.block, from.first + i},
+                       {to.block, to.first + i},
                        connection.conversion.linear});
     }
   }

@@ -107,6 +107,7 @@ class Exchange {
   /// The value of a connected variable, for the evaluation of single variables: an output that was
   /// read is written there, and write_inputs() reads an input there. See OrderedExchange.
   ValueSlice slice(VariableId id);
+  ValueSlice slice(const ElementRange& range);
 
  private:
   /// Variables of one type of one unit, read or written by one call.

@@ -23,7 +23,8 @@ void SystemOutputs::connect(Exchange& exchange) {
 
 void SystemOutputs::update() {
   for (Output& output : outputs_) {
-    copy_elements(output.block, 0, *output.source.block, output.source.first, output.block.size(),
+    const std::size_t first = output.source.first + output.output->from_first;
+    copy_elements(output.block, 0, *output.source.block, first, output.block.size(),
                   output.output->conversion);
   }
 }

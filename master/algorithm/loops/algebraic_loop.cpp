@@ -51,14 +51,14 @@ AlgebraicLoop::AlgebraicLoop(RunContext& context, const EvaluationBlock& plan,
   if (LoopDerivatives::exist(system_, plan)) derivatives_.emplace(system_, context.units, plan);
   scale_.epsilon = epsilon(system_, plan);
   for (const TearingVariable& variable : plan.tearing_variables) {
-    const Variable& input = system_.variable(variable.inputs.front());
+    const Variable& input = system_.variable(variable.inputs.front().id);
     Tear tear{&variable,
               context.exchange.slice(variable.source),
               {},
-              ValueBlock(input.type, input.size),
+              ValueBlock(input.type, variable.source.size),
               is_real(input.type)};
-    for (const VariableId id : variable.inputs) tear.links.push_back(exchange.plan_link(id));
-    for (std::size_t i = 0; i < input.size; ++i) {
+    for (const ElementRange& to : variable.inputs) tear.links.push_back(exchange.plan_link(to));
+    for (std::size_t i = 0; i < variable.source.size; ++i) {
       unknowns_.push_back({tears_.size(), i});
       if (!tear.is_real) continue;
       reals_.push_back({tears_.size(), i});
@@ -96,7 +96,7 @@ bool AlgebraicLoop::has_converged(const Unknown& unknown) const {
   const ValueSlice input = tear.links.front().target_value();
   const std::size_t at = input.first + unknown.element;
   if (!tear.is_real) return is_same(*input.block, at, tear.result, unknown.element);
-  const double nominal = system_.variable(tear.links.front().target()).nominal;
+  const double nominal = system_.variable(tear.links.front().target().id).nominal;
   return core::has_converged(real(input, unknown.element), real(tear.result, unknown.element),
                              nominal, scale_.epsilon);
 }
@@ -226,11 +226,11 @@ std::string AlgebraicLoop::values_text() const {
     if (has_converged(unknown) || ++count > kMostValues) continue;
     const Tear& tear = tears_[unknown.tear];
     const ValueSlice input = tear.links.front().target_value();
-    std::string text = fmt::format(
-        "with {}{} = {} the loop returns {}", system_.full_name(tear.links.front().target()),
-        tear.result.size() == 1 ? "" : fmt::format("[{}]", unknown.element + 1),
-        element_text(*input.block, input.first + unknown.element),
-        element_text(tear.result, unknown.element));
+    const ElementRange to = tear.links.front().target();
+    std::string text = fmt::format("with {} = {} the loop returns {}",
+                                   system_.range_name({to.id, to.first + unknown.element, 1}),
+                                   element_text(*input.block, input.first + unknown.element),
+                                   element_text(tear.result, unknown.element));
     if (tear.is_real) {
       const double x = real(input, unknown.element);
       text += fmt::format(", a residual of {:.3g}", real(tear.result, unknown.element) - x);
@@ -246,7 +246,7 @@ std::string AlgebraicLoop::hint() const {
       "a unit in it whose output does not depend on its input at the same instant, as "
       "a delay or a state, breaks the loop; a start value of {} nearer to the solution "
       "may help",
-      system_.full_name(tears_.front().links.front().target()));
+      system_.range_name(tears_.front().links.front().target()));
   const std::string undeclared = undeclared_text(system_, plan_);
   return undeclared.empty() ? text
                             : text + "; " + undeclared + ", so all inputs are taken for them";

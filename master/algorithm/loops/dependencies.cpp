@@ -25,7 +25,9 @@ Dependencies::Dependencies(const System& system, Phase phase)
     : system_(system), phase_(phase), inputs_(system.components().size()) {
   for (const Connection& connection : system.connections()) {  // sorted by target
     if (!carries_value(system, connection, phase)) continue;
-    inputs_[connection.to.component].push_back(connection.to.variable);
+    std::vector<std::size_t>& inputs = inputs_[connection.to.component];
+    const bool is_next_element = !inputs.empty() && inputs.back() == connection.to.variable;
+    if (!is_next_element) inputs.push_back(connection.to.variable);
   }
   for (const Component& component : system.components()) {
     const auto [entry, is_new] = declared_.try_emplace(component.description.get());

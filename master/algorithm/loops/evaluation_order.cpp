@@ -31,14 +31,16 @@ class Network {
     add_nodes(Dependencies(system, phase), phase);
     for (const Connection& connection : system.connections()) {
       if (!carries_value(system, connection, phase)) continue;
-      sources_.emplace(connection.to, &connection);
+      sources_[connection.to].push_back(&connection);
       targets_[connection.from].push_back(&connection);
     }
     graph_.resize(nodes_.size());
     for (std::size_t i = 0; i < nodes_.size(); ++i) {
       for (const VariableId input : inputs_of(i)) {
         dependants_[input].push_back(i);
-        graph_[node_of_.at(source(input).from)].push_back(i);
+        for (const Connection* source : sources(input)) {
+          graph_[node_of_.at(source->from)].push_back(i);
+        }
       }
     }
   }
@@ -54,7 +56,14 @@ class Network {
     }
     return ids;
   }
-  const Connection& source(VariableId input) const { return *sources_.at(input); }
+  /// The connections that end at the inputs of a node, sorted by target.
+  std::vector<const Connection*> sources_of(std::size_t node) const {
+    std::vector<const Connection*> all;
+    for (const VariableId input : inputs_of(node)) {
+      all.insert(all.end(), sources(input).begin(), sources(input).end());
+    }
+    return all;
+  }
   std::size_t node_of(VariableId output) const { return node_of_.at(output); }
   /// The connections that begin at the output.
   const std::vector<const Connection*>& targets(VariableId output) const {
@@ -68,6 +77,11 @@ class Network {
   }
 
  private:
+  /// Several, where they end at different elements.
+  const std::vector<const Connection*>& sources(VariableId input) const {
+    return sources_.at(input);
+  }
+
   void add_nodes(const Dependencies& dependencies, Phase phase) {
     std::set<VariableId> outputs;
     for (const Connection& connection : system_.connections()) {
@@ -94,7 +108,7 @@ class Network {
   std::vector<Node> nodes_;
   Digraph graph_;
   std::map<VariableId, std::size_t> node_of_;  // of an output
-  std::map<VariableId, const Connection*> sources_;
+  std::map<VariableId, std::vector<const Connection*>> sources_;
   std::map<VariableId, std::vector<const Connection*>> targets_;
   std::map<VariableId, std::vector<std::size_t>> dependants_;
 };
@@ -126,14 +140,14 @@ class LoopPlanner {
   }
 
  private:
-  /// The edges within the loop, through those inputs for which `keeps` returns true.
+  /// The edges within the loop, through those connections for which `keeps` returns true.
   template <class Keeps>
   Digraph inner_edges(Keeps&& keeps) const {
     Digraph graph(nodes_.size());
     for (std::size_t i = 0; i < nodes_.size(); ++i) {
-      for (const VariableId input : network_.inputs_of(nodes_[i])) {
-        const auto from = local_.find(network_.node_of(network_.source(input).from));
-        if (from != local_.end() && keeps(input)) graph[from->second].push_back(i);
+      for (const Connection* connection : network_.sources_of(nodes_[i])) {
+        const auto from = local_.find(network_.node_of(connection->from));
+        if (from != local_.end() && keeps(*connection)) graph[from->second].push_back(i);
       }
     }
     return graph;
@@ -141,25 +155,25 @@ class LoopPlanner {
 
   /// Without them, no edge leads back in the order.
   void find_tears() {
-    const auto order = order_with_few_back_edges(inner_edges([](VariableId) { return true; }));
+    const auto order =
+        order_with_few_back_edges(inner_edges([](const Connection&) { return true; }));
     std::vector<std::size_t> position(order.size());
     for (std::size_t i = 0; i < order.size(); ++i) position[order[i]] = i;
-    using Key = std::tuple<VariableId, double, double, NumberMap, NumberMap, ValueType>;
+    using Key = std::tuple<ElementRange, double, double, NumberMap, NumberMap, ValueType>;
     std::map<Key, TearingVariable> tearing_variables;
     for (std::size_t i = 0; i < nodes_.size(); ++i) {
-      for (const VariableId input : network_.inputs_of(nodes_[i])) {
-        const Connection& connection = network_.source(input);
-        const auto from = local_.find(network_.node_of(connection.from));
+      for (const Connection* connection : network_.sources_of(nodes_[i])) {
+        const auto from = local_.find(network_.node_of(connection->from));
         if (from == local_.end()) continue;
-        inner_.insert(input);
-        if (position[from->second] < position[i] || !torn_.insert(input).second) continue;
-        const Conversion& conversion = connection.conversion;
+        inner_.insert(connection->to);
+        if (position[from->second] < position[i] || !torn_.insert(connection).second) continue;
+        const Conversion& conversion = connection->conversion;
         TearingVariable& variable = tearing_variables[{
-            connection.from, conversion.linear.factor, conversion.linear.offset, conversion.map,
-            conversion.truth, network_.system().variable(input).type}];
-        variable.source = connection.from;
+            connection->source(), conversion.linear.factor, conversion.linear.offset,
+            conversion.map, conversion.truth, network_.system().variable(connection->to).type}];
+        variable.source = connection->source();
         variable.conversion = conversion;
-        variable.inputs.push_back(input);
+        variable.inputs.push_back(connection->target());
       }
     }
     for (auto& [key, variable] : tearing_variables) {
@@ -170,7 +184,8 @@ class LoopPlanner {
   }
 
   void find_groups() {
-    const Digraph graph = inner_edges([&](VariableId input) { return torn_.count(input) == 0; });
+    const Digraph graph =
+        inner_edges([&](const Connection& connection) { return !torn_.contains(&connection); });
     std::vector<std::size_t> components;
     for (const std::size_t node : nodes_) components.push_back(network_.nodes()[node].component);
     for (std::vector<std::size_t>& group : grouped_order(graph, components)) {
@@ -180,47 +195,45 @@ class LoopPlanner {
   }
 
   void find_paths() {
-    std::set<VariableId> seen;
+    std::set<const Connection*> seen;
     for (const TearingVariable& variable : block_.tearing_variables) {
-      const VariableId input = variable.inputs.front();
-      if (seen.count(input) != 0) continue;
+      const Connection* torn = &network_.system().connection_to(variable.inputs.front());
+      if (seen.contains(torn)) continue;
       if (block_.paths.size() == kMostPaths) {
         ++block_.unnamed_paths;
         continue;
       }
-      std::vector<std::string> names;
-      for (const VariableId id : shortest_path(input)) {
-        names.push_back(network_.system().full_name(id));
-        seen.insert(id);
+      std::vector<std::string> names{network_.system().range_name(torn->target())};
+      for (const Connection* connection : shortest_path(torn)) {
+        names.push_back(network_.system().range_name(connection->source()));
+        names.push_back(network_.system().range_name(connection->target()));
+        seen.insert(connection);
       }
       block_.paths.push_back(fmt::format("{}", fmt::join(names, " -> ")));
     }
   }
 
-  /// From an input of a tearing variable through the loop back to it.
-  std::vector<VariableId> shortest_path(VariableId input) const {
-    const VariableId last = network_.source(input).from;
-    std::map<std::size_t, VariableId> reached_by;  // node -> input
+  /// From the end of a torn connection through the loop, with that connection as the last one.
+  std::vector<const Connection*> shortest_path(const Connection* torn) const {
+    std::map<std::size_t, const Connection*> reached_by;  // of a node
     std::vector<std::size_t> queue;
-    const auto reach = [&](VariableId through) {
-      for (const std::size_t node : network_.dependants(through)) {
+    const auto reach = [&](const Connection* through) {
+      for (const std::size_t node : network_.dependants(through->to)) {
         if (local_.count(node) == 0 || !reached_by.emplace(node, through).second) continue;
         queue.push_back(node);
       }
     };
-    reach(input);
-    for (std::size_t at = 0; reached_by.count(network_.node_of(last)) == 0; ++at) {
+    reach(torn);
+    for (std::size_t at = 0; !reached_by.contains(network_.node_of(torn->from)); ++at) {
       for (const VariableId output : network_.nodes()[queue[at]].outputs) {
-        for (const Connection* connection : network_.targets(output)) reach(connection->to);
+        for (const Connection* connection : network_.targets(output)) reach(connection);
       }
     }
-    std::vector<VariableId> path{input, last};
-    for (VariableId at = reached_by.at(network_.node_of(last)); at != input;
-         at = reached_by.at(network_.node_of(path.back()))) {
+    std::vector<const Connection*> path{torn};
+    for (const Connection* at = reached_by.at(network_.node_of(torn->from)); at != torn;
+         at = reached_by.at(network_.node_of(at->from))) {
       path.push_back(at);
-      path.push_back(network_.source(at).from);
     }
-    path.push_back(input);
     std::reverse(path.begin(), path.end());
     return path;
   }
@@ -230,7 +243,7 @@ class LoopPlanner {
     for (const std::size_t node : nodes_) {
       if (!network_.nodes()[node].declared) undeclared.insert(network_.nodes()[node].component);
     }
-    Digraph graph = inner_edges([](VariableId) { return true; });
+    Digraph graph = inner_edges([](const Connection&) { return true; });
     for (std::size_t i = 0; i < nodes_.size(); ++i) {
       if (!network_.nodes()[nodes_[i]].declared) graph[i].clear();
     }
@@ -244,7 +257,7 @@ class LoopPlanner {
   const std::vector<std::size_t>& nodes_;
   std::map<std::size_t, std::size_t> local_;  // node -> its place in nodes_
   std::set<VariableId> inner_;                // inputs
-  std::set<VariableId> torn_;                 // those of the tearing_variables
+  std::set<const Connection*> torn_;          // those of the tearing_variables
   EvaluationBlock block_;
 };
 

@@ -17,11 +17,12 @@ struct OutputGroup {
   std::vector<VariableId> outputs;  ///< sorted
 };
 
-/// Where a loop is torn: these inputs get the same value from one output, and it is solved for.
+/// Where a loop is torn: these inputs, or elements of them, get the same value from one output, and
+/// it is solved for.
 struct TearingVariable {
-  VariableId source;
+  ElementRange source;
   Conversion conversion;
-  std::vector<VariableId> inputs;  ///< sorted
+  std::vector<ElementRange> inputs;  ///< sorted; the target of one connection each
 };
 
 /// What is evaluated at once: outputs of one component, or an algebraic loop.

@@ -51,16 +51,17 @@ void LoopDerivatives::add_derivatives(const OutputGroup& group) {
 
 /// Tearing variables keep their values within a sweep.
 void LoopDerivatives::add_carried() {
-  std::set<VariableId> torn;
+  std::set<ElementRange> torn;
   for (const TearingVariable& variable : loop_.tearing_variables)
     torn.insert(variable.inputs.begin(), variable.inputs.end());
   for (std::size_t i = 0; i < loop_.groups.size(); ++i) {
     for (const Connection& connection : system_.connections()) {
       const auto to = input_offsets_.find(connection.to);
       const bool begins_here = std::ranges::binary_search(loop_.groups[i].outputs, connection.from);
-      if (!begins_here || to == input_offsets_.end() || torn.contains(connection.to)) continue;
-      carried_.push_back({i, output_offsets_.at(connection.from), to->second,
-                          system_.variable(connection.to).size,
+      if (!begins_here || to == input_offsets_.end() || torn.contains(connection.target()))
+        continue;
+      carried_.push_back({i, output_offsets_.at(connection.from) + connection.from_first,
+                          to->second + connection.to_first, connection.size,
                           connection.conversion.linear.factor});
     }
   }
@@ -68,8 +69,8 @@ void LoopDerivatives::add_carried() {
 
 void LoopDerivatives::derive(std::size_t variable, std::size_t element, std::span<double> column) {
   std::ranges::fill(inputs_, 0.0);
-  for (const VariableId id : loop_.tearing_variables[variable].inputs) {
-    inputs_[input_offsets_.at(id) + element] = 1;
+  for (const ElementRange& input : loop_.tearing_variables[variable].inputs) {
+    inputs_[input_offsets_.at(input.id) + input.first + element] = 1;
   }
   auto carried = carried_.begin();
   for (std::size_t i = 0; i < derivatives_.size(); ++i) {
@@ -86,8 +87,8 @@ void LoopDerivatives::derive(std::size_t variable, std::size_t element, std::spa
   }
   std::size_t row = 0;
   for (const TearingVariable& back : loop_.tearing_variables) {
-    const std::size_t from = output_offsets_.at(back.source);
-    for (std::size_t k = 0; k < system_.variable(back.source).size; ++k) {
+    const std::size_t from = output_offsets_.at(back.source.id) + back.source.first;
+    for (std::size_t k = 0; k < back.source.size; ++k) {
       column[row++] = back.conversion.linear.factor * outputs_[from + k];
     }
   }

@@ -12,6 +12,21 @@ class AllUnits : public OrderedEvaluation::Participants {
   bool include(std::size_t) override { return false; }
 };
 
+/// Of arrays that are connected in part: they are written as a whole, so what is not connected is
+/// written, too.
+void read_start_values(RunContext& context) {
+  const UnitTimer timer(context.clock, context.statistics.units,
+                        &UnitStatistics::initialization_time);
+  for (const VariableId id : context.system.partly_connected_inputs()) {
+    const Variable& input = context.system.variable(id);
+    ValueBlock values(input.type, input.size);
+    timer.timed(id.component, [&] {
+      context.units[id.component]->get({&input.reference, 1}, values);
+    });
+    copy_elements(context.exchange.slice(id), {&values, 0, input.size});
+  }
+}
+
 }  // namespace
 
 OrderedEvaluation::OrderedEvaluation(RunContext& context, Phase phase, UnitTimer::Sum time)
@@ -21,10 +36,10 @@ OrderedEvaluation::OrderedEvaluation(RunContext& context, Phase phase, UnitTimer
       order_(evaluation_order(system_, phase)),
       ordered_exchange_(context, UnitTimer(context.clock, context.statistics.units, time),
                         phase == Phase::Initialization) {
-  std::map<VariableId, std::vector<VariableId>> targets;
+  Targets targets;
   for (const Connection& connection : system_.connections()) {
     if (carries_value(system_, connection, phase)) {
-      targets[connection.from].push_back(connection.to);
+      targets[connection.from].push_back(connection.target());
     }
   }
   blocks_.reserve(order_.size());
@@ -37,17 +52,17 @@ void OrderedEvaluation::plan(const EvaluationBlock& planned, const Targets& targ
   Block& block = blocks_.emplace_back();
   block.plan = &planned;
   std::set<VariableId> inner(planned.inputs.begin(), planned.inputs.end());
-  std::set<VariableId> torn;
+  std::set<ElementRange> torn;
   if (planned.is_loop()) block.loop.emplace(context, planned, ordered_exchange_);
   for (const TearingVariable& variable : planned.tearing_variables)
     torn.insert(variable.inputs.begin(), variable.inputs.end());
-  std::vector<VariableId> onward;
+  std::vector<ElementRange> onward;
   for (const OutputGroup& group : planned.groups) {
     GroupEvaluation& evaluation =
         block.groups.emplace_back(GroupEvaluation{ordered_exchange_.plan_read(group), {}});
     for (const VariableId output : group.outputs) {
-      for (const VariableId input : targets.at(output)) {
-        if (planned.is_loop() && inner.count(input) == 0) {
+      for (const ElementRange& input : targets.at(output)) {
+        if (planned.is_loop() && inner.count(input.id) == 0) {
           onward.push_back(input);
         } else if (torn.count(input) == 0) {
           evaluation.links.push_back(ordered_exchange_.plan_link(input));
@@ -55,7 +70,8 @@ void OrderedEvaluation::plan(const EvaluationBlock& planned, const Targets& targ
       }
     }
   }
-  for (const VariableId input : onward) block.onward.push_back(ordered_exchange_.plan_link(input));
+  for (const ElementRange& input : onward)
+    block.onward.push_back(ordered_exchange_.plan_link(input));
 }
 
 void OrderedEvaluation::find_direct_inputs() {
@@ -107,7 +123,7 @@ void OrderedEvaluation::evaluate(GroupEvaluation& group) {
 }
 
 void OrderedEvaluation::route(OrderedExchange::Link& link) {
-  if (ordered_exchange_.route(link)) report(link.target());
+  if (ordered_exchange_.route(link)) report(link.target().id);
 }
 
 void OrderedEvaluation::report(VariableId input) {
@@ -169,6 +185,7 @@ void OrderedEvaluation::check_nan(const Block& block) const {
 
 void set_initial_values(RunContext& context, Time start) {
   AllUnits all;
+  read_start_values(context);
   OrderedEvaluation(context, Phase::Initialization, &UnitStatistics::initialization_time)
       .run(start, all);
 }

@@ -67,7 +67,7 @@ class OrderedEvaluation {
     std::vector<OrderedExchange::Link> onward;  ///< out of the loop
   };
 
-  using Targets = std::map<VariableId, std::vector<VariableId>>;  // of an output
+  using Targets = std::map<VariableId, std::vector<ElementRange>>;  // of an output
   void plan(const EvaluationBlock& planned, const Targets& targets, RunContext& context);
   void find_direct_inputs();
   void evaluate(GroupEvaluation& group);

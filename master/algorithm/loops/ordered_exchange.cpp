@@ -40,18 +40,18 @@ OrderedExchange::OutputRead OrderedExchange::plan_read(const OutputGroup& group)
   return read;
 }
 
-OrderedExchange::Link OrderedExchange::plan_link(VariableId id) {
-  const auto& all = system_.connections();
-  const Connection& connection = *std::lower_bound(
-      all.begin(), all.end(), id, [](const Connection& c, VariableId to) { return c.to < to; });
+OrderedExchange::Link OrderedExchange::plan_link(const ElementRange& target) {
+  const Connection& connection = system_.connection_to(target);
   const Variable& input = system_.variable(connection.to);
   Batch*& batch = open_[{connection.to.component, input.type}];
   if (batch == nullptr) batch = &batches_.emplace_back(make_batch(input.type, all_new_));
-  add(*batch, connection.to);
+  const bool is_there =
+      !system_.is_whole(target) && std::ranges::count(batch->references, input.reference) > 0;
+  if (!is_there) add(*batch, connection.to);
   Link link;
   link.connection_ = &connection;
-  link.from_ = exchange_.slice(connection.from);
-  link.to_ = exchange_.slice(connection.to);
+  link.from_ = exchange_.slice(connection.source());
+  link.to_ = exchange_.slice(target);
   link.batch_ = batch;
   return link;
 }
@@ -92,14 +92,15 @@ bool OrderedExchange::route(Link& link) {
 
 void OrderedExchange::make_due(Link& link) {
   if (std::exchange(link.batch_->is_due, true)) return;
-  due_[link.target().component].push_back(link.batch_);
+  due_[link.target().id.component].push_back(link.batch_);
 }
 
 void OrderedExchange::read_input(Link& link) {
-  const Variable& input = system_.variable(link.target());
+  const ElementRange target = link.target();
+  const Variable& input = system_.variable(target.id);
   ValueBlock value(input.type, input.size);
-  units_[link.target().component]->get({&input.reference, 1}, value);
-  copy_elements(link.to_, {&value, 0, input.size});
+  units_[target.id.component]->get({&input.reference, 1}, value);
+  copy_elements(link.to_, {&value, target.first, target.size});
 }
 
 bool OrderedExchange::has_nan(const OutputRead& read) const {

@@ -42,7 +42,7 @@ class OrderedExchange {
 
   class Link {
    public:
-    VariableId target() const { return connection_->to; }
+    ElementRange target() const { return connection_->target(); }
     const ValueSlice& target_value() const { return to_; }
 
    private:
@@ -62,8 +62,8 @@ class OrderedExchange {
   };
 
   OutputRead plan_read(const OutputGroup& group);
-  /// The connection that ends at the input.
-  Link plan_link(VariableId input);
+  /// The connection whose target it is.
+  Link plan_link(const ElementRange& target);
 
   /// Discards pending writes.
   void begin();
@@ -71,7 +71,8 @@ class OrderedExchange {
   void evaluate(OutputRead& read);
   /// Writes what was routed to the component.
   void write_inputs(std::size_t component);
-  /// Copies an output's value to the input; returns whether the input changes.
+  /// Copies an output's value to the input; returns whether the input changes. All of an array is
+  /// written, of which elements are connected one by one.
   bool route(Link& link);
   /// The input was changed in the exchange, see Link::target_value().
   void touch(Link& link) { make_due(link); }

@@ -27,8 +27,8 @@ std::vector<std::string> connections_without_events(const System& system) {
   std::vector<std::string> names;
   for (const Connection& connection : system.connections()) {
     if (!changes_without_event(system, connection.from)) continue;
-    names.push_back(
-        fmt::format("{} → {}", system.full_name(connection.from), system.full_name(connection.to)));
+    names.push_back(fmt::format("{} → {}", system.range_name(connection.source()),
+                                system.range_name(connection.target())));
   }
   return names;
 }

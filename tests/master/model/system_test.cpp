@@ -453,3 +453,200 @@ TEST_CASE("a start value as other tools write it is taken, with a warning") {
   CHECK_THAT(system.warnings()[0],
              Contains("s.ssd:12: unit 'beta', variable 'n': '2.0' is taken for 2"));
 }
+
+// ---- Elements of arrays ----
+
+namespace {
+
+std::shared_ptr<const UnitDescription> with_arrays() {
+  return Describe("arrays")
+      .unit("m", kMetres)
+      .unit("mm", kMillimetres)
+      .input("u", "m")
+      .size(3)
+      .output("y", "mm")
+      .size(3)
+      .add("flags", ValueType::Boolean, Causality::Input)
+      .size(2)
+      .add("clock", ValueType::Clock, Causality::Output)
+      .add("frames", ValueType::Binary, Causality::Output)
+      .size(2)
+      .clocked_by(3)
+      .done();
+}
+
+std::shared_ptr<const UnitDescription> with_scalars() {
+  return Describe("scalars")
+      .unit("m", kMetres)
+      .output("y[3]", "m")
+      .output("y[1]", "m")
+      .output("y[2]", "m")
+      .input("u[1]", "m")
+      .input("u[2]", "m")
+      .input("u[3]", "m")
+      .input("v[1]", "m")
+      .input("v[2]", "m")
+      .add("flag", ValueType::Boolean, Causality::Output)
+      .add("frame", ValueType::Binary, Causality::Input)
+      .done();
+}
+
+ConnectionDeclaration from_to(const std::string& from, const std::string& to, int line = 9) {
+  const auto split = [](const std::string& name) {
+    const std::size_t dot = name.find('.');
+    return std::pair(name.substr(0, dot), name.substr(dot + 1));
+  };
+  return {split(from).first, split(from).second, split(to).first, split(to).second, false,
+          {"s.ssd", line}};
+}
+
+SystemDeclaration arrays_and_scalars(std::vector<ConnectionDeclaration> connections) {
+  SystemDeclaration system;
+  system.name = "elements";
+  system.components = {{"a", with_arrays(), {}, {"s.ssd", 3}},
+                       {"b", with_arrays(), {}, {"s.ssd", 4}},
+                       {"s", with_scalars(), {}, {"s.ssd", 5}}};
+  system.connections = std::move(connections);
+  return system;
+}
+
+/// "a.y[1]>s.u[1] × 0.001", sorted by target.
+std::vector<std::string> made(std::vector<ConnectionDeclaration> connections) {
+  const System system(arrays_and_scalars(std::move(connections)));
+  std::vector<std::string> texts;
+  for (const Connection& connection : system.connections()) {
+    texts.push_back(fmt::format("{}>{} × {}", system.range_name(connection.source()),
+                                system.range_name(connection.target()),
+                                connection.conversion.linear.factor));
+  }
+  return texts;
+}
+
+using WireTexts = std::vector<std::string>;
+
+}  // namespace
+
+TEST_CASE("an element of an array is connected by its name, and converted") {
+  CHECK(made({from_to("a.y[2]", "s.u[1]"), from_to("s.y[3]", "b.u[1]"), from_to("a.y[1]", "b.u[3]"),
+              from_to("s.flag", "a.flags[2]")}) ==
+        WireTexts{"s.flag>a.flags[2] × 1", "s.y[3]>b.u[1] × 1", "a.y[1]>b.u[3] × 0.001",
+                  "a.y[2]>s.u[1] × 0.001"});
+}
+
+TEST_CASE("an array is connected to scalars that are its elements, and these to it") {
+  CHECK(made({from_to("a.y", "s.u"), from_to("s.y", "b.u")}) ==
+        WireTexts{"s.y[1]>b.u[1] × 1", "s.y[2]>b.u[2] × 1", "s.y[3]>b.u[3] × 1",
+                  "a.y[1]>s.u[1] × 0.001", "a.y[2]>s.u[2] × 0.001", "a.y[3]>s.u[3] × 0.001"});
+  CHECK(made({from_to("s.y", "s.u")}) ==
+        WireTexts{"s.y[1]>s.u[1] × 1", "s.y[2]>s.u[2] × 1", "s.y[3]>s.u[3] × 1"});
+  CHECK(made({from_to("a.y", "b.u")}) == WireTexts{"a.y>b.u × 0.001"});
+}
+
+TEST_CASE("elements without a connection are known") {
+  const System system(arrays_and_scalars(
+      {from_to("s.y[1]", "a.u[2]"), from_to("s.y", "b.u"), from_to("s.flag", "b.flags[2]")}));
+  const VariableId a_u{0, 0}, b_u{1, 0}, b_flags{1, 2};
+  CHECK(system.partly_connected_inputs() == std::vector<VariableId>{a_u, b_flags});
+  CHECK(system.unconnected_elements(a_u) == std::vector<ElementRange>{{a_u, 0, 1}, {a_u, 2, 1}});
+  CHECK(system.unconnected_elements(b_u).empty());
+  CHECK(system.unconnected_elements(b_flags) == std::vector<ElementRange>{{b_flags, 0, 1}});
+}
+
+TEST_CASE("parts of arrays that do not fit are errors") {
+  const auto reason_of = [](std::vector<ConnectionDeclaration> connections) {
+    return reason(arrays_and_scalars(std::move(connections)));
+  };
+  CHECK_THAT(reason_of({from_to("a.y[4]", "s.u[1]")}),
+             StartsWith("s.ssd:9: unit 'a', variable 'y[4]': 'y' is an array of 3 elements, and "
+                        "the index 4 in [4] is not from 1 to 3"));
+  CHECK_THAT(reason_of({from_to("a.y[0]", "s.u[1]")}), Contains("indices start at 1"));
+  CHECK_THAT(reason_of({from_to("a.y", "s.u[1]")}),
+             Contains("cannot connect 'a.y' to 's.u[1]': an array of 3 elements and a scalar") &&
+                 Contains("such as 'x[1]'"));
+  CHECK_THAT(reason_of({from_to("a.y", "s.v")}),
+             Contains("'a.y' to 's.v': an array of 3 elements and scalars of 2 elements"));
+  CHECK_THAT(reason_of({from_to("a.y", "s.w")}), Contains("has no such variable"));
+  CHECK_THAT(reason_of({from_to("a.y[1]", "b.y[2]")}),
+             Contains("cannot connect 'a.y[1]' to 'b.y[2]': 'b.y[2]' is not an input"));
+}
+
+TEST_CASE("an element has one source, which may be that of the whole array") {
+  const auto reason_of = [](std::vector<ConnectionDeclaration> connections) {
+    return reason(arrays_and_scalars(std::move(connections)));
+  };
+  CHECK_THAT(reason_of({from_to("s.y[1]", "a.u[2]", 7), from_to("s.y[2]", "a.u[2]", 8)}),
+             StartsWith("s.ssd:8: unit 'a', variable 'u[2]': this input has two sources: 's.y[2]' "
+                        "here and 's.y[1]' in line 7"));
+  CHECK_THAT(reason_of({from_to("b.y", "a.u", 7), from_to("s.y[2]", "a.u[3]", 8)}),
+             StartsWith("s.ssd:8: unit 'a', variable 'u[3]': this input has two sources: 's.y[2]' "
+                        "here and 'b.y' in line 7, for 'a.u'"));
+  CHECK_THAT(reason_of({from_to("s.y[2]", "a.u[3]", 7), from_to("b.y", "a.u", 8)}),
+             Contains("'b.y' here and 's.y[2]' in line 7, for 'a.u[3]'"));
+  CHECK_THAT(reason_of({from_to("s.y[2]", "a.u[1]", 7), from_to("s.y", "a.u", 8)}),
+             Contains("'s.y[1]' here and 's.y[2]' in line 7"));
+  const System twice(
+      arrays_and_scalars({from_to("s.y[1]", "a.u[2]", 7), from_to("s.y[1]", "a.u[2]", 8)}));
+  CHECK(twice.connections().size() == 1);
+  REQUIRE(twice.warnings().size() == 1);
+  CHECK_THAT(twice.warnings()[0], Contains("'s.y[1]' to 'a.u[2]' is there already, in line 7"));
+}
+
+TEST_CASE("a message is not taken apart") {
+  CHECK_THAT(reason(arrays_and_scalars({from_to("a.frames[1]", "s.frame")})),
+             Contains("'a.frames' is a message, which is sent and received as a whole"));
+}
+
+TEST_CASE("elements of a continuous input are connected to clocked outputs all, or none") {
+  SystemDeclaration system = arrays_and_scalars({});
+  system.components.push_back({"c",
+                               Describe("sampler")
+                                   .clock("tick", IntervalVariability::Constant, Interval{})
+                                   .output("y", "m")
+                                   .clocked_by(0)
+                                   .done(),
+                               {},
+                               {"s.ssd", 6}});
+  system.connections = {from_to("s.y[1]", "a.u[1]", 7), from_to("c.y", "a.u[3]", 8)};
+  CHECK_THAT(reason(system),
+             StartsWith("s.ssd:8: unit 'a', variable 'u': 'c.y', which belongs to a clock, is "
+                        "connected to 'a.u[3]', and 's.y[1]', which does not, to 'a.u[1]' in line "
+                        "7"));
+  system.connections = {from_to("c.y", "a.u[1]", 7), from_to("c.y", "a.u[3]", 8)};
+  CHECK(reason(system) == "accepted");
+}
+
+TEST_CASE("declared connectors may be elements, and their dimensions are checked") {
+  SystemDeclaration system = arrays_and_scalars({from_to("a.y", "s.u")});
+  const auto declare = [&](const std::string& name, std::vector<DimensionDeclaration> dimensions) {
+    ConnectorDeclaration connector{name, ValueType::Float64, {}, {}, {"s.ssd", 6}};
+    connector.dimensions = std::move(dimensions);
+    return connector;
+  };
+  const auto reason_with = [&](std::size_t component, const ConnectorDeclaration& connector) {
+    system.components[component].connectors = {connector};
+    std::string text = reason(system);
+    system.components[component].connectors.clear();
+    return text;
+  };
+  CHECK(reason_with(0, declare("y[2]", {})) == "accepted");
+  CHECK(reason_with(0, declare("y", {{3, ""}})) == "accepted");
+  CHECK(reason_with(0, declare("y", {{{}, "n"}})) == "accepted");
+  CHECK(reason_with(2, declare("u", {{3, ""}})) == "accepted");
+  CHECK_THAT(reason_with(0, declare("y[4]", {})), Contains("the index 4 in [4]"));
+  CHECK_THAT(reason_with(0, declare("y", {{2, ""}})),
+             StartsWith("s.ssd:6: unit 'a', variable 'y': the connector has the dimensions 2, the "
+                        "unit has 3"));
+  CHECK_THAT(reason_with(0, declare("y", {{3, ""}, {{}, "n"}})),
+             Contains("3 × 'n', the unit has 3"));
+  CHECK_THAT(reason_with(2, declare("y[1]", {{3, ""}})), Contains("the unit has a scalar"));
+}
+
+TEST_CASE("a warning that a value is replaced is for what is connected as a whole") {
+  SystemDeclaration system =
+      arrays_and_scalars({from_to("s.y[1]", "a.u[2]"), from_to("s.y", "b.u")});
+  system.start_values = {{"a", "u", "1 2 3", {}, {"--set", 0}},
+                         {"b", "u", "1 2 3", {}, {"--set", 0}}};
+  const System built(system);
+  REQUIRE(built.warnings().size() == 1);
+  CHECK_THAT(built.warnings()[0], Contains("'b.u' is connected to 's.y[1]'"));
+}

@@ -273,3 +273,42 @@ TEST_CASE("the error of a connection without an end has its place") {
     CHECK_THROWS_WITH(read(text), Contains("x.ssd:") && Contains(message));
   }
 }
+
+TEST_CASE("indices restrict a connection to an element, which gets its name from them") {
+  const std::string inside = system("s", connector("y", "output"), component("c"),
+                                    wire("c.m", "y", "", "startIndices='2 3' "));
+  const Scenario scenario =
+      read(ssd(system("root", "", component("a") + inside,
+                      wire("s.y", "a.u", "", "endIndices='1'") + wire("a.v[4]", "a.w[5]"))));
+  CHECK(paths(scenario) == Strings{"a.v[4] > a.w[5]", "s.c.m[2,3] > s.y > a.u[1]"});
+  CHECK_THAT(
+      error_of([&] {
+        read(ssd(system("root", "", component("a"), wire("a.y", "a.u", "", "startIndices='1,2'"))));
+      }),
+      Contains("startIndices"));
+}
+
+TEST_CASE("the kind of an array's connector is that of its elements, too") {
+  const std::string declared = "<ssd:Component name='a' source='a.fmu'><ssd:Connectors>" +
+                               connector("u", "input") + connector("y", "output") +
+                               "</ssd:Connectors></ssd:Component>\n";
+  const Scenario scenario = read(ssd(system("root", "", declared, wire("a.u[1]", "a.y[2]"))));
+  CHECK(paths(scenario) == Strings{"a.y[2] > a.u[1]"});
+}
+
+TEST_CASE("the dimensions of connectors are read, each with its size or the name of it") {
+  const auto declared = [](const std::string& dimensions) {
+    return "<ssd:Component name='a' source='a.fmu'><ssd:Connectors>" +
+           connector("u", "input", "<ssc:Float64/>" + dimensions) +
+           "</ssd:Connectors></ssd:Component>\n";
+  };
+  const Scenario scenario = read(ssd(system(
+      "root", "", declared("<ssc:Dimension size='3'/><ssc:Dimension sizeConnector='n'/>"), "")));
+  const auto& dimensions = scenario.system.components[0].connectors[0].dimensions;
+  REQUIRE(dimensions.size() == 2);
+  CHECK(dimensions[0].size == 3);
+  CHECK(dimensions[1].size == std::nullopt);
+  CHECK(dimensions[1].size_connector == "n");
+  CHECK_THAT(error_of([&] { read(ssd(system("root", "", declared("<ssc:Dimension/>"), ""))); }),
+             Contains("needs one of the attributes 'size' and 'sizeConnector'"));
+}

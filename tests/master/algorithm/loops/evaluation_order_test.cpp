@@ -58,8 +58,8 @@ struct Net {
     std::string text;
     for (const TearingVariable& variable : loop.tearing_variables) {
       std::string inputs;
-      for (const VariableId id : variable.inputs) {
-        inputs += (inputs.empty() ? "" : "=") + system.full_name(id);
+      for (const ElementRange& input : variable.inputs) {
+        inputs += (inputs.empty() ? "" : "=") + system.range_name(input);
       }
       text += (text.empty() ? "" : ",") + inputs;
     }

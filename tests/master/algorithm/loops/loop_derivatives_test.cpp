@@ -74,7 +74,7 @@ TEST_CASE("the chain rule runs through arrays and units of measurement") {
   derivatives.derive(0, 0, first);
   derivatives.derive(0, 1, second);
   // the loop is torn before one of the two; the product of the matrices is that of the other then
-  const bool torn_before_a = order[0].tearing_variables[0].inputs[0].component == 0;
+  const bool torn_before_a = order[0].tearing_variables[0].inputs[0].id.component == 0;
   if (torn_before_a) {
     CHECK(first == std::vector<double>{5, 40});    // b (a e1), in metres again
     CHECK(second == std::vector<double>{10, 58});  // b (a e2)
