@@ -122,6 +122,19 @@ TEST_CASE(
   CHECK(workspace.signals().numbers("time") == std::vector<double>{0});
 }
 
+TEST_CASE("what has a start value can be set in a unit of FMI 1.0, an output, too") {
+  const Workspace workspace(Parts{component("tank", "fmi1_tank.fmu")});
+  const Outcome outcome = workspace.run({"--quiet", "--stop", "1", "--set", "tank.level=3"});
+  INFO(outcome.err);
+  REQUIRE(outcome.exit_code == 0);
+  const auto levels = workspace.signals().numbers("tank.level [m]");
+  CHECK(levels.front() == 3);
+  CHECK(levels.back() == Approx(4));
+  const std::string refused = input_error_of(workspace.run({"--set", "tank.temper=1"}));
+  CHECK_THAT(refused, Contains("a discrete local without a start value cannot be set") &&
+                          Contains("in FMI 1.0") && !Contains("initial"));
+}
+
 TEST_CASE("others go back to where a unit of FMI 1.0 came in a step that it discarded") {
   const Workspace workspace(
       Parts{component("filter", "minimal.fmu") + component("tank", "fmi1_hasty_tank.fmu"),

@@ -111,9 +111,9 @@ class Fmi1Variables {
     variable.description = element.attribute_or("description");
     variable.type = type;
     read_kind(element, variable);
-    variable.initial = read_initial(element, variable);
     variable.start = typed.attribute_or("start");
     check_start(typed, variable, unit_.warnings);
+    variable.initial = initial_of(typed, variable);
     const auto declared = types_.declared(typed);
     variable.unit = inherited(typed, declared, "unit");
     variable.min = inherited(typed, declared, "min");
@@ -145,6 +145,16 @@ class Fmi1Variables {
                          : variability == "parameter" ? Causality::Parameter
                          : causality == "input"       ? Causality::Input
                                                       : Causality::Local;
+  }
+
+  /// What has a start value can be set before fmiInitializeSlave, which may replace a value that is
+  /// no parameter or input (FMI 1.0 for Model Exchange, 3.3).
+  static core::Initial initial_of(const xml::Element& typed, const core::Variable& variable) {
+    if (variable.variability == Variability::Constant) return core::Initial::Exact;
+    if (variable.causality == Causality::Parameter || variable.causality == Causality::Input) {
+      return core::Initial::Exact;
+    }
+    return typed.attribute("start") ? core::Initial::Approx : core::Initial::Calculated;
   }
 
   /// They are numbered from 1 in their order.
