@@ -68,11 +68,26 @@ std::vector<Initial> possible_initials(const core::Variable& variable) {
 
 }  // namespace
 
-void VariableNames::add(const std::string& name, const xml::Element& place) {
-  const auto [same, is_new] = lines_.emplace(name, place.where().line);
-  if (is_new) return;
-  place.fail(
-      fmt::format("the variable name '{}' is used twice, first in line {}", name, same->second));
+std::optional<std::size_t> VariableNames::add(const std::string& name, const xml::Element& place,
+                                              const IsSame& is_same) {
+  const auto [entry, is_new] =
+      first_.try_emplace(name, First{unit_.variables.size(), place.where().line});
+  if (is_new) return std::nullopt;
+  const auto& [first, line] = entry->second;
+  const bool is_ambiguous = !is_same(first);
+  if (is_ambiguous) unit_.ambiguous_names.insert(name);
+  unit_.warnings.push_back(
+      core::to_text({.where = place.where()}) +
+      fmt::format("the variable name '{}' is used twice, first in line {}: {}", name, line,
+                  is_ambiguous ? "the first one counts, and none can be connected, set or "
+                                 "recorded by this name"
+                               : "they are the same"));
+  return first;
+}
+
+bool are_declared_alike(const core::Variable& a, const core::Variable& b) {
+  return a.type == b.type && a.causality == b.causality && a.variability == b.variability &&
+         a.unit == b.unit;
 }
 
 void TypeDefinitions::add(const xml::Element& definition, const xml::Element& type) {

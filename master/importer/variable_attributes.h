@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
 #include <set>
@@ -26,15 +27,29 @@ std::optional<Enum> find_named(std::string_view word, std::size_t count) {
   return std::nullopt;
 }
 
-/// The names of the variables and aliases of a description.
+/// The names of the variables and aliases of a description, of which each is to be there once.
 class VariableNames {
  public:
-  /// Throws core::Error of the kind Input at `place` for a name that is there already.
-  void add(const std::string& name, const xml::Element& place);
+  explicit VariableNames(core::UnitDescription& unit) : unit_(unit) {}
+
+  /// A name of the variable that is the next one of the description. If another one has it already,
+  /// its index, and the name is not to be added: there is a warning, and the name is ambiguous
+  /// unless both are the same.
+  using IsSame = std::function<bool(std::size_t first)>;
+  std::optional<std::size_t> add(const std::string& name, const xml::Element& place,
+                                 const IsSame& is_same);
 
  private:
-  std::map<std::string, int> lines_;
+  struct First {
+    std::size_t variable;
+    int line;
+  };
+  core::UnitDescription& unit_;
+  std::map<std::string, First> first_;
 };
+
+/// Whether variables of one name and one value reference are declared alike.
+bool are_declared_alike(const core::Variable& a, const core::Variable& b);
 
 /// The types that are declared by name, each by the element that defines it.
 class TypeDefinitions {

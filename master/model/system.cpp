@@ -262,6 +262,7 @@ ConnectorElements System::find_elements(const Context& context,
                                         const SystemDeclaration& expecting) {
   const std::size_t index = find_component(context.unit, context.where);
   const UnitDescription& description = *components_[index].description;
+  check_unambiguous(context, description);
   if (auto found = core::find_elements(names_, index, description, context)) return *found;
   fail_unknown(context, description, &expecting);
 }
@@ -355,8 +356,10 @@ std::vector<System::Target> System::find_targets(const SystemDeclaration& declar
     const VariableId id{component, *place};
     found_groups.insert(wanted.group);
     diagnostics.attempt([&] {
-      check_settable(*components_[component].description, variable(id),
-                     {wanted.where, wanted.component, wanted.variable, {}});
+      const UnitDescription& description = *components_[component].description;
+      const Context context{wanted.where, wanted.component, wanted.variable, {}};
+      check_unambiguous(context, description);
+      check_settable(description, variable(id), context);
       targets.push_back({&wanted, id});
     });
   }

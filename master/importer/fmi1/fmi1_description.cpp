@@ -61,12 +61,12 @@ bool read_fmi1_capabilities(const xml::Element& stand_alone, core::UnitDescripti
 class Fmi1Variables {
  public:
   Fmi1Variables(const xml::Element& root, core::UnitDescription& unit)
-      : unit_(unit), types_(unit.warnings) {
+      : unit_(unit), types_(unit.warnings), names_(unit) {
     const auto list = root.child("ModelVariables");
     if (!list) root.fail("<ModelVariables> is missing");
     read_types(root);
-    const std::vector<xml::Element> elements = list->children("ScalarVariable");
-    for (const xml::Element& element : elements) add(element);
+    std::vector<xml::Element> elements = list->children("ScalarVariable");
+    std::erase_if(elements, [this](const xml::Element& element) { return !add(element); });
     for (const xml::Element& element : elements) add_output(element);
   }
 
@@ -83,21 +83,29 @@ class Fmi1Variables {
     }
   }
 
-  void add(const xml::Element& element) {
+  /// Returns whether it is there now.
+  bool add(const xml::Element& element) {
     core::Variable variable = read(element);
     const bool is_negated = element.attribute("alias") == "negatedAlias";
     if (is_negated && !can_be_negated(variable.type)) {
       unit_.warnings.push_back(core::to_text({.where = element.where()}) +
                                fmt::format("'{}' is left out: no {} can be a negatedAlias",
                                            variable.name, core::name(variable.type)));
-      return;
+      return false;
     }
+    const auto reference = element.required_number<fmi1ValueReference>("valueReference");
+    const auto is_same = [&](std::size_t first) {
+      return attributes_.references[first] == reference &&
+             attributes_.negated[first] == is_negated &&
+             are_declared_alike(unit_.variables[first], variable);
+    };
+    if (names_.add(variable.name, element, is_same)) return false;
     variable.reference = static_cast<core::ValueReference>(unit_.variables.size());
-    names_.add(variable.name, element);
     places_.emplace(variable.name, variable.reference);
-    attributes_.references.push_back(element.required_number<fmi1ValueReference>("valueReference"));
+    attributes_.references.push_back(reference);
     attributes_.negated.push_back(is_negated);
     unit_.variables.push_back(std::move(variable));
+    return true;
   }
 
   static bool can_be_negated(ValueType type) {

@@ -536,11 +536,26 @@ TEST_CASE("missing parts and wrong values are errors with their line") {
              Contains("min=\"-273.15\" of 'temperature' is above max=\"-300\""));
 }
 
+TEST_CASE("of several variables with one name the first one counts, with a warning") {
+  const auto twice = parse_with("name=\"level\"", "name=\"on\"");
+  CHECK(variable(twice, "on").type == ValueType::Boolean);
+  CHECK_FALSE(twice.find("height"));
+  CHECK(twice.ambiguous_names == std::set<std::string>{"on"});
+  REQUIRE_FALSE(twice.warnings.empty());
+  CHECK_THAT(twice.warnings[0], Contains("unit.xml:34: ") &&
+                                    Contains("'on' is used twice, first in line 33: the first one "
+                                             "counts"));
+  const auto alias = parse_with("name=\"height\"", "name=\"on\"");
+  CHECK(variable(alias, "on").type == ValueType::Boolean);
+  CHECK(variable(alias, "level").aliases.empty());
+  CHECK(alias.ambiguous_names == std::set<std::string>{"on"});
+  const auto own = parse_with("name=\"height\"", "name=\"level\"");
+  CHECK(own.ambiguous_names.empty());
+  REQUIRE(own.warnings.size() == 1);
+  CHECK_THAT(own.warnings[0], Contains("they are the same"));
+}
+
 TEST_CASE("names and value references are unique") {
-  CHECK_THAT(error_with("name=\"level\"", "name=\"on\""),
-             Contains("unit.xml:34: ") && Contains("'on' is used twice, first in line 33"));
-  CHECK_THAT(error_with("name=\"height\"", "name=\"on\""),
-             Contains("unit.xml:35: ") && Contains("'on' is used twice, first in line 33"));
   CHECK_THAT(error_with("<Alias name=\"height\"/>", "<Alias/>"), Contains("'name'"));
   CHECK_THAT(error_with("valueReference=\"9\" causality", "valueReference=\"8\" causality"),
              Contains("variable 'level' has the value reference 8 of 'on' in line 33"));
