@@ -71,14 +71,15 @@ class TypeDefinitions {
   std::vector<std::string>* warnings_;
 };
 
-// Each throws core::Error of the kind Input where the attribute has another value than it may.
+// Each throws core::Error of the kind Input where the attribute has another value than it may. A
+// word in another case than it should be has a warning.
 
 /// Local if it is absent.
-core::Causality read_causality(const xml::Element& variable);
+core::Causality read_causality(const xml::Element& variable, std::vector<std::string>& warnings);
 /// If it is absent, fixed for parameters, else continuous for floating-point numbers, else
 /// discrete (FMI 3.0, 2.4.7.4).
 core::Variability read_variability(const xml::Element& variable, core::ValueType type,
-                                   core::Causality causality);
+                                   core::Causality causality, std::vector<std::string>& warnings);
 /// From its causality and variability, if it is absent (FMI 3.0, 2.4.7.5; FMI 2.0, 2.2.7). Inputs
 /// are exact.
 core::Initial read_initial(const xml::Element& element, const core::Variable& variable);
@@ -89,15 +90,16 @@ std::string inherited(const xml::Element& element, const std::optional<xml::Elem
 /// Likewise the magnitude of a floating-point number; 0 if it is absent.
 double read_nominal(const xml::Element& element, core::ValueType type,
                     const std::optional<xml::Element>& declared);
-/// Throws where the start value of a variable, whose size is known, is not of its type, is empty
-/// though its type is no text, or has neither one element nor as many as the variable. `elements`:
-/// how many a String or Binary has.
-/// A value of another form that has one meaning is replaced by it, with a warning.
+/// Throws where the start value of a variable, whose size is known, is not of its type, or has
+/// neither one element nor as many as the variable. `elements`: how many a String or Binary has.
+/// A value of another form that has one meaning is replaced by it, and an empty one of a type that
+/// is no text is none, with a warning.
 void check_start(const xml::Element& element, core::Variable& variable,
                  std::vector<std::string>& warnings, std::size_t elements = 1);
-/// Throws where the least or the greatest value of a variable is no number, or the least one is
-/// above the greatest one.
-void check_limits(const xml::Element& element, const core::Variable& variable);
+/// Throws where the least or the greatest value of a variable is no number. If the least one is
+/// above the greatest one, it has neither, with a warning.
+void check_limits(const xml::Element& element, core::Variable& variable,
+                  std::vector<std::string>& warnings);
 /// The items of an enumeration's type.
 std::vector<std::pair<std::string, std::int64_t>> read_items(const xml::Element& type);
 

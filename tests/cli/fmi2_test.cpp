@@ -106,6 +106,13 @@ TEST_CASE("units that cannot be loaded say what to do") {
   workspace.scratch().write("other/sources/relaxation.c", "");
   CHECK_THAT(input_error_of(workspace.run()),
              Contains("it has its source code only") && Contains("hint: 'stride build FILE.fmu"));
+  fs::create_directories(workspace / "other/binaries/linux64");
+  CHECK_THAT(input_error_of(workspace.run()),
+             Contains("the FMU's folder 'binaries/linux64' has no library; it is empty") &&
+                 Contains("hint: expected 'binaries/linux64/"));
+  workspace.scratch().write("other/binaries/linux64/unit.dll", "");
+  CHECK_THAT(input_error_of(workspace.run()), Contains("has no library; it has unit.dll"));
+  fs::remove_all(workspace / "other/binaries/linux64");
   workspace.scratch().write("other/binaries/win64/fmi2_relaxation.dll", "");
   CHECK_THAT(input_error_of(workspace.run()),
              Contains("it has win64") && Contains("a Windows library cannot be loaded on Linux"));

@@ -34,16 +34,20 @@ constexpr TypeElement kTypeElements[] = {
 };
 
 /// <CoSimulation_StandAlone>, which the unit must have.
-xml::Element find_stand_alone(const xml::Element& root) {
-  const auto implementation = root.child("Implementation");
+xml::Element find_stand_alone(const xml::Element& root, std::vector<std::string>& warnings) {
+  const auto implementation = root.lenient_child("Implementation", warnings);
   if (!implementation) {
     root.fail(
         "the unit has no Co-Simulation interface, which stride needs; it is for Model Exchange",
         "export the unit for Co-Simulation, with a solver of its own");
   }
-  if (const auto found = implementation->child("CoSimulation_StandAlone")) return *found;
-  implementation->fail("the unit couples stride to a tool; expected <CoSimulation_StandAlone>",
-                       "export the unit for stand-alone Co-Simulation");
+  const char* const expected = "CoSimulation_StandAlone";
+  if (const auto found = implementation->lenient_child(expected, warnings)) return *found;
+  const bool is_of_tool = implementation->lenient_child("CoSimulation_Tool", warnings).has_value();
+  implementation->fail(
+      is_of_tool ? fmt::format("the unit couples stride to a tool; expected <{}>", expected)
+                 : fmt::format("{} has no <{}>", implementation->tag(), expected),
+      "export the unit for stand-alone Co-Simulation");
 }
 
 /// Returns whether it can reject steps. Any unit may complete a step in part.
@@ -126,7 +130,7 @@ class Fmi1Variables {
     variable.unit = inherited(typed, declared, "unit");
     variable.min = inherited(typed, declared, "min");
     variable.max = inherited(typed, declared, "max");
-    check_limits(typed, variable);
+    check_limits(typed, variable, unit_.warnings);
     variable.nominal = read_nominal(typed, variable.type, declared);
     if (type == ValueType::Enumeration && declared) variable.items = items_of(*declared);
     return variable;
@@ -141,9 +145,13 @@ class Fmi1Variables {
   }
 
   /// FMI 1.0 has neither parameters nor local variables by name.
-  static void read_kind(const xml::Element& element, core::Variable& variable) {
-    const std::string causality = element.attribute_or("causality", "internal");
-    const std::string variability = element.attribute_or("variability", "continuous");
+  void read_kind(const xml::Element& element, core::Variable& variable) const {
+    const std::vector<std::string> causalities{"input", "output", "internal", "none"};
+    const std::vector<std::string> variabilities{"constant", "parameter", "discrete", "continuous"};
+    const std::string causality =
+        element.lenient_word("causality", causalities, unit_.warnings).value_or("internal");
+    const std::string variability =
+        element.lenient_word("variability", variabilities, unit_.warnings).value_or("continuous");
     const bool is_real = variable.type == ValueType::Float64;
     variable.variability = variability == "constant"                ? Variability::Constant
                            : variability == "parameter"             ? Variability::Fixed
@@ -162,7 +170,9 @@ class Fmi1Variables {
     if (variable.causality == Causality::Parameter || variable.causality == Causality::Input) {
       return core::Initial::Exact;
     }
-    return typed.attribute("start") ? core::Initial::Approx : core::Initial::Calculated;
+    const bool has_start = variable.type == ValueType::String ? typed.attribute("start").has_value()
+                                                              : !variable.start.empty();
+    return has_start ? core::Initial::Approx : core::Initial::Calculated;
   }
 
   /// They are numbered from 1 in their order.
@@ -202,7 +212,7 @@ class Fmi1Variables {
 Fmi1Attributes read_fmi1_description(const xml::Element& root, core::UnitDescription& unit) {
   unit.instantiation_token = root.given("guid");
   unit.model_identifier = read_model_identifier(root);
-  const bool can_reject_steps = read_fmi1_capabilities(find_stand_alone(root), unit);
+  const bool can_reject_steps = read_fmi1_capabilities(find_stand_alone(root, unit.warnings), unit);
   Fmi1Attributes attributes = Fmi1Variables(root, unit).attributes();
   attributes.can_reject_steps = can_reject_steps;
   return attributes;

@@ -98,7 +98,7 @@ class Variables {
     variable.name = element.required("name");
     variable.description = element.attribute_or("description");
     variable.type = *find_type(typed);
-    variable.causality = read_causality(element);
+    variable.causality = read_causality(element, unit_.warnings);
     if (variable.causality == Causality::StructuralParameter) {
       element.fail("causality=\"structuralParameter\": there are none in FMI 2.0");
     }
@@ -110,7 +110,7 @@ class Variables {
     variable.unit = inherited(typed, declared, "unit");
     variable.min = inherited(typed, declared, "min");
     variable.max = inherited(typed, declared, "max");
-    check_limits(typed, variable);
+    check_limits(typed, variable, unit_.warnings);
     variable.nominal = read_nominal(typed, variable.type, declared);
     variable.intermediate_update = unit_.provides_intermediate_update &&
                                    variable.causality == Causality::Input &&
@@ -122,8 +122,9 @@ class Variables {
   }
 
   /// To FMI 2.0 "continuous" is the default, of an Integer as well, which cannot be.
-  static Variability variability(const xml::Element& element, const core::Variable& variable) {
-    const Variability declared = read_variability(element, variable.type, variable.causality);
+  Variability variability(const xml::Element& element, const core::Variable& variable) const {
+    const Variability declared =
+        read_variability(element, variable.type, variable.causality, unit_.warnings);
     const bool is_possible =
         declared != Variability::Continuous || variable.type == ValueType::Float64;
     return is_possible ? declared : Variability::Discrete;
@@ -186,7 +187,7 @@ std::vector<core::Unknown> read_unknowns(const xml::Element& structure, const ch
 
 Fmi2Attributes read_fmi2_description(const xml::Element& root, core::UnitDescription& unit) {
   unit.instantiation_token = root.given("guid");
-  const xml::Element co_simulation = find_co_simulation(root);
+  const xml::Element co_simulation = find_co_simulation(root, unit.warnings);
   read_fmi2_co_simulation(co_simulation, unit);
   Fmi2Attributes attributes;
   attributes.can_run_asynchronously =

@@ -60,8 +60,8 @@ core::Variable read_variable(const xml::Element& element, ValueType type,
   variable.name = element.required("name");
   variable.reference = element.required_number<core::ValueReference>("valueReference");
   variable.type = type;
-  variable.causality = read_causality(element);
-  variable.variability = read_variability(element, type, variable.causality);
+  variable.causality = read_causality(element, warnings);
+  variable.variability = read_variability(element, type, variable.causality, warnings);
   variable.initial = read_initial(element, variable);
   variable.description = element.attribute_or("description");
   variable.start = read_start(element, type);
@@ -98,7 +98,7 @@ class Linker {
     }
     for (std::size_t i = 0; i < variables_.size(); ++i) {
       check_start(elements_[i], variables_[i], warnings_, elements_[i].children("Start").size());
-      check_limits(elements_[i], variables_[i]);
+      check_limits(elements_[i], variables_[i], warnings_);
     }
     return std::move(index_);
   }
@@ -287,7 +287,7 @@ void read_annotation(const xml::Element& root, core::UnitDescription& unit) {
 
 void read_fmi3_description(const xml::Element& root, core::UnitDescription& unit) {
   unit.instantiation_token = root.given("instantiationToken");
-  read_co_simulation(find_co_simulation(root), unit);
+  read_co_simulation(find_co_simulation(root, unit.warnings), unit);
   const VariableIndex index = read_variables(root, unit);
   const auto reader = [&index](const char* name) {
     return [&index, name](const auto& structure) { return read_unknowns(structure, name, index); };
