@@ -66,7 +66,7 @@ class Composer {
     }
     if (!is_real(type(segments_.size()))) return {};
     // by way of another unit, it would be rounded more than once
-    const auto direct = convert(path_.front().unit, path_.back().unit);
+    const auto direct = convert(first_unit(), path_.back().unit);
     return is_plain && direct ? *direct : linear;
   }
 
@@ -104,6 +104,13 @@ class Composer {
 
  private:
   ValueType type(std::size_t place) const { return *path_[place].type; }
+
+  /// The connectors before the first one that has a unit take on that one.
+  const UnitOfMeasure& first_unit() const {
+    const auto first = std::ranges::find_if(
+        path_, [](const PathConnector& connector) { return !connector.unit.name.empty(); });
+    return first == path_.end() ? path_.front().unit : first->unit;
+  }
 
   /// Whether the segment's mapping is one of Boolean.
   bool is_boolean(std::size_t segment) const {
