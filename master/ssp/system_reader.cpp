@@ -62,7 +62,7 @@ class SystemReader {
       : root_(root),
         path_(path),
         folders_(source_folders(path)),
-        file_{read_version(root, reading.warnings), read_definitions(root, kSsd)},
+        file_{read_version(root, reading.warnings), read_definitions(root, kSsd, reading.warnings)},
         reading_(reading) {}
 
   SystemNode read() {
@@ -93,8 +93,8 @@ class SystemReader {
     system.where = element.where();
     system.connectors = read_connectors(element, file_, reading_.warnings);
     if (const auto dictionaries = element.child({kSsd, "SignalDictionaries"})) {
-      system.dictionaries =
-          read_signal_dictionaries(*dictionaries, folders_, reading_.files, reading_.warnings);
+      system.dictionaries = read_signal_dictionaries(
+          *dictionaries, {reading_.files, folders_, file_.definitions, reading_.warnings});
     }
     if (const auto elements = element.child({kSsd, "Elements"})) read_elements(*elements, system);
     if (const auto connections = element.child({kSsd, "Connections"})) {

@@ -79,8 +79,9 @@ TEST_CASE("passages are made one after the other") {
     CHECK(of({bare, system, point("t.y", {}, kMetre), u}, {{}, {}, {}}).linear.factor ==
           Approx(100));
     CHECK(of({bare, point("s.y", {}), system, u}, {{}, {}, {}}).linear.factor == Approx(100));
-    CHECK(of({bare, point("s.y", {}, kMetre), point("o", {}, kCentimetre)}, {{}, {}})
-              .linear.factor == Approx(100));
+    CHECK(
+        of({bare, point("s.y", {}, kMetre), point("o", {}, kCentimetre)}, {{}, {}}).linear.factor ==
+        Approx(100));
     CHECK(of({bare, system, point("b.u", ValueType::Float64)}, {{}, {}}).is_identity());
     CHECK(of({bare, system, u}, {{}, {true, {}}}).is_identity());
   }
