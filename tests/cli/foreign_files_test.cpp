@@ -124,7 +124,7 @@ TEST_CASE("a system as tools write it runs, with a warning for each thing that h
       "xmlns:tool=\"urn:tool\" rgb=\"0 0 255\"/></ssc:Annotation></ssd:Annotations>";
   Workspace workspace(
       {component("unit", "units\\relaxation.fmu",
-                 "<ssd:Connectors><ssd:Connector name=\"u\" kind=\"input\"><ssc:Real/>" + other +
+                 "<ssd:Connectors><ssd:Connector name=\"u\" kind=\"Input\"><ssc:Real/>" + other +
                      "</ssd:Connector></ssd:Connectors>"
                      "<ssd:ParameterBindings><ssd:ParameterBinding source=\"my%20values.ssv\"/>"
                      "</ssd:ParameterBindings>" +
@@ -142,6 +142,7 @@ TEST_CASE("a system as tools write it runs, with a warning for each thing that h
   INFO(outcome.err);
   REQUIRE(outcome.exit_code == 0);
   CHECK_THAT(outcome.err, Contains("my values.ssv:2: ") && Contains("0.05"));
+  CHECK_THAT(outcome.err, Contains("kind=\"Input\" of <ssd:Connector> is taken for input"));
   const auto times = workspace.signals().numbers("time");
   CHECK(times.size() == 21);  // to the unit's own stop time
   CHECK(workspace.signals().numbers("unit.x").back() == Approx(3 - 2 * std::exp(-2)));

@@ -69,6 +69,16 @@ TEST_CASE("units are converted before the transformation, or not at all") {
   CHECK(only.linear.offset == 5);
 }
 
+TEST_CASE("a unit that keeps another from being converted is named if it has no definition") {
+  const auto u = point("b.u", ValueType::Float64, kMetre);
+  const UnitOfMeasure unknown{"furlong", std::nullopt};
+  CHECK_THAT(
+      reason({point("a.y", ValueType::Float64, unknown), u}, {{}}),
+      Contains("the unit 'furlong' has no definition in x.ssd, nor where 'a.y' is declared"));
+  CHECK_THAT(reason({point("a.y", ValueType::Float64, kSecond), u}, {{}}),
+             Contains("cannot be converted") && !Contains("has no definition"));
+}
+
 TEST_CASE("passages are made one after the other") {
   const auto y = point("a.y", ValueType::Float64, kCentimetre);
   const auto u = point("c.u", ValueType::Float64, kCentimetre);
