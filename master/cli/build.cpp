@@ -12,6 +12,7 @@
 #include "master/cli/output_paths.h"
 #include "master/importer/binaries.h"
 #include "master/importer/build_description.h"
+#include "master/importer/exported_functions.h"
 #include "master/importer/model_description.h"
 #include "master/importer/unpacked_fmu.h"
 #include "master/isolation/source_build.h"
@@ -52,6 +53,8 @@ void build(BuildRequest request) {
                             .includes = request.includes,
                             .folder = folder.path(),
                             .library = folder.path() / name});
+  const std::string prefix = importer::check_exported_functions(folder.path() / name, unit);
+  if (!prefix.empty()) print_warnings(std::vector{prefix});
   const std::string place =
       fmt::format("binaries/{}/{}", importer::platform_of(unit.fmi_version), name);
   archive::Contents contents;

@@ -112,7 +112,17 @@ fs::path find_binaries(const fs::path& fmu_folder) {
 [[noreturn]] void fail_without_library(const fs::path& fmu_folder, bool is_fmi2,
                                        const std::string& expected, const core::Context& context) {
   const char* const name = is_fmi2 ? fmi2_platform() : platform();
-  const auto others = folder_names(fmu_folder / find_binaries(fmu_folder));
+  const fs::path binaries = find_binaries(fmu_folder);
+  auto others = folder_names(fmu_folder / binaries);
+  const std::string own = platform_folder(fmu_folder / binaries, name);
+  if (std::erase(others, own) > 0) {
+    const auto files = file_names(core::folder_entries(fmu_folder / binaries / own));
+    core::fail_input(
+        context,
+        fmt::format("the FMU's folder '{}' has no library; it {}", (binaries / own).string(),
+                    files.empty() ? "is empty" : fmt::format("has {}", fmt::join(files, ", "))),
+        fmt::format("expected '{}': export the unit again", expected));
+  }
   if (!others.empty()) {
     core::fail_input(
         context,

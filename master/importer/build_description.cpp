@@ -79,7 +79,8 @@ BuildDescription read_fmi3(const fs::path& file, const std::string& model_identi
 BuildDescription read_fmi2(const fs::path& model_description) {
   const xml::Document document(model_description, model_description.filename().string());
   BuildDescription build;
-  const auto unit = document.root().child("CoSimulation");
+  std::vector<std::string> said_before;
+  const auto unit = document.root().lenient_child("CoSimulation", said_before);
   const auto list = unit ? unit->child("SourceFiles") : std::nullopt;
   if (!list) return build;
   SourceFileSet& set = build.sets.emplace_back();

@@ -89,8 +89,8 @@ std::string read_model_identifier(const xml::Element& owner) {
   return identifier;
 }
 
-xml::Element find_co_simulation(const xml::Element& root) {
-  if (const auto found = root.child("CoSimulation")) return *found;
+xml::Element find_co_simulation(const xml::Element& root, std::vector<std::string>& warnings) {
+  if (const auto found = root.lenient_child("CoSimulation", warnings)) return *found;
   std::vector<std::string> others;
   for (const char* other : {"ModelExchange", "ScheduledExecution"}) {
     if (root.child(other)) others.emplace_back(other);

@@ -17,7 +17,7 @@ namespace stride::importer {
 // Each throws core::Error of the kind Input with the position of what is wrong.
 
 /// <CoSimulation>, which the unit must have.
-xml::Element find_co_simulation(const xml::Element& root);
+xml::Element find_co_simulation(const xml::Element& root, std::vector<std::string>& warnings);
 /// The name of the library, a plain one, which cannot lead to another folder.
 std::string read_model_identifier(const xml::Element& owner);
 /// The attributes of <CoSimulation> that have one name in FMI 2.0 and 3.0.

@@ -8,6 +8,7 @@
 #include <fmt/ranges.h>
 
 #include "master/importer/binaries.h"
+#include "master/importer/exported_functions.h"
 #include "master/importer/fmi1/fmi1_unit.h"
 #include "master/importer/fmi2/fmi2_unit.h"
 #include "master/importer/fmi3/fmi3_unit.h"
@@ -110,7 +111,8 @@ void Fmu::read_folder() {
 }
 
 void Fmu::read_bare_library() {
-  fmi3_library_ = std::make_shared<Fmi3Library>(path_, core::Context{.where = where_}, shown_as_);
+  fmi3_library_ =
+      std::make_shared<Fmi3Library>(path_, "", core::Context{.where = where_}, shown_as_);
   resources_ = fs::absolute(path_).parent_path() / "resources";
   const std::string text = fmi3_library_->describe(resources_, where_);
   auto description = std::make_shared<ModelDescription>(
@@ -122,16 +124,16 @@ void Fmu::read_bare_library() {
   description_ = std::move(description);
 }
 
-template <class Library, class... Identifier>
-void Fmu::load_once(std::shared_ptr<const Library>& library,
-                    const Identifier&... model_identifier) {
+template <class Library>
+void Fmu::load_once(std::shared_ptr<const Library>& library) {
   if (library) return;
   const core::Context user{.where = where_, .unit = first_component_};
   const FoundLibrary found = find_library(unpacked_->folder(), description_->fmi_version,
                                           description_->model_identifier, user);
   library_warning_ = found.warning;
   const fs::path shown_as = shown_as_ / found.path.lexically_relative(unpacked_->root());
-  const auto loaded = std::make_shared<Library>(found.path, model_identifier..., user, shown_as);
+  const auto loaded =
+      std::make_shared<Library>(found.path, description_->model_identifier, user, shown_as);
   loaded->require_functions(*description_);
   library = loaded;
 }
@@ -144,13 +146,13 @@ std::shared_ptr<const SharedLibrary> Fmu::load_library() {
 
 std::shared_ptr<const Fmi1Library> Fmu::load_fmi1_library() {
   const std::lock_guard lock(library_mutex_);
-  if (description_->fmi1) load_once(fmi1_library_, description_->model_identifier);
+  if (description_->fmi1) load_once(fmi1_library_);
   return fmi1_library_;
 }
 
 std::shared_ptr<const Fmi2Library> Fmu::load_fmi2_library() {
   const std::lock_guard lock(library_mutex_);
-  if (description_->fmi2) load_once(fmi2_library_, description_->model_identifier);
+  if (description_->fmi2) load_once(fmi2_library_);
   return fmi2_library_;
 }
 
@@ -196,6 +198,9 @@ void Fmu::warn_of_library(const std::string& name, const InstanceOptions& option
                 fmt::format("its library needs '{}', which was loaded for it", companion.string()));
   }
   if (!library_warning_.empty()) options.log(name, Status::Warning, "stride", library_warning_);
+  if (!library->prefix().empty()) {
+    options.log(name, Status::Warning, "stride", prefix_note(library->prefix()));
+  }
   if (changes.empty()) return;
   options.log(name, Status::Warning, "stride",
               fmt::format("the loading of its library changed {}, which all code in the process "

@@ -68,8 +68,8 @@ class Fmu : public std::enable_shared_from_this<Fmu> {
   void load_library_for(const std::string& component, const LogSink& log);
   void warn_of_library(const std::string& name, const InstanceOptions& options);
   /// The library of this version. Called with the lock.
-  template <class Library, class... Identifier>
-  void load_once(std::shared_ptr<const Library>& library, const Identifier&... model_identifier);
+  template <class Library>
+  void load_once(std::shared_ptr<const Library>& library);
 
   std::filesystem::path path_;
   std::filesystem::path shown_as_;

@@ -21,6 +21,13 @@
 namespace stride::importer {
 namespace {
 
+/// Python's interpreter does so when it begins, without harm once it is put back.
+bool is_of_interpreter(const std::string& change) {
+  constexpr const char* kOfPython[] = {"the locale", "the handler of SIGPIPE",
+                                       "the handler of SIGXFSZ", "the handler of SIGINT"};
+  return std::ranges::find(kOfPython, change) != std::end(kOfPython);
+}
+
 constexpr std::size_t kMaxMessages = 8;
 
 /// How far the unit's idea of where a step ended may be from ours.
@@ -200,6 +207,13 @@ void FmuInstance::restore_process(const char* function) {
   if (options_.process == nullptr) return;
   const std::vector<std::string> changes = options_.process->restore();
   if (changes.empty()) return;
+  if (!library_->python().empty() && std::ranges::all_of(changes, is_of_interpreter)) {
+    if (!options_.log) return;
+    options_.log(name_, Status::Ok, "stride",
+                 fmt::format("in {} '{}' changed {}; it is put back", function, library_->python(),
+                             fmt::join(changes, ", ")));
+    return;
+  }
   const bool has_moved = std::ranges::find(changes, "the working folder") != changes.end();
   warn(
       fmt::format("{} changed {}, which all code in the process shares: a function has to leave "

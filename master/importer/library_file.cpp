@@ -20,6 +20,8 @@ namespace {
 
 using Header = ElfW(Ehdr);
 using Segment = ElfW(Phdr);
+using Section = ElfW(Shdr);
+using Symbol = ElfW(Sym);
 
 constexpr unsigned char kClass = sizeof(void*) == 8 ? ELFCLASS64 : ELFCLASS32;
 
@@ -53,7 +55,34 @@ class LibraryFile {
     return damage(segments);
   }
 
+  std::set<std::string> exported_names() const {
+    Header header{};
+    if (!read(&header, {0, sizeof header}) || !is_for_loader(header)) return {};
+    std::set<std::string> names;
+    const auto sections = table<Section>({header.e_shoff, header.e_shnum * sizeof(Section)});
+    for (const Section& section : sections) {
+      if (section.sh_type != SHT_DYNSYM || section.sh_link >= sections.size()) continue;
+      const Section& strings = sections[section.sh_link];
+      const auto texts = table<char>({strings.sh_offset, strings.sh_size});
+      for (const Symbol& symbol : table<Symbol>({section.sh_offset, section.sh_size})) {
+        if (symbol.st_shndx == SHN_UNDEF || symbol.st_name >= texts.size()) continue;
+        const auto first = texts.begin() + symbol.st_name;
+        names.emplace(first, std::find(first, texts.end(), '\0'));
+      }
+    }
+    return names;
+  }
+
  private:
+  /// What is there of it, nothing if it goes beyond the end of the file.
+  template <class Element>
+  std::vector<Element> table(const Range& range) const {
+    if (!range.is_in({0, size_})) return {};
+    std::vector<Element> elements(range.size / sizeof(Element));
+    const bool is_read = read(elements.data(), {range.begin, elements.size() * sizeof(Element)});
+    return is_read ? elements : std::vector<Element>();
+  }
+
   bool read(void* target, const Range& range) const {
     if (!range.is_in({0, size_})) return false;
     const ssize_t count =
@@ -131,6 +160,10 @@ class LibraryFile {
 
 std::string find_damage(const std::filesystem::path& library) {
   return LibraryFile(library).damage();
+}
+
+std::set<std::string> exported_names(const std::filesystem::path& library) {
+  return LibraryFile(library).exported_names();
 }
 
 }  // namespace stride::importer

@@ -3,6 +3,7 @@
 #define STRIDE_MASTER_IMPORTER_LIBRARY_FILE_H
 
 #include <filesystem>
+#include <set>
 #include <string>
 
 namespace stride::importer {
@@ -11,6 +12,9 @@ namespace stride::importer {
 /// them, overwrite memory of this process or read beyond the end of the file. Empty if nothing is
 /// wrong with them, and for what the loader refuses itself: no ELF file, another machine.
 std::string find_damage(const std::filesystem::path& library);
+
+/// The names of what it exports; none if it is no library for this machine.
+std::set<std::string> exported_names(const std::filesystem::path& library);
 
 }  // namespace stride::importer
 

@@ -325,8 +325,16 @@ void SharedLibrary::fail_missing(const std::vector<std::string>& missing, const 
       hint.empty() ? "export it with C linkage, default visibility and exactly this name" : hint);
 }
 
+void SharedLibrary::accept_prefix(const std::string& model_identifier,
+                                  const std::string& function) {
+  const std::string prefix = model_identifier + "_";
+  if (!has(function) && has(prefix + function)) prefix_ = prefix;
+}
+
 void* SharedLibrary::address(const std::string& symbol) const {
-  return ::dlsym(handle_.get(), symbol.c_str());
+  void* const found = ::dlsym(handle_.get(), symbol.c_str());
+  if (found != nullptr || prefix_.empty()) return found;
+  return ::dlsym(handle_.get(), (prefix_ + symbol).c_str());
 }
 
 }  // namespace stride::importer

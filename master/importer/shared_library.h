@@ -52,6 +52,9 @@ class SharedLibrary {
   /// The name of Python's library, if it was loaded for this one; else empty.
   const std::string& python() const { return python_; }
 
+  /// What comes before the names that its functions have by the standard; else empty.
+  const std::string& prefix() const { return prefix_; }
+
   /// The paths of the libraries that were loaded for it from its own FMU.
   const std::vector<std::filesystem::path>& companions() const { return companions_; }
 
@@ -79,6 +82,10 @@ class SharedLibrary {
 
   /// What a function of the library without arguments answers; empty for NULL.
   std::string answer_of(const char* what, const char* (*function)()) const;
+
+  /// Finds functions that are named as in a static library, too, `model_identifier` and '_' before
+  /// the name, if that holds for this one.
+  void accept_prefix(const std::string& model_identifier, const std::string& function);
 
   /// Makes `function` that of this name, null if there is none.
   template <class Function>
@@ -111,6 +118,7 @@ class SharedLibrary {
   mutable core::Context user_;
   mutable LogSink log_;  ///< of the user
   const core::Remnants remnants_;
+  std::string prefix_;
   std::string python_;
   std::vector<std::string> changes_;
   std::vector<std::filesystem::path> companions_;

@@ -18,15 +18,12 @@ using core::ValueType;
 using core::Variability;
 
 template <class Enum>
-Enum read_word(const xml::Element& element, const char* attribute, Enum otherwise,
-               std::size_t count) {
-  const auto word = element.attribute(attribute);
-  if (!word) return otherwise;
-  if (const auto found = find_named<Enum>(*word, count)) return *found;
+Enum read_enumerator(const xml::Element& element, const char* attribute, Enum otherwise,
+                     std::size_t count, std::vector<std::string>& warnings) {
   std::vector<std::string> names;
   for (std::size_t i = 0; i < count; ++i) names.emplace_back(core::name(static_cast<Enum>(i)));
-  element.fail(fmt::format("{}=\"{}\" of {}: expected one of {}", attribute, *word, element.tag(),
-                           fmt::join(names, ", ")));
+  const auto word = element.lenient_word(attribute, names, warnings);
+  return word ? find_named<Enum>(*word, count).value_or(otherwise) : otherwise;
 }
 
 Variability default_variability(ValueType type, Causality causality) {
@@ -68,11 +65,26 @@ std::vector<Initial> possible_initials(const core::Variable& variable) {
 
 }  // namespace
 
-void VariableNames::add(const std::string& name, const xml::Element& place) {
-  const auto [same, is_new] = lines_.emplace(name, place.where().line);
-  if (is_new) return;
-  place.fail(
-      fmt::format("the variable name '{}' is used twice, first in line {}", name, same->second));
+std::optional<std::size_t> VariableNames::add(const std::string& name, const xml::Element& place,
+                                              const IsSame& is_same) {
+  const auto [entry, is_new] =
+      first_.try_emplace(name, First{unit_.variables.size(), place.where().line});
+  if (is_new) return std::nullopt;
+  const auto& [first, line] = entry->second;
+  const bool is_ambiguous = !is_same(first);
+  if (is_ambiguous) unit_.ambiguous_names.insert(name);
+  unit_.warnings.push_back(
+      core::to_text({.where = place.where()}) +
+      fmt::format("the variable name '{}' is used twice, first in line {}: {}", name, line,
+                  is_ambiguous ? "the first one counts, and none can be connected, set or "
+                                 "recorded by this name"
+                               : "they are the same"));
+  return first;
+}
+
+bool are_declared_alike(const core::Variable& a, const core::Variable& b) {
+  return a.type == b.type && a.causality == b.causality && a.variability == b.variability &&
+         a.unit == b.unit;
 }
 
 void TypeDefinitions::add(const xml::Element& definition, const xml::Element& type) {
@@ -99,13 +111,14 @@ void TypeDefinitions::fail_without(const xml::Element& enumeration) {
                                enumeration.required("declaredType")));
 }
 
-core::Causality read_causality(const xml::Element& variable) {
-  return read_word(variable, "causality", Causality::Local, 7);
+core::Causality read_causality(const xml::Element& variable, std::vector<std::string>& warnings) {
+  return read_enumerator(variable, "causality", Causality::Local, 7, warnings);
 }
 
 core::Variability read_variability(const xml::Element& variable, core::ValueType type,
-                                   core::Causality causality) {
-  return read_word(variable, "variability", default_variability(type, causality), 5);
+                                   core::Causality causality, std::vector<std::string>& warnings) {
+  return read_enumerator(variable, "variability", default_variability(type, causality), 5,
+                         warnings);
 }
 
 Initial read_initial(const xml::Element& element, const core::Variable& variable) {
@@ -141,8 +154,10 @@ void check_start(const xml::Element& element, core::Variable& variable,
   const bool is_text = variable.type == ValueType::String || variable.type == ValueType::Binary;
   const std::size_t count = is_text ? elements : xml::split(variable.start).size();
   if (!is_text && count == 0 && variable.size > 0 && element.attribute("start")) {
-    element.fail(fmt::format("start=\"{}\" of '{}' has no value", variable.start, variable.name),
-                 "give it a value, or leave the attribute out");
+    warnings.push_back(core::to_text({.where = element.where()}) +
+                       fmt::format("start=\"{}\" of '{}' has no value, and is ignored",
+                                   variable.start, variable.name));
+    variable.start.clear();
   }
   if (variable.start.empty() || variable.type == ValueType::Clock) return;
   if (count != 1 && count != variable.size) {
@@ -168,7 +183,8 @@ void check_start(const xml::Element& element, core::Variable& variable,
   }
 }
 
-void check_limits(const xml::Element& element, const core::Variable& variable) {
+void check_limits(const xml::Element& element, core::Variable& variable,
+                  std::vector<std::string>& warnings) {
   const auto read = [&](const char* attribute, const std::string& text) -> std::optional<double> {
     if (text.empty()) return std::nullopt;
     const auto words = xml::split(text);
@@ -180,8 +196,11 @@ void check_limits(const xml::Element& element, const core::Variable& variable) {
   const auto least = read("min", variable.min);
   const auto greatest = read("max", variable.max);
   if (!least || !greatest || *least <= *greatest) return;
-  element.fail(fmt::format("min=\"{}\" of '{}' is above max=\"{}\"", variable.min, variable.name,
-                           variable.max));
+  warnings.push_back(core::to_text({.where = element.where()}) +
+                     fmt::format("min=\"{}\" of '{}' is above max=\"{}\"; both are ignored",
+                                 variable.min, variable.name, variable.max));
+  variable.min.clear();
+  variable.max.clear();
 }
 
 std::vector<std::pair<std::string, std::int64_t>> read_items(const xml::Element& type) {

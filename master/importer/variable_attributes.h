@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
 #include <set>
@@ -26,15 +27,29 @@ std::optional<Enum> find_named(std::string_view word, std::size_t count) {
   return std::nullopt;
 }
 
-/// The names of the variables and aliases of a description.
+/// The names of the variables and aliases of a description, of which each is to be there once.
 class VariableNames {
  public:
-  /// Throws core::Error of the kind Input at `place` for a name that is there already.
-  void add(const std::string& name, const xml::Element& place);
+  explicit VariableNames(core::UnitDescription& unit) : unit_(unit) {}
+
+  /// A name of the variable that is the next one of the description. If another one has it already,
+  /// its index, and the name is not to be added: there is a warning, and the name is ambiguous
+  /// unless both are the same.
+  using IsSame = std::function<bool(std::size_t first)>;
+  std::optional<std::size_t> add(const std::string& name, const xml::Element& place,
+                                 const IsSame& is_same);
 
  private:
-  std::map<std::string, int> lines_;
+  struct First {
+    std::size_t variable;
+    int line;
+  };
+  core::UnitDescription& unit_;
+  std::map<std::string, First> first_;
 };
+
+/// Whether variables of one name and one value reference are declared alike.
+bool are_declared_alike(const core::Variable& a, const core::Variable& b);
 
 /// The types that are declared by name, each by the element that defines it.
 class TypeDefinitions {
@@ -56,14 +71,15 @@ class TypeDefinitions {
   std::vector<std::string>* warnings_;
 };
 
-// Each throws core::Error of the kind Input where the attribute has another value than it may.
+// Each throws core::Error of the kind Input where the attribute has another value than it may. A
+// word in another case than it should be has a warning.
 
 /// Local if it is absent.
-core::Causality read_causality(const xml::Element& variable);
+core::Causality read_causality(const xml::Element& variable, std::vector<std::string>& warnings);
 /// If it is absent, fixed for parameters, else continuous for floating-point numbers, else
 /// discrete (FMI 3.0, 2.4.7.4).
 core::Variability read_variability(const xml::Element& variable, core::ValueType type,
-                                   core::Causality causality);
+                                   core::Causality causality, std::vector<std::string>& warnings);
 /// From its causality and variability, if it is absent (FMI 3.0, 2.4.7.5; FMI 2.0, 2.2.7). Inputs
 /// are exact.
 core::Initial read_initial(const xml::Element& element, const core::Variable& variable);
@@ -74,15 +90,16 @@ std::string inherited(const xml::Element& element, const std::optional<xml::Elem
 /// Likewise the magnitude of a floating-point number; 0 if it is absent.
 double read_nominal(const xml::Element& element, core::ValueType type,
                     const std::optional<xml::Element>& declared);
-/// Throws where the start value of a variable, whose size is known, is not of its type, is empty
-/// though its type is no text, or has neither one element nor as many as the variable. `elements`:
-/// how many a String or Binary has.
-/// A value of another form that has one meaning is replaced by it, with a warning.
+/// Throws where the start value of a variable, whose size is known, is not of its type, or has
+/// neither one element nor as many as the variable. `elements`: how many a String or Binary has.
+/// A value of another form that has one meaning is replaced by it, and an empty one of a type that
+/// is no text is none, with a warning.
 void check_start(const xml::Element& element, core::Variable& variable,
                  std::vector<std::string>& warnings, std::size_t elements = 1);
-/// Throws where the least or the greatest value of a variable is no number, or the least one is
-/// above the greatest one.
-void check_limits(const xml::Element& element, const core::Variable& variable);
+/// Throws where the least or the greatest value of a variable is no number. If the least one is
+/// above the greatest one, it has neither, with a warning.
+void check_limits(const xml::Element& element, core::Variable& variable,
+                  std::vector<std::string>& warnings);
 /// The items of an enumeration's type.
 std::vector<std::pair<std::string, std::int64_t>> read_items(const xml::Element& type);
 

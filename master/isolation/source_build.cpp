@@ -90,7 +90,8 @@ class Compilation {
                 "-O2",
                 "-w",
                 "-DFMI2_OVERRIDE_FUNCTION_PREFIX",
-                "-DFMI3_OVERRIDE_FUNCTION_PREFIX"};
+                "-DFMI3_OVERRIDE_FUNCTION_PREFIX",
+                "-DNO_FUNCTION_PREFIX"};  // of 20-sim, whose headers do not know the others
     if (set.language.size() > 1) words.push_back(standard(set.language));
     words.insert(words.end(), set.options.begin(), set.options.end());
     for (const std::string& definition : set.definitions) words.push_back("-D" + definition);

@@ -66,7 +66,7 @@ class Composer {
     }
     if (!is_real(type(segments_.size()))) return {};
     // by way of another unit, it would be rounded more than once
-    const auto direct = convert(path_.front().unit, path_.back().unit);
+    const auto direct = convert(first_unit(), path_.back().unit);
     return is_plain && direct ? *direct : linear;
   }
 
@@ -104,6 +104,13 @@ class Composer {
 
  private:
   ValueType type(std::size_t place) const { return *path_[place].type; }
+
+  /// The connectors before the first one that has a unit take on that one.
+  const UnitOfMeasure& first_unit() const {
+    const auto first = std::ranges::find_if(
+        path_, [](const PathConnector& connector) { return !connector.unit.name.empty(); });
+    return first == path_.end() ? path_.front().unit : first->unit;
+  }
 
   /// Whether the segment's mapping is one of Boolean.
   bool is_boolean(std::size_t segment) const {
@@ -177,15 +184,25 @@ class Composer {
          fmt::format("transform such values by {}", transformation_for(from, to)));
   }
 
+  /// What keeps the unit of a connector from being converted.
+  std::string undefined(const PathConnector& connector) const {
+    if (connector.unit.meaning) return "";
+    return fmt::format(
+        "; the unit '{}' has no definition in {}, nor where '{}' is declared", connector.unit.name,
+        context_.where.file.empty() ? "the system" : context_.where.file, connector.name);
+  }
+
   LinearConversion unit_conversion(std::size_t segment) const {
     if (segments_[segment].suppress_unit_conversion) return {};
     const PathConnector& from = path_[segment];
     const PathConnector& to = path_[segment + 1];
     if (const auto conversion = convert(from.unit, to.unit)) return *conversion;
     fail(fmt::format("cannot connect {}: '{}' is in '{}', '{}' in '{}', and one cannot be "
-                     "converted into the other",
-                     wire(segment), from.name, from.unit.name, to.name, to.unit.name),
-         "correct the wiring, or set suppressUnitConversion=\"true\" if the numbers fit");
+                     "converted into the other{}{}",
+                     wire(segment), from.name, from.unit.name, to.name, to.unit.name,
+                     undefined(from), undefined(to)),
+         "correct the wiring or the <Units>, or set suppressUnitConversion=\"true\" if the numbers "
+         "fit");
   }
 
   std::int64_t item(const Transformation& transformation, std::size_t place,

@@ -8,6 +8,7 @@
 #include <iterator>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -153,7 +154,10 @@ struct UnitDescription {
   std::string instantiation_token;
   std::string description;
   std::string generation_tool;
-  std::vector<Variable> variables;                            ///< in the order of the description
+  std::vector<Variable> variables;  ///< in the order of the description
+  /// Names that the description has more than once, for variables that are not the same; the first
+  /// of them has the name.
+  std::set<std::string> ambiguous_names;
   std::map<std::string, BaseUnitOfMeasure> units_of_measure;  ///< those whose meaning is given
   std::vector<Unknown> outputs;
   std::vector<Unknown> initial_unknowns;

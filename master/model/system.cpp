@@ -27,11 +27,21 @@ namespace {
 /// for all warnings and for the mistakes that Diagnostics shows.
 constexpr std::size_t kMostHints = 120;
 
-/// Only what FMI calls initial = exact or approx can be set before the start.
-void check_settable(const Variable& variable, const Context& context) {
+/// Only what FMI calls initial = exact or approx can be set before the start; of FMI 1.0, which has
+/// no such word, what has a start value.
+void check_settable(const UnitDescription& unit, const Variable& variable, const Context& context) {
   const bool exact = variable.initial == Initial::Exact || variable.initial == Initial::Approx;
   if (exact && variable.variability != Variability::Constant && variable.type != ValueType::Clock) {
     return;
+  }
+  if (unit.fmi_version.starts_with("1.")) {
+    const bool is_constant = variable.variability == Variability::Constant;
+    fail_input(context,
+               is_constant ? "a constant cannot be set"
+                           : fmt::format("a {} {} without a start value cannot be set",
+                                         name(variable.variability), name(variable.causality)),
+               "parameters, inputs and, in FMI 1.0, what has a start value in the model "
+               "description can");
   }
   fail_input(context,
              fmt::format("a {} {} with initial = {} cannot be set", name(variable.variability),
@@ -252,6 +262,7 @@ ConnectorElements System::find_elements(const Context& context,
                                         const SystemDeclaration& expecting) {
   const std::size_t index = find_component(context.unit, context.where);
   const UnitDescription& description = *components_[index].description;
+  check_unambiguous(context, description);
   if (auto found = core::find_elements(names_, index, description, context)) return *found;
   fail_unknown(context, description, &expecting);
 }
@@ -345,7 +356,10 @@ std::vector<System::Target> System::find_targets(const SystemDeclaration& declar
     const VariableId id{component, *place};
     found_groups.insert(wanted.group);
     diagnostics.attempt([&] {
-      check_settable(variable(id), {wanted.where, wanted.component, wanted.variable, {}});
+      const UnitDescription& description = *components_[component].description;
+      const Context context{wanted.where, wanted.component, wanted.variable, {}};
+      check_unambiguous(context, description);
+      check_settable(description, variable(id), context);
       targets.push_back({&wanted, id});
     });
   }

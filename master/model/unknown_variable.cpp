@@ -114,4 +114,13 @@ void fail_unknown_variable(const Context& context, const UnitDescription& descri
              has_hint ? hint(context.variable, description, system != nullptr) : "");
 }
 
+void check_unambiguous(const Context& context, const UnitDescription& description) {
+  if (!description.ambiguous_names.contains(context.variable)) return;
+  fail_input(context,
+             fmt::format("several variables of its model '{}' have this name, so it is not known "
+                         "which one is meant",
+                         description.model_name),
+             "give each variable in its modelDescription.xml a name of its own");
+}
+
 }  // namespace stride::core

@@ -15,6 +15,10 @@ namespace stride::core {
                                         const SystemDeclaration* system = nullptr,
                                         bool has_hint = true);
 
+/// Throws Error (Input) if several variables of the component in the context have its variable's
+/// name, and are not the same.
+void check_unambiguous(const Context& context, const UnitDescription& description);
+
 }  // namespace stride::core
 
 #endif

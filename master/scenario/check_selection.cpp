@@ -161,7 +161,7 @@ std::vector<Element> Selection::find_elements(const CheckDeclaration& check) con
       add(variable, is_meant(system_, variable.id, pattern));
     }
   } else {
-    for (const NamedVariable* variable : finder_.meant(pattern)) add(*variable, true);
+    for (const NamedVariable* variable : finder_.meant(pattern, check.where)) add(*variable, true);
   }
   if (found.empty()) fail_unknown(check, pattern, false);
   return found;
@@ -170,7 +170,7 @@ std::vector<Element> Selection::find_elements(const CheckDeclaration& check) con
 std::vector<core::VariableId> Selection::find_messages(const CheckDeclaration& check,
                                                        const std::string& pattern) const {
   std::vector<core::VariableId> found;
-  for (const NamedVariable* variable : finder_.meant(pattern)) {
+  for (const NamedVariable* variable : finder_.meant(pattern, check.where)) {
     if (is_reported(*variable)) found.push_back(variable->id);
   }
   if (found.empty()) fail_unknown(check, pattern, true);

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "master/model/unknown_variable.h"
 #include "master/recorders/signal_text.h"
 #include "master/util/glob.h"
 #include "master/util/suggest.h"
@@ -93,7 +94,7 @@ std::vector<recorders::Plot> matching_plots(const core::System& system,
     recorders::Plot& plot = plots.emplace_back(recorders::Plot{wanted.title, {}});
     std::set<core::VariableId> taken;
     for (const SignalPattern& pattern : wanted.signals) {
-      const auto meant = finder.meant(pattern.text);
+      const auto meant = finder.meant(pattern.text, pattern.where);
       if (!add_matches(system, places, meant, taken, plot)) miss(wanted, pattern);
     }
   }
@@ -139,10 +140,18 @@ VariableFinder::VariableFinder(const core::System& system)
   }
 }
 
-std::vector<const NamedVariable*> VariableFinder::meant(const std::string& pattern) const {
+std::vector<const NamedVariable*> VariableFinder::meant(const std::string& pattern,
+                                                        const core::Location& where) const {
   if (!core::is_glob(pattern)) {
     const auto found = by_name_.find(pattern);
-    return found == by_name_.end() ? std::vector<const NamedVariable*>() : found->second;
+    if (found == by_name_.end()) return {};
+    for (const NamedVariable* variable : found->second) {
+      if (system_.is_output(variable->id)) continue;
+      const core::Component& component = system_.components()[variable->id.component];
+      const std::string name = pattern.substr(system_.prefix(variable->id).size());
+      core::check_unambiguous({where, component.name, name, {}}, *component.description);
+    }
+    return found->second;
   }
   std::vector<const NamedVariable*> found;
   for (const NamedVariable& variable : all_) {
@@ -160,7 +169,7 @@ std::vector<core::VariableId> select_signals(const core::System& system,
   for (const SignalPattern& pattern : patterns) {
     const NamedVariable* message = nullptr;
     bool has_match = false;
-    for (const NamedVariable* variable : finder.meant(pattern.text)) {
+    for (const NamedVariable* variable : finder.meant(pattern.text, pattern.where)) {
       if (!variable->is_signal) {
         message = variable;
         continue;

@@ -37,8 +37,10 @@ class VariableFinder {
 
   /// As named_variables() returns them.
   const std::vector<NamedVariable>& all() const { return all_; }
-  /// Those for which is_meant() is true, in the order of the system.
-  std::vector<const NamedVariable*> meant(const std::string& pattern) const;
+  /// Those for which is_meant() is true, in the order of the system. Throws core::Error (Input) at
+  /// `where` for a name that several variables have, which are not the same.
+  std::vector<const NamedVariable*> meant(const std::string& pattern,
+                                          const core::Location& where) const;
 
  private:
   const core::System& system_;

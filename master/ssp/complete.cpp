@@ -56,7 +56,7 @@ class Completion {
         ssd_(head(root_.prefix_of(kSsd).value_or(""))),
         editor_(document.text()) {
     find_common_prefix();
-    const Definitions definitions = read_definitions(root_, kSsd);
+    const Definitions definitions = read_definitions(root_, kSsd, said_before_);
     units_ = definitions.units_of_measure;
     for (const auto& [name, items] : definitions.enumerations) enumerations_.insert(name);
   }

@@ -21,8 +21,13 @@ Flow flow_of(Causality causality) {
   return is_in ? Flow::In : Flow::Out;
 }
 
-void read_kind(const xml::Element& element, Connector& connector) {
-  const std::string kind = element.required("kind");
+void read_kind(const xml::Element& element, Connector& connector,
+               std::vector<std::string>& warnings) {
+  const std::vector<std::string> known{
+      "input",    "output", "parameter", "calculatedParameter", "structuralParameter",
+      "constant", "local",  "inout",     "unspecified"};
+  element.required("kind");
+  const std::string kind = *element.lenient_word("kind", known, warnings);
   for (const Causality causality :
        {Causality::Input, Causality::Output, Causality::Parameter, Causality::CalculatedParameter,
         Causality::StructuralParameter, Causality::Local}) {
@@ -32,11 +37,6 @@ void read_kind(const xml::Element& element, Connector& connector) {
     return;
   }
   if (kind == "constant") connector.flow = Flow::Out;
-  if (kind == "constant" || kind == "unspecified" || kind == "inout") return;
-  const std::vector<std::string> known{
-      "input",    "output", "parameter", "calculatedParameter", "structuralParameter",
-      "constant", "local",  "inout",     "unspecified"};
-  element.fail(fmt::format("the kind '{}' is not known", kind), core::suggestion(kind, known));
 }
 
 /// Of the types of SSP 1.0 that may be of any width.
@@ -89,7 +89,8 @@ void read_child(const xml::Element& child, const SspFile& file,
   }
 }
 
-Connector read_connector(const xml::Element& element, const SspFile& file) {
+Connector read_connector(const xml::Element& element, const SspFile& file,
+                         std::vector<std::string>& warnings) {
   if (const auto type = element.attribute("type")) {
     element.fail(fmt::format("{} has no attribute 'type'", element.tag()),
                  fmt::format("its type is an element in it: <ssc:{}/>", *type));
@@ -98,7 +99,7 @@ Connector read_connector(const xml::Element& element, const SspFile& file) {
   Connector connector;
   connector.declared.name = element.required("name");
   connector.declared.where = element.where();
-  read_kind(element, connector);
+  read_kind(element, connector, warnings);
   bool has_type = false;
   for (const xml::Element& child : element.children()) {
     read_child(child, file, connector.declared, has_type);
@@ -122,14 +123,15 @@ bool read_type(const xml::Element& child, const SspFile& file,
   return true;
 }
 
-std::vector<Connector> read_connectors(const xml::Element& owner, const SspFile& file) {
+std::vector<Connector> read_connectors(const xml::Element& owner, const SspFile& file,
+                                       std::vector<std::string>& warnings) {
   std::vector<Connector> all;
   const auto connectors = owner.child({kSsd, "Connectors"});
   if (!connectors) return all;
   connectors->allow_children({{kSsd, "Connector"}});
   std::map<std::string, int> lines;
   for (const xml::Element& element : connectors->children()) {
-    Connector connector = read_connector(element, file);
+    Connector connector = read_connector(element, file, warnings);
     const core::ConnectorDeclaration& declared = connector.declared;
     const auto [first, is_new] = lines.emplace(declared.name, declared.where.line);
     if (!is_new) {

@@ -20,7 +20,8 @@ struct SspFile {
 
 /// Reads <ssd:Connectors> of a component or system. In a file of SSP 1.0, Real and Integer leave
 /// the width open, so they set no type. Throws core::Error (Input).
-std::vector<Connector> read_connectors(const xml::Element& owner, const SspFile& file);
+std::vector<Connector> read_connectors(const xml::Element& owner, const SspFile& file,
+                                       std::vector<std::string>& warnings);
 
 /// Reads the type of a connector or dictionary entry from one of its children; false if the child
 /// is something else. Throws core::Error (Input).

@@ -4,6 +4,7 @@
 
 #include <map>
 #include <string>
+#include <vector>
 
 #include "master/model/conversion.h"
 #include "master/util/xml/element.h"
@@ -20,9 +21,11 @@ struct Definitions {
   core::UnitOfMeasure unit(const std::string& name, const Definitions& otherwise) const;
 };
 
-/// Reads <Units> and <Enumerations> below a root element of this namespace. Throws core::Error
-/// (Input).
-Definitions read_definitions(const xml::Element& root, const char* name_space);
+/// Reads <Units> and <Enumerations> below a root element of this namespace. Elements within
+/// <Units> that are in another namespace than they should be are taken with a warning, and others
+/// ignored with one. Throws core::Error (Input).
+Definitions read_definitions(const xml::Element& root, const char* name_space,
+                             std::vector<std::string>& warnings);
 
 }  // namespace stride::ssp
 

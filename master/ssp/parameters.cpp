@@ -108,7 +108,7 @@ std::vector<ParameterValue> read_set(const xml::Element& set, const Definitions&
   const auto parameters = set.child({kSsv, "Parameters"});
   if (!parameters) set.fail(fmt::format("{} holds no <Parameters>", set.tag()));
   parameters->allow_children({{kSsv, "Parameter"}});
-  const Definitions inside = read_definitions(set, kSsv);
+  const Definitions inside = read_definitions(set, kSsv, warnings);
   std::vector<ParameterValue> values;
   for (const xml::Element& parameter : parameters->children()) {
     values.push_back(read_parameter(parameter, inside, around));

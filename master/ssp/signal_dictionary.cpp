@@ -1,6 +1,5 @@
 #include "master/ssp/signal_dictionary.h"
 
-#include <span>
 #include <utility>
 
 #include <fmt/format.h>
@@ -29,15 +28,35 @@ core::ConnectorDeclaration read_entry(const xml::Element& element, const SspFile
   return entry;
 }
 
-SignalDictionary read_entries(const xml::Element& root, std::vector<std::string>& warnings) {
+/// SSP has units defined in the file that names them.
+void take_unit(core::ConnectorDeclaration& entry, const DictionaryContext& context) {
+  if (entry.unit.name.empty() || entry.unit.meaning) return;
+  entry.unit = context.definitions.unit(entry.unit.name);
+  if (!entry.unit.meaning) return;
+  context.warnings.push_back(
+      core::to_text({.where = entry.where}) +
+      fmt::format("the unit '{}' is not defined in the <Units> of the signal dictionary; that of "
+                  "the system that refers to it is taken",
+                  entry.unit.name));
+}
+
+SignalDictionary read_entries(const xml::Element& root, const DictionaryContext& context) {
   if (!root.is(kSsb, "SignalDictionary")) {
     root.fail(fmt::format("{} is not a signal dictionary", root.tag()),
               fmt::format("expected <SignalDictionary> of the namespace '{}'", kSsb));
   }
-  const SspFile file{read_version(root, warnings), read_definitions(root, kSsb)};
+  root.allow_children({{kSsb, "DictionaryEntry"},
+                       {kSsb, "Enumerations"},
+                       {kSsb, "Units"},
+                       {kSsc, "MetaData"},
+                       {kSsc, "Signature"},
+                       {kSsb, "Annotations"}});
+  const SspFile file{read_version(root, context.warnings),
+                     read_definitions(root, kSsb, context.warnings)};
   SignalDictionary dictionary;
   for (const xml::Element& element : root.children({kSsb, "DictionaryEntry"})) {
     core::ConnectorDeclaration entry = read_entry(element, file);
+    take_unit(entry, context);
     const std::string name = entry.name;
     if (dictionary.entries.emplace(name, std::move(entry)).second) continue;
     element.fail(fmt::format("two entries are named '{}'", name));
@@ -45,9 +64,7 @@ SignalDictionary read_entries(const xml::Element& root, std::vector<std::string>
   return dictionary;
 }
 
-SignalDictionary read_dictionary(const xml::Element& element,
-                                 std::span<const std::filesystem::path> folders, Files& files,
-                                 std::vector<std::string>& warnings) {
+SignalDictionary read_dictionary(const xml::Element& element, const DictionaryContext& context) {
   element.allow_attributes({"name", "type", "source"});
   const std::string type = element.attribute_or("type", kDictionaryType);
   if (type != kDictionaryType) {
@@ -55,26 +72,25 @@ SignalDictionary read_dictionary(const xml::Element& element,
                              fmt::format("the type '{}' is read", kDictionaryType));
   }
   if (element.attribute("source")) {
-    const std::filesystem::path path = source_path(element, folders, warnings);
-    return read_entries(files.document(path).root(), warnings);
+    const std::filesystem::path path = source_path(element, context.folders, context.warnings);
+    return read_entries(context.files.document(path).root(), context);
   }
   const auto inside = element.child({kSsb, "SignalDictionary"});
   if (!inside) {
     element.fail(fmt::format("{} has neither a source nor <ssb:SignalDictionary>", element.tag()));
   }
-  return read_entries(*inside, warnings);
+  return read_entries(*inside, context);
 }
 
 }  // namespace
 
-std::map<std::string, SignalDictionary> read_signal_dictionaries(
-    const xml::Element& dictionaries, std::span<const std::filesystem::path> folders, Files& files,
-    std::vector<std::string>& warnings) {
+std::map<std::string, SignalDictionary> read_signal_dictionaries(const xml::Element& dictionaries,
+                                                                 const DictionaryContext& context) {
   std::map<std::string, SignalDictionary> all;
   dictionaries.allow_children({{kSsd, "SignalDictionary"}});
   for (const xml::Element& element : dictionaries.children()) {
     const std::string name = element.required("name");
-    if (all.emplace(name, read_dictionary(element, folders, files, warnings)).second) continue;
+    if (all.emplace(name, read_dictionary(element, context)).second) continue;
     element.fail(fmt::format("two signal dictionaries are named '{}'", name));
   }
   return all;

@@ -15,11 +15,17 @@
 
 namespace stride::ssp {
 
-/// Reads <ssd:SignalDictionaries>, inline or from files relative to one of `folders`. Throws
-/// core::Error (Input).
-std::map<std::string, SignalDictionary> read_signal_dictionaries(
-    const xml::Element& dictionaries, std::span<const std::filesystem::path> folders, Files& files,
-    std::vector<std::string>& warnings);
+/// Where signal dictionaries are referred to.
+struct DictionaryContext {
+  Files& files;
+  std::span<const std::filesystem::path> folders;  ///< one of which the sources are relative to
+  const Definitions& definitions;  ///< for units that a dictionary does not define, with a warning
+  std::vector<std::string>& warnings;
+};
+
+/// Reads <ssd:SignalDictionaries>, inline or from files. Throws core::Error (Input).
+std::map<std::string, SignalDictionary> read_signal_dictionaries(const xml::Element& dictionaries,
+                                                                 const DictionaryContext& context);
 
 }  // namespace stride::ssp
 

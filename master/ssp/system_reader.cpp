@@ -62,7 +62,7 @@ class SystemReader {
       : root_(root),
         path_(path),
         folders_(source_folders(path)),
-        file_{read_version(root, reading.warnings), read_definitions(root, kSsd)},
+        file_{read_version(root, reading.warnings), read_definitions(root, kSsd, reading.warnings)},
         reading_(reading) {}
 
   SystemNode read() {
@@ -91,10 +91,10 @@ class SystemReader {
     SystemNode system;
     system.name = element.required("name");
     system.where = element.where();
-    system.connectors = read_connectors(element, file_);
+    system.connectors = read_connectors(element, file_, reading_.warnings);
     if (const auto dictionaries = element.child({kSsd, "SignalDictionaries"})) {
-      system.dictionaries =
-          read_signal_dictionaries(*dictionaries, folders_, reading_.files, reading_.warnings);
+      system.dictionaries = read_signal_dictionaries(
+          *dictionaries, {reading_.files, folders_, file_.definitions, reading_.warnings});
     }
     if (const auto elements = element.child({kSsd, "Elements"})) read_elements(*elements, system);
     if (const auto connections = element.child({kSsd, "Connections"})) {
@@ -152,7 +152,7 @@ class SystemReader {
     ElementNode node;
     node.name = element.required("name");
     node.where = element.where();
-    node.connectors = read_connectors(element, file_);
+    node.connectors = read_connectors(element, file_, reading_.warnings);
     return node;
   }
 
@@ -201,7 +201,7 @@ class SystemReader {
   static void check_kinds(const xml::Element& component, const ElementNode& node) {
     if (node.connectors.empty()) return;
     for (const xml::Element& connector : component.child({kSsd, "Connectors"})->children()) {
-      if (connector.required("kind") != "inout") continue;
+      if (core::lower_case(connector.required("kind")) != "inout") continue;
       connector.fail("no variable of an FMU is of the kind 'inout'", "write input or output");
     }
   }

@@ -122,27 +122,84 @@ TEST_CASE("sources that need what no library has cannot be linked to a unit that
                                               Contains("stride_has_no_such"));
 }
 
-TEST_CASE("a unit of FMI 2.0 is built from the files that its model description lists") {
-  const Scratch scratch;
-  const fs::path units = fs::path(STRIDE_SOURCE_DIR) / "tests/test_units/fmi2";
-  std::string description = read(units / "integrator.xml");
-  for (const auto& [mark, text] : {std::pair{"@NAME@", "tank"}, {"@HAS_STATE@", "true"}}) {
-    for (std::size_t at; (at = description.find(mark)) != std::string::npos;) {
-      description.replace(at, std::strlen(mark), text);
-    }
+namespace {
+
+/// A folder with the sources of an FMI 2.0 unit, behind `before`.
+struct Fmi2Sources {
+  Scratch scratch;
+
+  explicit Fmi2Sources(const std::string& before = "",
+                       const std::string& description_name = "modelDescription.xml") {
+    const fs::path units = fs::path(STRIDE_SOURCE_DIR) / "tests/test_units/fmi2";
+    fs::create_directories(scratch / "unit/sources");
+    scratch.write("unit/" + description_name, description(read(units / "integrator.xml")));
+    scratch.write("unit/sources/integrator.c", before + read(units / "integrator.c"));
   }
-  const std::string word = "<CoSimulation";
-  const std::size_t begin = description.find(word);
-  const std::size_t end = description.find("/>", begin);
-  description.replace(end, 2,
-                      "><SourceFiles><File name=\"integrator.c\"/></SourceFiles></CoSimulation>");
-  fs::create_directories(scratch / "unit/sources");
+  Outcome build() const {
+    return run_program(
+        {"build", "unit", "-o", "built.fmu", "-I", STRIDE_SOURCE_DIR, "-D", "UNIT_NAME=\"tank\""},
+        scratch.path());
+  }
+  Outcome run() const {
+    return run_program(
+        {"run", "built.fmu", "--quiet", "--stop", "1", "--step", "0.1", "--out", "out"},
+        scratch.path());
+  }
+
+ private:
+  static std::string description(std::string text) {
+    for (const auto& [mark, word] : {std::pair{"@NAME@", "tank"}, {"@HAS_STATE@", "true"}}) {
+      for (std::size_t at; (at = text.find(mark)) != std::string::npos;) {
+        text.replace(at, std::strlen(mark), word);
+      }
+    }
+    return text.replace(text.find("/>", text.find("<CoSimulation")), 2,
+                        "><SourceFiles><File name=\"integrator.c\"/></SourceFiles></CoSimulation>");
+  }
+};
+
+/// Gives all functions that any unit must have a prefix.
+std::string with_prefix(const std::string& prefix) {
+  std::string text;
+  for (const char* name :
+       {"Instantiate", "FreeInstance", "SetupExperiment", "EnterInitializationMode",
+        "ExitInitializationMode", "Terminate", "DoStep", "GetReal", "SetReal"}) {
+    text += std::string("#define fmi2") + name + " " + prefix + "fmi2" + name + "\n";
+  }
+  return text;
+}
+
+}  // namespace
+
+TEST_CASE("the macro by which 20-sim leaves out the prefix of functions is defined") {
+  const Fmi2Sources sources("#ifndef NO_FUNCTION_PREFIX\n" + with_prefix("tank_") + "#endif\n");
+  const Outcome built = sources.build();
+  CHECK(built.exit_code == 0);
+  CHECK(built.err == "");
+}
+
+TEST_CASE("a built unit with the prefix of a static library is a warning, and runs") {
+  const Fmi2Sources sources(with_prefix("tank_"));
+  const Outcome built = sources.build();
+  CHECK(built.exit_code == 0);
+  CHECK_THAT(built.err, Contains("warning: its functions have the prefix 'tank_'"));
+  const Outcome outcome = sources.run();
+  INFO(outcome.err);
+  CHECK(outcome.exit_code == 0);
+  CHECK_THAT(outcome.err, Contains("the prefix 'tank_' of a static library"));
+}
+
+TEST_CASE("a built library that no importer can use is an error with what it exports") {
+  const Fmi2Sources sources(with_prefix("other_"));
+  CHECK_THAT(input_error_of(sources.build()), Contains("does not export fmi2Instantiate, ") &&
+                                                  Contains("other_fmi2Instantiate") &&
+                                                  Contains("hint: give the definition"));
+  CHECK_FALSE(fs::exists(sources.scratch / "built.fmu"));
+}
+
+TEST_CASE("a unit of FMI 2.0 is built from the files that its model description lists") {
   const std::string name = GENERATE("modelDescription.xml", "modeldescription.XML");
-  scratch.write("unit/" + name, description);
-  fs::copy_file(units / "integrator.c", scratch / "unit/sources/integrator.c");
-  const Outcome built = run_program(
-      {"build", "unit", "-o", "built.fmu", "-I", STRIDE_SOURCE_DIR, "-D", "UNIT_NAME=\"tank\""},
-      scratch.path());
+  const Outcome built = Fmi2Sources("", name).build();
   CHECK((built.err == "") == (name == "modelDescription.xml"));
   CHECK_THAT(built.out, Contains("built.fmu has binaries/linux64/"));
 }

@@ -106,6 +106,13 @@ TEST_CASE("units that cannot be loaded say what to do") {
   workspace.scratch().write("other/sources/relaxation.c", "");
   CHECK_THAT(input_error_of(workspace.run()),
              Contains("it has its source code only") && Contains("hint: 'stride build FILE.fmu"));
+  fs::create_directories(workspace / "other/binaries/linux64");
+  CHECK_THAT(input_error_of(workspace.run()),
+             Contains("the FMU's folder 'binaries/linux64' has no library; it is empty") &&
+                 Contains("hint: expected 'binaries/linux64/"));
+  workspace.scratch().write("other/binaries/linux64/unit.dll", "");
+  CHECK_THAT(input_error_of(workspace.run()), Contains("has no library; it has unit.dll"));
+  fs::remove_all(workspace / "other/binaries/linux64");
   workspace.scratch().write("other/binaries/win64/fmi2_relaxation.dll", "");
   CHECK_THAT(input_error_of(workspace.run()),
              Contains("it has win64") && Contains("a Windows library cannot be loaded on Linux"));
@@ -120,6 +127,19 @@ TEST_CASE(
   CHECK_THAT(outcome.err, Contains("unit 'g', at 0 s: fmi2DoStep returned fmi2Error: mood of 3 in "
                                    "channel #4"));
   CHECK(workspace.signals().numbers("time") == std::vector<double>{0});
+}
+
+TEST_CASE("what has a start value can be set in a unit of FMI 1.0, an output, too") {
+  const Workspace workspace(Parts{component("tank", "fmi1_tank.fmu")});
+  const Outcome outcome = workspace.run({"--quiet", "--stop", "1", "--set", "tank.level=3"});
+  INFO(outcome.err);
+  REQUIRE(outcome.exit_code == 0);
+  const auto levels = workspace.signals().numbers("tank.level [m]");
+  CHECK(levels.front() == 3);
+  CHECK(levels.back() == Approx(4));
+  const std::string refused = input_error_of(workspace.run({"--set", "tank.temper=1"}));
+  CHECK_THAT(refused, Contains("a discrete local without a start value cannot be set") &&
+                          Contains("in FMI 1.0") && !Contains("initial"));
 }
 
 TEST_CASE("others go back to where a unit of FMI 1.0 came in a step that it discarded") {

@@ -79,6 +79,22 @@ TEST_CASE("bytes of another encoding than the declared one are a warning with th
   CHECK_THAT(outcome.err, Contains("warning: ") && Contains("unit/modelDescription.xml:8: "));
 }
 
+TEST_CASE("a variable name that is there twice is a warning, and an error where it is used") {
+  Umlaut unit;
+  unit.write(
+      Umlaut::replaced(unit.text(), "</ModelVariables>",
+                       "<ScalarVariable name=\"x\" valueReference=\"77\"><Real/></ScalarVariable>\n"
+                       "</ModelVariables>"));
+  const Outcome outcome = unit.workspace.run({"--quiet"});
+  CHECK(outcome.exit_code == 0);
+  CHECK_THAT(outcome.err, Contains("warning: ") && Contains("the variable name 'x' is used twice"));
+  for (const char* use : {"--set=unit.x=1", "--signals=unit.x"}) {
+    CHECK_THAT(input_error_of(unit.workspace.run({use})),
+               Contains("unit 'unit', variable 'x': several variables of its model") &&
+                   Contains("hint: give each variable"));
+  }
+}
+
 TEST_CASE("a system file and its values in another encoding are read, and where they are wrong") {
   const Workspace workspace(
       Parts{component("unit", "fmi2_relaxation.fmu",
@@ -108,7 +124,7 @@ TEST_CASE("a system as tools write it runs, with a warning for each thing that h
       "xmlns:tool=\"urn:tool\" rgb=\"0 0 255\"/></ssc:Annotation></ssd:Annotations>";
   Workspace workspace(
       {component("unit", "units\\relaxation.fmu",
-                 "<ssd:Connectors><ssd:Connector name=\"u\" kind=\"input\"><ssc:Real/>" + other +
+                 "<ssd:Connectors><ssd:Connector name=\"u\" kind=\"Input\"><ssc:Real/>" + other +
                      "</ssd:Connector></ssd:Connectors>"
                      "<ssd:ParameterBindings><ssd:ParameterBinding source=\"my%20values.ssv\"/>"
                      "</ssd:ParameterBindings>" +
@@ -126,6 +142,7 @@ TEST_CASE("a system as tools write it runs, with a warning for each thing that h
   INFO(outcome.err);
   REQUIRE(outcome.exit_code == 0);
   CHECK_THAT(outcome.err, Contains("my values.ssv:2: ") && Contains("0.05"));
+  CHECK_THAT(outcome.err, Contains("kind=\"Input\" of <ssd:Connector> is taken for input"));
   const auto times = workspace.signals().numbers("time");
   CHECK(times.size() == 21);  // to the unit's own stop time
   CHECK(workspace.signals().numbers("unit.x").back() == Approx(3 - 2 * std::exp(-2)));

@@ -211,3 +211,20 @@ TEST_CASE("a unit that stays in the folder of its FMU runs in a process of its o
   CHECK(apart.exit_code == 0);
   CHECK(workspace.signals().numbers("wanderer.size").back() > 100);
 }
+
+TEST_CASE("what Python's interpreter changes when it begins is put back without a warning") {
+  const Scratch scratch;
+  make_raw_fmu(scratch, "raw_with_python", "");
+  scratch.write("test.ssd", scenario_text({component("unit", "raw_with_python")}));
+  const auto run = [&](const char* level) {
+    return run_program({"run", "test.ssd", level, "--stop", "1", "--step", "1", "--out", "out"},
+                       scratch.path());
+  };
+  const Outcome quiet = run("--quiet");
+  if (quiet.exit_code == 2) {  // there is no such library
+    CHECK_THAT(quiet.err, Contains("the unit embeds Python"));
+    return;
+  }
+  CHECK_THAT(quiet.err, !Contains("SIGXFSZ"));
+  CHECK_THAT(run("--verbose").err, Contains("changed the handler of SIGXFSZ; it is put back"));
+}

@@ -34,16 +34,20 @@ constexpr TypeElement kTypeElements[] = {
 };
 
 /// <CoSimulation_StandAlone>, which the unit must have.
-xml::Element find_stand_alone(const xml::Element& root) {
-  const auto implementation = root.child("Implementation");
+xml::Element find_stand_alone(const xml::Element& root, std::vector<std::string>& warnings) {
+  const auto implementation = root.lenient_child("Implementation", warnings);
   if (!implementation) {
     root.fail(
         "the unit has no Co-Simulation interface, which stride needs; it is for Model Exchange",
         "export the unit for Co-Simulation, with a solver of its own");
   }
-  if (const auto found = implementation->child("CoSimulation_StandAlone")) return *found;
-  implementation->fail("the unit couples stride to a tool; expected <CoSimulation_StandAlone>",
-                       "export the unit for stand-alone Co-Simulation");
+  const char* const expected = "CoSimulation_StandAlone";
+  if (const auto found = implementation->lenient_child(expected, warnings)) return *found;
+  const bool is_of_tool = implementation->lenient_child("CoSimulation_Tool", warnings).has_value();
+  implementation->fail(
+      is_of_tool ? fmt::format("the unit couples stride to a tool; expected <{}>", expected)
+                 : fmt::format("{} has no <{}>", implementation->tag(), expected),
+      "export the unit for stand-alone Co-Simulation");
 }
 
 /// Returns whether it can reject steps. Any unit may complete a step in part.
@@ -61,12 +65,12 @@ bool read_fmi1_capabilities(const xml::Element& stand_alone, core::UnitDescripti
 class Fmi1Variables {
  public:
   Fmi1Variables(const xml::Element& root, core::UnitDescription& unit)
-      : unit_(unit), types_(unit.warnings) {
+      : unit_(unit), types_(unit.warnings), names_(unit) {
     const auto list = root.child("ModelVariables");
     if (!list) root.fail("<ModelVariables> is missing");
     read_types(root);
-    const std::vector<xml::Element> elements = list->children("ScalarVariable");
-    for (const xml::Element& element : elements) add(element);
+    std::vector<xml::Element> elements = list->children("ScalarVariable");
+    std::erase_if(elements, [this](const xml::Element& element) { return !add(element); });
     for (const xml::Element& element : elements) add_output(element);
   }
 
@@ -83,21 +87,29 @@ class Fmi1Variables {
     }
   }
 
-  void add(const xml::Element& element) {
+  /// Returns whether it is there now.
+  bool add(const xml::Element& element) {
     core::Variable variable = read(element);
     const bool is_negated = element.attribute("alias") == "negatedAlias";
     if (is_negated && !can_be_negated(variable.type)) {
       unit_.warnings.push_back(core::to_text({.where = element.where()}) +
                                fmt::format("'{}' is left out: no {} can be a negatedAlias",
                                            variable.name, core::name(variable.type)));
-      return;
+      return false;
     }
+    const auto reference = element.required_number<fmi1ValueReference>("valueReference");
+    const auto is_same = [&](std::size_t first) {
+      return attributes_.references[first] == reference &&
+             attributes_.negated[first] == is_negated &&
+             are_declared_alike(unit_.variables[first], variable);
+    };
+    if (names_.add(variable.name, element, is_same)) return false;
     variable.reference = static_cast<core::ValueReference>(unit_.variables.size());
-    names_.add(variable.name, element);
     places_.emplace(variable.name, variable.reference);
-    attributes_.references.push_back(element.required_number<fmi1ValueReference>("valueReference"));
+    attributes_.references.push_back(reference);
     attributes_.negated.push_back(is_negated);
     unit_.variables.push_back(std::move(variable));
+    return true;
   }
 
   static bool can_be_negated(ValueType type) {
@@ -111,14 +123,14 @@ class Fmi1Variables {
     variable.description = element.attribute_or("description");
     variable.type = type;
     read_kind(element, variable);
-    variable.initial = read_initial(element, variable);
     variable.start = typed.attribute_or("start");
     check_start(typed, variable, unit_.warnings);
+    variable.initial = initial_of(typed, variable);
     const auto declared = types_.declared(typed);
     variable.unit = inherited(typed, declared, "unit");
     variable.min = inherited(typed, declared, "min");
     variable.max = inherited(typed, declared, "max");
-    check_limits(typed, variable);
+    check_limits(typed, variable, unit_.warnings);
     variable.nominal = read_nominal(typed, variable.type, declared);
     if (type == ValueType::Enumeration && declared) variable.items = items_of(*declared);
     return variable;
@@ -133,9 +145,13 @@ class Fmi1Variables {
   }
 
   /// FMI 1.0 has neither parameters nor local variables by name.
-  static void read_kind(const xml::Element& element, core::Variable& variable) {
-    const std::string causality = element.attribute_or("causality", "internal");
-    const std::string variability = element.attribute_or("variability", "continuous");
+  void read_kind(const xml::Element& element, core::Variable& variable) const {
+    const std::vector<std::string> causalities{"input", "output", "internal", "none"};
+    const std::vector<std::string> variabilities{"constant", "parameter", "discrete", "continuous"};
+    const std::string causality =
+        element.lenient_word("causality", causalities, unit_.warnings).value_or("internal");
+    const std::string variability =
+        element.lenient_word("variability", variabilities, unit_.warnings).value_or("continuous");
     const bool is_real = variable.type == ValueType::Float64;
     variable.variability = variability == "constant"                ? Variability::Constant
                            : variability == "parameter"             ? Variability::Fixed
@@ -145,6 +161,18 @@ class Fmi1Variables {
                          : variability == "parameter" ? Causality::Parameter
                          : causality == "input"       ? Causality::Input
                                                       : Causality::Local;
+  }
+
+  /// What has a start value can be set before fmiInitializeSlave, which may replace a value that is
+  /// no parameter or input (FMI 1.0 for Model Exchange, 3.3).
+  static core::Initial initial_of(const xml::Element& typed, const core::Variable& variable) {
+    if (variable.variability == Variability::Constant) return core::Initial::Exact;
+    if (variable.causality == Causality::Parameter || variable.causality == Causality::Input) {
+      return core::Initial::Exact;
+    }
+    const bool has_start = variable.type == ValueType::String ? typed.attribute("start").has_value()
+                                                              : !variable.start.empty();
+    return has_start ? core::Initial::Approx : core::Initial::Calculated;
   }
 
   /// They are numbered from 1 in their order.
@@ -184,7 +212,7 @@ class Fmi1Variables {
 Fmi1Attributes read_fmi1_description(const xml::Element& root, core::UnitDescription& unit) {
   unit.instantiation_token = root.given("guid");
   unit.model_identifier = read_model_identifier(root);
-  const bool can_reject_steps = read_fmi1_capabilities(find_stand_alone(root), unit);
+  const bool can_reject_steps = read_fmi1_capabilities(find_stand_alone(root, unit.warnings), unit);
   Fmi1Attributes attributes = Fmi1Variables(root, unit).attributes();
   attributes.can_reject_steps = can_reject_steps;
   return attributes;

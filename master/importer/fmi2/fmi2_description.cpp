@@ -55,7 +55,7 @@ xml::Element type_element(const xml::Element& parent) {
 class Variables {
  public:
   Variables(const xml::Element& root, core::UnitDescription& unit)
-      : unit_(unit), types_(unit.warnings) {
+      : unit_(unit), types_(unit.warnings), names_(unit) {
     const auto list = root.child("ModelVariables");
     if (!list) root.fail("<ModelVariables> is missing");
     read_types(root);
@@ -64,6 +64,8 @@ class Variables {
 
   /// Those of the unit, in the order of the variables.
   const std::vector<fmi2ValueReference>& references() const { return references_; }
+  /// The index of the variable of each <ScalarVariable>, in their order.
+  const std::vector<core::ValueReference>& places() const { return places_; }
 
  private:
   void read_types(const xml::Element& root) {
@@ -77,8 +79,14 @@ class Variables {
   void add(const xml::Element& element) {
     const auto reference = element.required_number<fmi2ValueReference>("valueReference");
     core::Variable variable = read(element);
-    variable.reference = static_cast<core::ValueReference>(unit_.variables.size());
-    names_.add(variable.name, element);
+    const auto is_same = [&](std::size_t first) {
+      return references_[first] == reference &&
+             are_declared_alike(unit_.variables[first], variable);
+    };
+    const auto first = names_.add(variable.name, element, is_same);
+    places_.push_back(static_cast<core::ValueReference>(first.value_or(unit_.variables.size())));
+    if (first) return;
+    variable.reference = places_.back();
     if (variable.causality == Causality::Input) check_input(element, variable, reference);
     references_.push_back(reference);
     unit_.variables.push_back(std::move(variable));
@@ -90,7 +98,7 @@ class Variables {
     variable.name = element.required("name");
     variable.description = element.attribute_or("description");
     variable.type = *find_type(typed);
-    variable.causality = read_causality(element);
+    variable.causality = read_causality(element, unit_.warnings);
     if (variable.causality == Causality::StructuralParameter) {
       element.fail("causality=\"structuralParameter\": there are none in FMI 2.0");
     }
@@ -102,7 +110,7 @@ class Variables {
     variable.unit = inherited(typed, declared, "unit");
     variable.min = inherited(typed, declared, "min");
     variable.max = inherited(typed, declared, "max");
-    check_limits(typed, variable);
+    check_limits(typed, variable, unit_.warnings);
     variable.nominal = read_nominal(typed, variable.type, declared);
     variable.intermediate_update = unit_.provides_intermediate_update &&
                                    variable.causality == Causality::Input &&
@@ -114,8 +122,9 @@ class Variables {
   }
 
   /// To FMI 2.0 "continuous" is the default, of an Integer as well, which cannot be.
-  static Variability variability(const xml::Element& element, const core::Variable& variable) {
-    const Variability declared = read_variability(element, variable.type, variable.causality);
+  Variability variability(const xml::Element& element, const core::Variable& variable) const {
+    const Variability declared =
+        read_variability(element, variable.type, variable.causality, unit_.warnings);
     const bool is_possible =
         declared != Variability::Continuous || variable.type == ValueType::Float64;
     return is_possible ? declared : Variability::Discrete;
@@ -141,31 +150,35 @@ class Variables {
 
   core::UnitDescription& unit_;
   std::vector<fmi2ValueReference> references_;
+  std::vector<core::ValueReference> places_;
   TypeDefinitions types_;
   VariableNames names_;
   std::map<std::pair<ValueType, fmi2ValueReference>, std::string> inputs_;
 };
 
-/// From an index of ModelStructure, which counts the variables from 1.
+/// The index of the variable of each <ScalarVariable>.
+using Places = std::vector<core::ValueReference>;
+
+/// From an index of ModelStructure, which counts the elements from 1.
 core::ValueReference to_reference(const xml::Element& unknown, core::ValueReference index,
-                                  const core::UnitDescription& unit) {
-  if (index >= 1 && index <= unit.variables.size()) return index - 1;
+                                  const Places& places) {
+  if (index >= 1 && index <= places.size()) return places[index - 1];
   unknown.fail(fmt::format("{} refers to the variable with the index {}; expected one from 1 to {}",
-                           unknown.tag(), index, unit.variables.size()));
+                           unknown.tag(), index, places.size()));
 }
 
 std::vector<core::Unknown> read_unknowns(const xml::Element& structure, const char* list,
-                                         const core::UnitDescription& unit) {
+                                         const Places& places) {
   std::vector<core::Unknown> unknowns;
   const auto parent = structure.child(list);
   if (!parent) return unknowns;
   for (const xml::Element& element : parent->children("Unknown")) {
     core::Unknown& unknown = unknowns.emplace_back();
     unknown.reference =
-        to_reference(element, element.required_number<core::ValueReference>("index"), unit);
+        to_reference(element, element.required_number<core::ValueReference>("index"), places);
     if (!element.attribute("dependencies")) continue;
     unknown.dependencies = element.number_list<core::ValueReference>("dependencies");
-    for (auto& known : *unknown.dependencies) known = to_reference(element, known, unit);
+    for (auto& known : *unknown.dependencies) known = to_reference(element, known, places);
   }
   return unknowns;
 }
@@ -174,14 +187,17 @@ std::vector<core::Unknown> read_unknowns(const xml::Element& structure, const ch
 
 Fmi2Attributes read_fmi2_description(const xml::Element& root, core::UnitDescription& unit) {
   unit.instantiation_token = root.given("guid");
-  const xml::Element co_simulation = find_co_simulation(root);
+  const xml::Element co_simulation = find_co_simulation(root, unit.warnings);
   read_fmi2_co_simulation(co_simulation, unit);
   Fmi2Attributes attributes;
   attributes.can_run_asynchronously =
       co_simulation.lenient_flag("canRunAsynchronuously", unit.warnings);  // as it is spelt there
-  attributes.references = Variables(root, unit).references();
-  const auto reader = [&unit](const char* list) {
-    return [&unit, list](const auto& structure) { return read_unknowns(structure, list, unit); };
+  const Variables variables(root, unit);
+  attributes.references = variables.references();
+  const Places& places = variables.places();
+  const auto reader = [&places](const char* list) {
+    return
+        [&places, list](const auto& structure) { return read_unknowns(structure, list, places); };
   };
   read_model_structure(root, unit, reader("Outputs"), reader("InitialUnknowns"));
   return attributes;

@@ -35,9 +35,12 @@ static_assert(kFmi2NeededFound == std::size(kFmi2Needed),
 
 }  // namespace
 
+std::span<const std::string_view> fmi2_needed_functions() { return kFmi2Needed; }
+
 Fmi2Library::Fmi2Library(const fs::path& path, const std::string& model_identifier,
                          core::Context user, const fs::path& shown_as)
     : SharedLibrary(path, std::move(user), shown_as) {
+  accept_prefix(model_identifier, "fmi2DoStep");
   std::vector<std::string> missing;
 #define STRIDE_FIND(name)                                           \
   find(functions_.name, "fmi2" #name);                              \
@@ -47,13 +50,7 @@ Fmi2Library::Fmi2Library(const fs::path& path, const std::string& model_identifi
   FMI2_FUNCTIONS(STRIDE_FIND)
 #undef STRIDE_FIND
   if (!missing.empty()) {
-    const bool has_prefix = has(model_identifier + "_fmi2DoStep");
-    SharedLibrary::fail_missing(
-        missing, "which an FMI 2.0 Co-Simulation unit must",
-        has_prefix ? fmt::format("its functions have the prefix '{}_' of a static library; compile "
-                                 "it with FMI2_OVERRIDE_FUNCTION_PREFIX defined",
-                                 model_identifier)
-                   : "");
+    SharedLibrary::fail_missing(missing, "which an FMI 2.0 Co-Simulation unit must");
   }
   const std::string types = functions_.GetTypesPlatform != nullptr
                                 ? answer_of("question for the types", functions_.GetTypesPlatform)

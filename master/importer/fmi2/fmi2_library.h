@@ -3,7 +3,9 @@
 #define STRIDE_MASTER_IMPORTER_FMI2_FMI2_LIBRARY_H
 
 #include <filesystem>
+#include <span>
 #include <string>
+#include <string_view>
 
 #include <stride/fmi2.h>
 
@@ -19,10 +21,14 @@ struct Fmi2Functions {
 #undef STRIDE_POINTER
 };
 
+/// What any Co-Simulation unit must have, without the "fmi2" before it.
+std::span<const std::string_view> fmi2_needed_functions();
+
 class Fmi2Library : public SharedLibrary {
  public:
   /// Throws as SharedLibrary does, where a function is missing that any Co-Simulation unit must
-  /// have, and where it was compiled for other platform types than those of <stride/fmi2.h>.
+  /// have, also by its name in a static library, and where it was compiled for other platform types
+  /// than those of <stride/fmi2.h>.
   Fmi2Library(const std::filesystem::path& path, const std::string& model_identifier,
               core::Context user = {}, const std::filesystem::path& shown_as = {});
 

@@ -1,6 +1,7 @@
 #include "master/importer/fmi3/fmi3_description.h"
 
 #include <map>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -59,13 +60,10 @@ core::Variable read_variable(const xml::Element& element, ValueType type,
   variable.name = element.required("name");
   variable.reference = element.required_number<core::ValueReference>("valueReference");
   variable.type = type;
-  variable.causality = read_causality(element);
-  variable.variability = read_variability(element, type, variable.causality);
+  variable.causality = read_causality(element, warnings);
+  variable.variability = read_variability(element, type, variable.causality, warnings);
   variable.initial = read_initial(element, variable);
   variable.description = element.attribute_or("description");
-  for (const xml::Element& alias : element.children("Alias")) {
-    variable.aliases.push_back(alias.required("name"));
-  }
   variable.start = read_start(element, type);
   variable.clocks = element.number_list<core::ValueReference>("clocks");
   // a clocked variable is discrete (FMI 3.0, 2.2.8.3), whatever the default for its type
@@ -100,7 +98,7 @@ class Linker {
     }
     for (std::size_t i = 0; i < variables_.size(); ++i) {
       check_start(elements_[i], variables_[i], warnings_, elements_[i].children("Start").size());
-      check_limits(elements_[i], variables_[i]);
+      check_limits(elements_[i], variables_[i], warnings_);
     }
     return std::move(index_);
   }
@@ -108,10 +106,6 @@ class Linker {
  private:
   void add(std::size_t i) {
     const core::Variable& variable = variables_[i];
-    names_.add(variable.name, elements_[i]);
-    for (const xml::Element& alias : elements_[i].children("Alias")) {
-      names_.add(alias.required("name"), alias);
-    }
     const auto [same_reference, is_new] = index_.emplace(variable.reference, i);
     if (is_new) return;
     elements_[i].fail(fmt::format(
@@ -181,9 +175,26 @@ class Linker {
   std::vector<core::Variable>& variables_;
   std::vector<std::string>& warnings_;
   const std::vector<xml::Element>& elements_;
-  VariableNames names_;
   VariableIndex index_;
 };
+
+/// Its own name and the aliases, of which those that are there already are left out. Returns false
+/// if its own is.
+bool add_names(const xml::Element& element, core::Variable& variable,
+               const core::UnitDescription& unit, VariableNames& names) {
+  const auto is_same = [&](std::size_t first) {
+    const core::Variable& other = unit.variables[first];
+    return other.reference == variable.reference && are_declared_alike(other, variable);
+  };
+  if (names.add(variable.name, element, is_same)) return false;
+  variable.aliases.clear();
+  for (const xml::Element& alias : element.children("Alias")) {
+    const std::string name = alias.required("name");
+    const auto is_own = [&](std::size_t first) { return first == unit.variables.size(); };
+    if (!names.add(name, alias, is_own)) variable.aliases.push_back(name);
+  }
+  return true;
+}
 
 /// Appends the variables of <ModelVariables> in order.
 VariableIndex read_variables(const xml::Element& root, core::UnitDescription& unit) {
@@ -191,11 +202,14 @@ VariableIndex read_variables(const xml::Element& root, core::UnitDescription& un
   if (!list) root.fail("<ModelVariables> is missing");
   const TypeDefinitions types = read_type_definitions(root, unit.warnings);
   std::vector<xml::Element> elements;
+  VariableNames names(unit);
   for (const xml::Element& element : list->children()) {
     if (element.is("", "Annotations")) continue;
     const auto type = find_named<ValueType>(element.name().local, core::kValueTypeCount);
     if (!type) element.fail(fmt::format("{} is not a type of FMI 3.0", element.tag()));
-    unit.variables.push_back(read_variable(element, *type, types, unit.warnings));
+    core::Variable variable = read_variable(element, *type, types, unit.warnings);
+    if (!add_names(element, variable, unit, names)) continue;
+    unit.variables.push_back(std::move(variable));
     elements.push_back(element);
   }
   return Linker(unit, elements).run();
@@ -273,7 +287,7 @@ void read_annotation(const xml::Element& root, core::UnitDescription& unit) {
 
 void read_fmi3_description(const xml::Element& root, core::UnitDescription& unit) {
   unit.instantiation_token = root.given("instantiationToken");
-  read_co_simulation(find_co_simulation(root), unit);
+  read_co_simulation(find_co_simulation(root, unit.warnings), unit);
   const VariableIndex index = read_variables(root, unit);
   const auto reader = [&index](const char* name) {
     return [&index, name](const auto& structure) { return read_unknowns(structure, name, index); };

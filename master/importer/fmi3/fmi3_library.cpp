@@ -43,8 +43,12 @@ static_assert(kFmi3NeededFound == std::size(kFmi3Needed),
 
 }  // namespace
 
-Fmi3Library::Fmi3Library(const fs::path& path, core::Context user, const fs::path& shown_as)
+std::span<const std::string_view> fmi3_needed_functions() { return kFmi3Needed; }
+
+Fmi3Library::Fmi3Library(const fs::path& path, const std::string& model_identifier,
+                         core::Context user, const fs::path& shown_as)
     : SharedLibrary(path, std::move(user), shown_as) {
+  if (!model_identifier.empty()) accept_prefix(model_identifier, "fmi3DoStep");
   std::vector<std::string> missing;
 #define STRIDE_FIND(name)                                           \
   find(functions_.name, "fmi3" #name);                              \

@@ -4,7 +4,9 @@
 #define STRIDE_MASTER_IMPORTER_FMI3_FMI3_LIBRARY_H
 
 #include <filesystem>
+#include <span>
 #include <string>
+#include <string_view>
 
 #include <stride/describe.h>
 #include <stride/fmi3.h>
@@ -37,12 +39,16 @@ struct DescribeFunctions {
 #undef STRIDE_POINTER
 };
 
+/// What any Co-Simulation unit must have, without the "fmi3" before it.
+std::span<const std::string_view> fmi3_needed_functions();
+
 class Fmi3Library : public SharedLibrary {
  public:
   /// Throws as SharedLibrary does, and where an FMI function is missing. Functions of the other
-  /// interface types and optional capabilities may be.
-  explicit Fmi3Library(const std::filesystem::path& path, core::Context user = {},
-                       const std::filesystem::path& shown_as = {});
+  /// interface types and optional capabilities may be. With a model identifier they are found by
+  /// their names in a static library, too.
+  explicit Fmi3Library(const std::filesystem::path& path, const std::string& model_identifier = "",
+                       core::Context user = {}, const std::filesystem::path& shown_as = {});
 
   const Fmi3Functions& functions() const { return functions_; }
   /// Throws core::Error (Input) where it does not export what this unit needs further.

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <tinyxml2.h>
 
 #include "master/util/boolean_text.h"
@@ -151,6 +152,24 @@ bool Element::lenient_flag(const char* name, std::vector<std::string>& warnings)
   return *meant;
 }
 
+std::optional<std::string> Element::lenient_word(const char* name,
+                                                 std::span<const std::string> words,
+                                                 std::vector<std::string>& warnings) const {
+  const auto value = attribute(name);
+  if (!value) return std::nullopt;
+  if (std::ranges::find(words, *value) != words.end()) return value;
+  const std::string lower = core::lower_case(without_blanks(*value));
+  for (const std::string& word : words) {
+    if (core::lower_case(word) != lower) continue;
+    warnings.push_back(core::to_text({.where = where()}) +
+                       fmt::format("{}=\"{}\" of {} is taken for {}", name, *value, tag(), word));
+    return word;
+  }
+  fail(fmt::format("{}=\"{}\" of {}: expected one of {}", name, *value, tag(),
+                   fmt::join(words, ", ")),
+       core::nearest(*value, words).empty() ? "" : core::suggestion(*value, words));
+}
+
 bool Element::flag(const char* name, bool otherwise) const {
   const auto value = attribute(name);
   if (!value) return otherwise;
@@ -180,6 +199,21 @@ std::optional<Element> Element::child(Name name) const {
                               found[0].where().line));
   }
   return found[0];
+}
+
+std::optional<Element> Element::lenient_child(std::string_view name,
+                                              std::vector<std::string>& warnings) const {
+  if (const auto found = child({"", name})) return found;
+  const std::string wanted = core::lower_case(std::string(name));
+  for (const Element& other : children()) {
+    const bool is_it = other.name().name_space.empty() &&
+                       core::lower_case(std::string(other.name().local)) == wanted;
+    if (!is_it) continue;
+    warnings.push_back(core::to_text({.where = other.where()}) +
+                       fmt::format("{} is taken for <{}>", other.tag(), name));
+    return other;
+  }
+  return std::nullopt;
 }
 
 std::optional<Element> Element::parent() const {

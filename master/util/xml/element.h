@@ -6,6 +6,7 @@
 #include <charconv>
 #include <initializer_list>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -86,6 +87,11 @@ class Element {
   /// warning.
   bool lenient_flag(const char* name, std::vector<std::string>& warnings) const;
 
+  /// An attribute that is one of these words, nothing if it is missing; one in another case is
+  /// taken for it with a warning.
+  std::optional<std::string> lenient_word(const char* name, std::span<const std::string> words,
+                                          std::vector<std::string>& warnings) const;
+
   template <class T>
   std::optional<T> number(const char* name) const {
     const auto value = attribute(name);
@@ -107,6 +113,9 @@ class Element {
   std::vector<Element> children(Name name) const;
   /// The only child of this name, if there is one; two are an error.
   std::optional<Element> child(Name name) const;
+  /// Likewise, in another case of letters with a warning if there is none in the right one.
+  std::optional<Element> lenient_child(std::string_view name,
+                                       std::vector<std::string>& warnings) const;
   std::optional<Element> parent() const;
 
   /// Refuses what is not listed, so that no misspelt word is ignored. Attributes of other

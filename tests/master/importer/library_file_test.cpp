@@ -87,3 +87,14 @@ TEST_CASE("segments that would be put over other memory are found out") {
   CHECK_THAT(damage_with([](auto& s) { segment_of(s, PT_GNU_RELRO).p_memsz += 1 << 30; }),
              Contains("its read-only part is in none"));
 }
+
+TEST_CASE("what a library exports is known before it is loaded") {
+  const auto names = importer::exported_names(raw_library("raw"));
+  CHECK(names.contains("fmi3DoStep"));
+  CHECK_FALSE(names.contains("malloc"));  // which it needs
+  const Scratch scratch;
+  CHECK(importer::exported_names(scratch / "absent.so").empty());
+  const std::string bytes = read(raw_library("raw"));
+  const auto cut = scratch.write("cut.so", bytes.substr(0, bytes.size() / 2));
+  CHECK(importer::exported_names(cut).empty());
+}

@@ -527,20 +527,31 @@ TEST_CASE("missing parts and wrong values are errors with their line") {
   CHECK_THAT(error_with("factor=\"0.001\"", "factor=\"NaN\""),
              Contains("factor=\"NaN\" of <BaseUnit>: expected a finite number"));
   CHECK_THAT(error_with("offset=\"273.15\"", "offset=\"inf\""), Contains("a finite number"));
-  CHECK_THAT(error_with("start=\"20\"", "start=\"\""),
-             Contains("start=\"\" of 'temperature' has no value"));
   CHECK_THAT(error_with("start=\" 2\"", "start=\" \""), Contains("unit.xml:") && Contains("start"));
   CHECK_THAT(error_with("max=\"100\"", "max=\"NaN\""),
              Contains("max=\"NaN\" of 'temperature': expected a number"));
-  CHECK_THAT(error_with("max=\"100\"", "max=\"-300\""),
-             Contains("min=\"-273.15\" of 'temperature' is above max=\"-300\""));
+}
+
+TEST_CASE("of several variables with one name the first one counts, with a warning") {
+  const auto twice = parse_with("name=\"level\"", "name=\"on\"");
+  CHECK(variable(twice, "on").type == ValueType::Boolean);
+  CHECK_FALSE(twice.find("height"));
+  CHECK(twice.ambiguous_names == std::set<std::string>{"on"});
+  REQUIRE_FALSE(twice.warnings.empty());
+  CHECK_THAT(twice.warnings[0], Contains("unit.xml:34: ") &&
+                                    Contains("'on' is used twice, first in line 33: the first one "
+                                             "counts"));
+  const auto alias = parse_with("name=\"height\"", "name=\"on\"");
+  CHECK(variable(alias, "on").type == ValueType::Boolean);
+  CHECK(variable(alias, "level").aliases.empty());
+  CHECK(alias.ambiguous_names == std::set<std::string>{"on"});
+  const auto own = parse_with("name=\"height\"", "name=\"level\"");
+  CHECK(own.ambiguous_names.empty());
+  REQUIRE(own.warnings.size() == 1);
+  CHECK_THAT(own.warnings[0], Contains("they are the same"));
 }
 
 TEST_CASE("names and value references are unique") {
-  CHECK_THAT(error_with("name=\"level\"", "name=\"on\""),
-             Contains("unit.xml:34: ") && Contains("'on' is used twice, first in line 33"));
-  CHECK_THAT(error_with("name=\"height\"", "name=\"on\""),
-             Contains("unit.xml:35: ") && Contains("'on' is used twice, first in line 33"));
   CHECK_THAT(error_with("<Alias name=\"height\"/>", "<Alias/>"), Contains("'name'"));
   CHECK_THAT(error_with("valueReference=\"9\" causality", "valueReference=\"8\" causality"),
              Contains("variable 'level' has the value reference 8 of 'on' in line 33"));
@@ -647,6 +658,28 @@ TEST_CASE("a least or greatest value is a number") {
              Contains("unit.xml:25: max=\"much\" of 'temperature': expected a number"));
   CHECK_THAT(error_with("min=\"-273.15\"", "min=\"1 2\""),
              Contains("min=\"1 2\" of 'temperature'"));
+}
+
+TEST_CASE("attributes whose meaning is clear, or that cannot hold, are a warning") {
+  struct Slip {
+    const char *from, *to, *warning;
+  };
+  for (const auto& [from, to, warning] :
+       {Slip{"start=\"20\"", "start=\"\"", "start=\"\" of 'temperature' has no value, and is"},
+        {"max=\"100\"", "max=\"-300\"", "'temperature' is above max=\"-300\"; both are ignored"},
+        {"variability=\"tunable\"", "variability=\"Tunable\"", "is taken for tunable"},
+        {"causality=\"independent\"", "causality=\"Independent\"", "is taken for independent"},
+        {"<CoSimulation ", "<Cosimulation ", "<Cosimulation> is taken for <CoSimulation>"}}) {
+    CAPTURE(to);
+    const auto unit = parse_with(from, to);
+    REQUIRE(unit.warnings.size() == 1);
+    CHECK_THAT(unit.warnings[0], Contains("unit.xml:") && Contains(warning));
+    CHECK(variable(unit, "mode").variability == Variability::Tunable);
+    CHECK(variable(unit, "time").causality == Causality::Independent);
+  }
+  CHECK(variable(parse_with("start=\"20\"", "start=\"\""), "temperature").start == "");
+  const auto without = parse_with("max=\"100\"", "max=\"-300\"");
+  CHECK(variable(without, "temperature").min + variable(without, "temperature").max == "");
 }
 
 TEST_CASE("a declared type that is not there is ignored, with a warning") {

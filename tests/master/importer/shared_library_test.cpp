@@ -20,7 +20,7 @@ fs::path altered(const Scratch& scratch, const std::string& library, const std::
 }
 
 std::string error_of_loading(const fs::path& path) {
-  return input_error([&] { importer::Fmi3Library(path, {"system.ssd", 3}); });
+  return input_error([&] { importer::Fmi3Library(path, "", {"system.ssd", 3}); });
 }
 
 }  // namespace

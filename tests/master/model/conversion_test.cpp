@@ -69,9 +69,32 @@ TEST_CASE("units are converted before the transformation, or not at all") {
   CHECK(only.linear.offset == 5);
 }
 
+TEST_CASE("a unit that keeps another from being converted is named if it has no definition") {
+  const auto u = point("b.u", ValueType::Float64, kMetre);
+  const UnitOfMeasure unknown{"furlong", std::nullopt};
+  CHECK_THAT(
+      reason({point("a.y", ValueType::Float64, unknown), u}, {{}}),
+      Contains("the unit 'furlong' has no definition in x.ssd, nor where 'a.y' is declared"));
+  CHECK_THAT(reason({point("a.y", ValueType::Float64, kSecond), u}, {{}}),
+             Contains("cannot be converted") && !Contains("has no definition"));
+}
+
 TEST_CASE("passages are made one after the other") {
   const auto y = point("a.y", ValueType::Float64, kCentimetre);
   const auto u = point("c.u", ValueType::Float64, kCentimetre);
+  SECTION("what has no unit takes on the first one on its way, which is converted to the last") {
+    const auto bare = point("a.y", ValueType::Float64);
+    const auto system = point("s.y", {}, kMetre);
+    CHECK(of({bare, system, u}, {{}, {}}).linear.factor == Approx(100));
+    CHECK(of({bare, system, point("t.y", {}, kMetre), u}, {{}, {}, {}}).linear.factor ==
+          Approx(100));
+    CHECK(of({bare, point("s.y", {}), system, u}, {{}, {}, {}}).linear.factor == Approx(100));
+    CHECK(
+        of({bare, point("s.y", {}, kMetre), point("o", {}, kCentimetre)}, {{}, {}}).linear.factor ==
+        Approx(100));
+    CHECK(of({bare, system, point("b.u", ValueType::Float64)}, {{}, {}}).is_identity());
+    CHECK(of({bare, system, u}, {{}, {true, {}}}).is_identity());
+  }
   SECTION("what leaves a system has the unit that it came with, unless its connector says one") {
     const Conversion c =
         of({y, point("s.y", {}), point("t.u", {}, kMetre), u}, {linear(1, 10), {}, linear(3, 0)});

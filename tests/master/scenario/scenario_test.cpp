@@ -196,7 +196,8 @@ TEST_CASE("What is misspelt is refused, and the right word suggested") {
        "<ssd:Connector> has no attribute 'type'", "its type is an element in it: <ssc:Real/>"},
       {ssd_with("<ssd:Component name='a' source='a.fmu'><ssd:Connectors><ssd:Connector name='x' "
                 "kind='ouput'/></ssd:Connectors></ssd:Component>"),
-       "the kind 'ouput' is not known", "did you mean 'output'?"},
+       "kind=\"ouput\" of <ssd:Connector>: expected one of input, output",
+       "did you mean 'output'?"},
       {ssd_with("<ssd:Component name='a' source='a.fmu'><ssd:Connectors><ssd:Connector name='x' "
                 "kind='output'><ssc:Flot64/></ssd:Connector></ssd:Connectors></ssd:Component>"),
        "<ssc:Flot64> is not a type of a connector", "did you mean 'Float64'?"},

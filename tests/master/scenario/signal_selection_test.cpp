@@ -57,7 +57,7 @@ TEST_CASE("a finder finds what is meant, by plain names and by globs") {
     for (const NamedVariable& variable : finder.all()) {
       if (is_meant(system, variable.id, pattern)) expected.push_back(variable.name);
     }
-    for (const NamedVariable* variable : finder.meant(pattern)) found.push_back(variable->name);
+    for (const NamedVariable* variable : finder.meant(pattern, {})) found.push_back(variable->name);
     CHECK(found == expected);
   }
 }

@@ -13,8 +13,15 @@ using Catch::Contains;
 
 namespace {
 
+Definitions read_inside(const std::string& inside, std::vector<std::string>& warnings) {
+  const auto document = stride::xml::Document::parse(ssd(inside), "x.ssd");
+  return read_definitions(document.root(), kSsd, warnings);
+}
 Definitions read_inside(const std::string& inside) {
-  return read_definitions(stride::xml::Document::parse(ssd(inside), "x.ssd").root(), kSsd);
+  std::vector<std::string> warnings;
+  Definitions definitions = read_inside(inside, warnings);
+  CHECK(warnings.empty());
+  return definitions;
 }
 
 }  // namespace
@@ -35,6 +42,19 @@ TEST_CASE("units and enumerations are known by their names") {
   CHECK_FALSE(definitions.unit("rpm").meaning);
   CHECK(definitions.enumerations.at("Mode") ==
         stride::core::EnumerationItems{{"off", -1}, {"on", 9223372036854775807}});
+}
+
+TEST_CASE("units in another namespace are read, and what is no unit is ignored, with a warning") {
+  std::vector<std::string> warnings;
+  const Definitions definitions = read_inside(
+      "<ssd:Units><ssd:Unit name='a'><ssd:BaseUnit m='1'/></ssd:Unit>\n<ssc:Uint name='b'/>"
+      "</ssd:Units>",
+      warnings);
+  CHECK(definitions.unit("a").meaning->exponents[1] == 1);
+  REQUIRE(warnings.size() == 3);
+  CHECK_THAT(warnings[0], Contains("x.ssd:") && Contains("<ssd:Unit> is taken for <ssc:Unit>"));
+  CHECK_THAT(warnings[1], Contains("<ssd:BaseUnit> is taken for <ssc:BaseUnit>"));
+  CHECK_THAT(warnings[2], Contains("<ssc:Uint> is not known in <ssd:Units> and is ignored"));
 }
 
 TEST_CASE("what a file does not define another may") {

@@ -22,14 +22,21 @@ std::string dictionary(const std::string& entries, const std::string& version = 
          "</ssb:SignalDictionary>";
 }
 
-std::map<std::string, SignalDictionary> read_dictionaries(
-    const std::string& inside, const std::filesystem::path& folder = {}) {
+std::map<std::string, SignalDictionary> read_dictionaries(const std::string& inside,
+                                                          const std::filesystem::path& folder,
+                                                          std::vector<std::string>& warnings) {
   const auto document = stride::xml::Document::parse(
       ssd("<ssd:SignalDictionaries>" + inside + "</ssd:SignalDictionaries>"), "x.ssd");
   Files files;
-  std::vector<std::string> warnings;
+  Definitions definitions;
+  definitions.units_of_measure["m"] = {{0, 1, 0, 0, 0, 0, 0, 0}, 1, 0};
   return read_signal_dictionaries(*document.root().child({kSsd, "SignalDictionaries"}),
-                                  {&folder, 1}, files, warnings);
+                                  {files, {&folder, 1}, definitions, warnings});
+}
+std::map<std::string, SignalDictionary> read_dictionaries(
+    const std::string& inside, const std::filesystem::path& folder = {}) {
+  std::vector<std::string> warnings;
+  return read_dictionaries(inside, folder, warnings);
 }
 
 const std::string kSpeed =
@@ -53,6 +60,23 @@ TEST_CASE("a dictionary is inline or in a file, with units of measure of its own
   CHECK(speed.type.has_value() == is_inline);  // SSP 1.0 says nothing of the width
 }
 
+TEST_CASE("a unit that a dictionary does not define is the system's, with a warning") {
+  const auto entry = [](const std::string& unit) {
+    return "<ssd:SignalDictionary name='bus'>" +
+           dictionary("<ssb:DictionaryEntry name='s'><ssc:Float64 unit='" + unit +
+                      "'/></ssb:DictionaryEntry>") +
+           "</ssd:SignalDictionary>";
+  };
+  std::vector<std::string> warnings;
+  const auto known = read_dictionaries(entry("m"), {}, warnings);
+  CHECK(known.at("bus").entries.at("s").unit.meaning->exponents[1] == 1);
+  REQUIRE(warnings.size() == 1);
+  CHECK_THAT(warnings[0], Contains("x.ssd:") && Contains("the unit 'm' is not defined"));
+  const auto unknown = read_dictionaries(entry("furlong"), {}, warnings);
+  CHECK_FALSE(unknown.at("bus").entries.at("s").unit.meaning);
+  CHECK(warnings.size() == 1);
+}
+
 TEST_CASE("dictionaries that cannot be meant are refused") {
   const auto with = [](const std::string& entries) {
     return "<ssd:SignalDictionary name='bus'>" + dictionary(entries) + "</ssd:SignalDictionary>";
@@ -60,6 +84,7 @@ TEST_CASE("dictionaries that cannot be meant are refused") {
   const std::string entry = "<ssb:DictionaryEntry name='a'><ssc:Boolean/></ssb:DictionaryEntry>";
   const auto [text, message] = GENERATE_COPY(table<std::string, std::string>({
       {with(entry + entry), "two entries are named 'a'"},
+      {with("<ssb:Unit name='m'/>" + entry), "<ssb:Unit>"},
       {with(entry) + with(entry), "two signal dictionaries are named 'bus'"},
       {with("<ssb:DictionaryEntry name='a'><ssb:Boolean/></ssb:DictionaryEntry>"), "is not known"},
       {"<ssd:SignalDictionary name='bus'/>", "neither a source nor <ssb:SignalDictionary>"},

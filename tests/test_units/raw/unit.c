@@ -20,6 +20,7 @@
  * content.
  */
 #include <math.h>
+#include <signal.h>
 #include <stdint.h>
 #include <string.h>
 
@@ -89,6 +90,8 @@ fmi3Instance fmi3InstantiateCoSimulation(fmi3String name, fmi3String token, fmi3
 #endif
 #ifdef WITH_PYTHON
   if (Py_IsInitialized() != 0) return NULL;
+  const struct sigaction ignored = {.sa_handler = SIG_IGN}; /* as the interpreter has it */
+  sigaction(SIGXFSZ, &ignored, NULL);
 #endif
   Instance* instance = instances;
   while (instance->is_used) {

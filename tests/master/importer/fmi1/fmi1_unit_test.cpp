@@ -1,10 +1,12 @@
 #include "master/importer/fmi1/fmi1_unit.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <dlfcn.h>
 
 #include "master/importer/fmu.h"
+#include "master/importer/model_description.h"
 #include "master/importer/unpacked_fmu.h"
 #include "tests/at.h"
 #include "tests/master/importer/support.h"
@@ -107,6 +109,31 @@ TEST_CASE("the description of an FMI 1.0 unit has causalities and types as those
   CHECK(description.outputs[1].dependencies ==
         std::vector{static_cast<ValueReference>(*description.find("mode"))});
   CHECK(description.outputs[2].dependencies == std::nullopt);
+}
+
+TEST_CASE("the interface type of an FMI 1.0 unit, as it is written, and words in another case") {
+  std::string text = read(importer::UnpackedFmu(test_fmu("fmi1_tank")).description());
+  const auto with = [&](const std::string& from, const std::string& to) {
+    std::string changed = text;
+    for (std::size_t at = 0; (at = changed.find(from, at)) != std::string::npos; at += to.size()) {
+      changed.replace(at, from.size(), to);
+    }
+    return importer::parse_model_description(changed, "unit.xml");
+  };
+  const auto warned = [](const core::UnitDescription& unit, const std::string& warning) {
+    return std::ranges::any_of(unit.warnings, [&](const std::string& text) {
+      return text.find(warning) != std::string::npos;
+    });
+  };
+  CHECK(warned(with("CoSimulation_StandAlone", "CoSimulation_Standalone"),
+               "<CoSimulation_Standalone> is taken for <CoSimulation_StandAlone>"));
+  CHECK_THAT(input_error([&] { with("CoSimulation_StandAlone", "CoSimulation_Tool"); }),
+             Contains("the unit couples stride to a tool"));
+  CHECK_THAT(input_error([&] { with("CoSimulation_StandAlone", "Simulation"); }),
+             Contains("<Implementation> has no <CoSimulation_StandAlone>"));
+  const auto unit = with("causality=\"output\"", "causality=\"Output\"");
+  CHECK(warned(unit, "causality=\"Output\" of <ScalarVariable> is taken for output"));
+  CHECK(unit.variables[*unit.find("level")].causality == core::Causality::Output);
 }
 
 TEST_CASE("an FMI 1.0 unit goes through its life cycle", "[here]") {

@@ -72,13 +72,18 @@ core::Variable variable(const std::string& name) {
   return unit.variables[unit.find(name).value()];
 }
 
-/// The error of the description with a part replaced.
-std::string fmi2_error_with(const std::string& part, const std::string& replacement) {
+/// The description with a part replaced.
+importer::ModelDescription fmi2_with(const std::string& part, const std::string& replacement) {
   std::string text = kTank;
   const std::size_t at = text.find(part);
   REQUIRE(at != std::string::npos);
   text.replace(at, part.size(), replacement);
-  return input_error([&] { importer::parse_model_description(text, "unit.xml"); });
+  return importer::parse_model_description(text, "unit.xml");
+}
+
+/// The error of it.
+std::string fmi2_error_with(const std::string& part, const std::string& replacement) {
+  return input_error([&] { fmi2_with(part, replacement); });
 }
 
 }  // namespace
@@ -233,8 +238,6 @@ TEST_CASE("errors of broken FMI 2.0 descriptions have the line") {
              Contains("<SimpleType> has none of"));
   CHECK_THAT(fmi2_error_with("SimpleType name=\"Switch\"", "SimpleType name=\"Mode\""),
              Contains("the type 'Mode' is defined twice"));
-  CHECK_THAT(fmi2_error_with("name=\"T2\"", "name=\"T\""),
-             Contains("the variable name 'T' is used twice"));
   CHECK_THAT(fmi2_error_with("causality=\"local\"", "causality=\"structuralParameter\""),
              Contains("there are none in FMI 2.0"));
   CHECK_THAT(fmi2_error_with("valueReference=\"5\"", "valueReference=\"-5\""), Contains("\"-5\""));
@@ -291,4 +294,15 @@ TEST_CASE("start values as other tools write them are taken, with a warning") {
   CHECK_THAT(unit.warnings[0],
              Contains("unit.xml:") && Contains("start=\"True\"") && Contains("is taken for true"));
   CHECK_THAT(unit.warnings[1], Contains("declaredType=\"Switches\" is ignored"));
+}
+
+TEST_CASE("a variable of FMI 2.0 whose name is there already is left out, and indices stay right") {
+  const auto unit = fmi2_with("name=\"T2\"", "name=\"T\"");
+  REQUIRE_FALSE(unit.warnings.empty());
+  CHECK_THAT(unit.warnings[0], Contains("the variable name 'T' is used twice"));
+  CHECK(unit.ambiguous_names.contains("T"));  // another causality
+  CHECK(unit.variables[*unit.find("T")].causality == Causality::Output);
+  REQUIRE(unit.initial_unknowns.size() == 2);
+  CHECK(unit.initial_unknowns[1].reference == unit.find("heat"));
+  CHECK(unit.fmi2->references.size() == unit.variables.size());
 }

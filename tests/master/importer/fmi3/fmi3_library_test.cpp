@@ -11,7 +11,7 @@ using importer::Fmi3Library;
 namespace {
 
 std::string load_error(const fs::path& path) {
-  return input_error([&] { Fmi3Library(path, {"system.ssd", 3}); });
+  return input_error([&] { Fmi3Library(path, "", {"system.ssd", 3}); });
 }
 
 }  // namespace
