@@ -31,13 +31,16 @@ struct WritableFolder {
 ///   the user, not those of a unit;
 /// - files are only read and executed, but for what is in the folders `writable` and below, and
 ///   /dev/null and its like. Nothing is made, removed, renamed, truncated or mounted elsewhere.
-///   What is open already is not covered (Landlock);
+///   What is open already is not covered. No terminal or other device is opened, but for /dev/null
+///   and its like, and those for rendering (Landlock);
+/// - requests to files and devices (ioctl) answer ENOTTY, but for a few without effect on others
+///   (seccomp);
 /// - owners, times, attributes and modes of files are not changed, wherever they are; a change of
 ///   modes answers that it is done (seccomp);
 /// - no call names another process, and nothing is shared by a key or a name (seccomp);
 /// - no namespaces, mounts and other changes of the system (seccomp);
 /// - signals reach, and debuggers attach to, processes in the same sandbox only;
-/// - no socket but AF_UNIX, and no input into a terminal (seccomp);
+/// - no socket but AF_UNIX (seccomp);
 /// - no system calls newer than Linux 6.4 (seccomp);
 /// - with `has_memory_limit`, no files are sent through sockets (seccomp): those in memory would be
 ///   open nowhere on their way, and escape the watch over memory.

@@ -9,13 +9,13 @@ namespace stride::isolation {
 /// no_new_privs. Throws std::system_error if the kernel takes no such filter; then nothing has
 /// changed.
 
-/// No socket but AF_UNIX, also not by way of io_uring, and no typing into a terminal.
+/// No socket but AF_UNIX, also not by way of io_uring.
 void forbid_network();
 
 /// No call that names another process (or a thread, by its number), and nothing that is shared with
 /// other processes by a key or a name: limits, priorities, processors, memory and files of others,
-/// the group in a terminal's foreground, System V memory, semaphores and queues, POSIX queues, keys
-/// of the kernel, performance counters, leases on files. Signals and debuggers are Landlock's
+/// System V memory, semaphores and queues, POSIX queues, keys of the kernel, performance counters,
+/// leases on files. Signals and debuggers are Landlock's
 /// matter.
 void forbid_reaching_processes();
 
@@ -36,6 +36,11 @@ void forbid_newer_calls();
 /// its own, since a filter cannot tell them apart. A change of modes answers that it is done: what
 /// copies a file changes its mode, too, and goes on. A file gets its mode when it is made.
 void forbid_changing_attributes();
+
+/// Requests to devices and file systems (ioctl) answer ENOTTY, as if they knew none, but for those
+/// to /dev/dri and a few that change nothing for others: FIONREAD, FIONBIO, FIOASYNC, FIOCLEX,
+/// FIONCLEX and TCGETS.
+void forbid_requests();
 
 /// No sendmsg() and sendmmsg(), by which open files are sent through a socket. A filter cannot see
 /// whether there are any; send() and write() carry none.
