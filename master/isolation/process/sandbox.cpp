@@ -124,9 +124,10 @@ Protections enter_sandbox(std::span<const WritableFolder> writable, bool has_mem
          "no change of owners, times and modes of files (chmod() does nothing): seccomp",
          forbid_changing_attributes);
   put_on(protections, "no requests to files and devices (ioctl): seccomp", forbid_requests);
+  put_on(protections, "no locks on files (flock() does nothing): seccomp", ignore_locks);
   if (has_memory_limit) {
     put_on(protections, "no files sent through sockets, for the memory limit: seccomp",
-           forbid_sending_files);
+           forbid_hiding_files);
   }
   put_on(protections, "no system calls newer than Linux 6.4: seccomp", forbid_newer_calls);
   return protections;

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include <fcntl.h>
+#include <linux/close_range.h>
 #include <linux/filter.h>
 #include <linux/ioprio.h>
 #include <linux/seccomp.h>
@@ -57,7 +58,9 @@ class Filter {
   }
 
   /// The call does nothing, and answers that it is done.
-  void ignore(int call) { require(::seccomp_rule_add(context_, SCMP_ACT_ERRNO(0), call, 0)); }
+  void ignore(int call, std::initializer_list<scmp_arg_cmp> arguments = {}) {
+    deny(call, arguments, 0);
+  }
 
   /// All of these calls, with any arguments.
   void deny_all(std::initializer_list<int> calls) {
@@ -254,8 +257,29 @@ void forbid_requests() {
   for (const Interface& interface : kInterfaces) forbid_requests_through(interface);
 }
 
-void forbid_sending_files() {
+void ignore_locks() {
   Filter filter;
+  filter.ignore(SCMP_SYS(flock));
+  constexpr scmp_datum_t kOfSmallMachines[] = {13, 14};  // F_SETLK64, F_SETLKW64
+  for (const int call : {SCMP_SYS(fcntl), SCMP_SYS(fcntl64)}) {
+    const auto ignore = [&](scmp_datum_t command) {
+      filter.ignore(call, {argument(1, SCMP_CMP_MASKED_EQ, kInt, command)});
+    };
+    for (const int command : {F_SETLK, F_SETLKW, F_OFD_SETLK, F_OFD_SETLKW}) {
+      ignore(static_cast<scmp_datum_t>(command));
+    }
+    for (const scmp_datum_t command : kOfSmallMachines) ignore(command);
+  }
+  filter.load();
+}
+
+void forbid_hiding_files() {
+  Filter filter;
+  // a thread with open files of its own, where the supervisor does not look
+  filter.deny(SCMP_SYS(clone),
+              {argument(0, SCMP_CMP_MASKED_EQ, CLONE_THREAD | CLONE_FILES, CLONE_THREAD)});
+  filter.deny(SCMP_SYS(close_range),
+              {argument(2, SCMP_CMP_MASKED_EQ, CLOSE_RANGE_UNSHARE, CLOSE_RANGE_UNSHARE)});
   filter.deny_all({SCMP_SYS(sendmsg), SCMP_SYS(sendmmsg)});
   constexpr int kSendMessage = 16, kSendMessages = 20;  // of a 32-bit program
   filter.deny(SCMP_SYS(socketcall), {argument(0, SCMP_CMP_EQ, kSendMessage)});

@@ -42,9 +42,14 @@ void forbid_changing_attributes();
 /// FIONCLEX and TCGETS.
 void forbid_requests();
 
-/// No sendmsg() and sendmmsg(), by which open files are sent through a socket. A filter cannot see
-/// whether there are any; send() and write() carry none.
-void forbid_sending_files();
+/// Locks on files (flock(), and those of fcntl()) do nothing, and answer that they are had: a lock
+/// of a file that can only be read would keep other programs waiting.
+void ignore_locks();
+
+/// No thread has open files of its own, which those who count them would not see; and no sendmsg()
+/// and sendmmsg(), by which open files are sent through a socket. A filter cannot see whether there
+/// are any; send() and write() carry none.
+void forbid_hiding_files();
 
 /// No cutting off of files by their names, or when they are opened for reading.
 void forbid_truncation();

@@ -8,10 +8,12 @@
 #include <thread>
 #include <vector>
 
+#include <linux/close_range.h>
 #include <linux/fs.h>
 #include <linux/io_uring.h>
 #include <mqueue.h>
 #include <sched.h>
+#include <sys/file.h>
 #include <sys/ioctl.h>
 #include <sys/ipc.h>
 #include <sys/mman.h>
@@ -294,6 +296,50 @@ TEST_CASE("modes, owners, times and attributes of files stay as they are") {
   ::close(open);
 }
 
+TEST_CASE("a lock of a file is not had, and answers that it is") {
+  if (lacks_seccomp()) return;
+  const ScratchFolder scratch;
+  const auto path = write_file(scratch / "file", "text");
+  const Descriptor own(::open(path.c_str(), O_RDWR | O_CLOEXEC));
+  const Descriptor others(::open(path.c_str(), O_RDWR | O_CLOEXEC));
+  REQUIRE(::flock(own.number(), LOCK_EX) == 0);
+  struct flock range {};
+  range.l_type = F_WRLCK;
+  REQUIRE(::fcntl(own.number(), F_OFD_SETLK, &range) == 0);
+  const auto lock = [&] {
+    std::string answers = answer(::flock(others.number(), LOCK_EX | LOCK_NB));
+    for (const int command : {F_SETLK, F_OFD_SETLK}) {
+      answers += " " + answer(::fcntl(others.number(), command, &range));
+    }
+    return answers;
+  };
+  CHECK(in_child(lock) == "EAGAIN EAGAIN EAGAIN");
+  CHECK(say_filtered(ignore_locks, lock) == "done done done");
+  CHECK(say_filtered(ignore_locks, [&] {
+          return answer(::fcntl(others.number(), F_SETLKW, &range)) +
+                 answer(::fcntl(others.number(), F_OFD_SETLKW, &range)) +
+                 answer(::fcntl(others.number(), F_GETFL));
+        }) == "donedonedone");
+}
+
+TEST_CASE("no thread has open files of its own") {
+  if (lacks_seccomp()) return;
+  constexpr unsigned long kThread = CLONE_VM | CLONE_FS | CLONE_SIGHAND | CLONE_THREAD;
+  const auto start = [](unsigned long flags) {
+    return [=] {
+      alignas(16) static char stack[1 << 16];
+      const auto wait = [](void*) { return ::pause(); };
+      return answer(::clone(wait, stack + sizeof stack, static_cast<int>(flags), nullptr));
+    };
+  };
+  CHECK(in_child(start(kThread)) == "done");
+  CHECK(say_filtered(forbid_hiding_files, start(kThread)) == "EACCES");
+  CHECK(say_filtered(forbid_hiding_files, start(kThread | CLONE_FILES)) == "done");
+  check_denied(forbid_hiding_files,
+               {{"a list of its own",
+                 [] { return ::syscall(SYS_close_range, 1000, 1001, CLOSE_RANGE_UNSHARE); }}});
+}
+
 TEST_CASE("a change of a file's mode is not made, and answers that it is") {
   if (lacks_seccomp()) return;
   const ScratchFolder scratch;
@@ -355,10 +401,10 @@ TEST_CASE("no file is sent through a socket, and bytes are") {
   mmsghdr message{};
   message.msg_hdr.msg_iov = &content;
   message.msg_hdr.msg_iovlen = 1;
-  check_denied(forbid_sending_files,
+  check_denied(forbid_hiding_files,
                {{"sendmsg", [&] { return ::sendmsg(ends[0], &message.msg_hdr, 0); }},
                 {"sendmmsg", [&] { return ::sendmmsg(ends[0], &message, 1, 0); }}});
-  CHECK(say_filtered(forbid_sending_files, [&] { return answer(::send(ends[0], "x", 1, 0)); }) ==
+  CHECK(say_filtered(forbid_hiding_files, [&] { return answer(::send(ends[0], "x", 1, 0)); }) ==
         "done");
   for (const int end : ends) ::close(end);
 }
