@@ -51,6 +51,12 @@ core::Error error_of_locked_output(const std::string& end, std::span<const core:
           hint_for(is_known ? users.front().unit : "")};
 }
 
+/// Not the error's context, since it is a suspicion: "the last call was fmi3DoStep of …".
+std::string last_call(const importer::UnitCall& call) {
+  return fmt::format("the last call was {} of unit '{}'{}", call.function, call.unit,
+                     call.time ? fmt::format(" at {} s", to_seconds(*call.time)) : "");
+}
+
 /// Of a process that calls no unit.
 core::Error error_outside_of_calls(const std::string& end, const UnitWork& work) {
   const importer::LibraryWork& library = work.library;
@@ -62,10 +68,18 @@ core::Error error_outside_of_calls(const std::string& end, const UnitWork& work)
             hint_for(unit)};
   }
   if (work.has_locked_output) return error_of_locked_output(end, work.users);
-  const char* const place =
-      work.is_leaving ? " in a destructor or an exit function of a library, after the command"
-                      : ", in no call of a unit";
-  return {core::Error::Kind::Run, {}, end + place, kGeneralHint};
+  if (work.is_leaving) {
+    return {core::Error::Kind::Run,
+            {},
+            end + " in a destructor or an exit function of a library, after the command",
+            kGeneralHint};
+  }
+  const std::string place = end + ", in no call of a unit";
+  if (!work.last) return {core::Error::Kind::Run, {}, place, kGeneralHint};
+  return {core::Error::Kind::Run,
+          {},
+          fmt::format("{}; {}", place, last_call(*work.last)),
+          hint_for(work.last->unit)};
 }
 
 core::Error error_in(const importer::UnitCall& call, const std::string& end) {

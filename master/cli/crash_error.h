@@ -2,6 +2,7 @@
 #ifndef STRIDE_MASTER_CLI_CRASH_ERROR_H
 #define STRIDE_MASTER_CLI_CRASH_ERROR_H
 
+#include <optional>
 #include <vector>
 
 #include "master/cli/signal_origin.h"
@@ -31,6 +32,7 @@ struct ProcessEnd {
 struct UnitWork {
   std::vector<importer::UnitCall> calls;  ///< those that have not returned
   importer::LibraryWork library;
+  std::optional<importer::UnitCall> last{};  ///< of the thread, and returned
   std::vector<core::Context> users{};  ///< of the libraries that are loaded, as far as is known
   bool is_leaving = false;             ///< the command is over
   bool is_overwritten = false;         ///< this, so that it says nothing

@@ -62,6 +62,7 @@ Guarded guarded;
     EndNote& note = end_note();
     const UnitWork work{.calls = importer::unfinished_calls(note.end.thread),
                         .library = importer::unfinished_library_work(),
+                        .last = importer::last_call_of_this_thread(),
                         .users = importer::library_users(),
                         .is_leaving = bool(note.is_leaving),
                         .has_locked_output = is_output_locked()};

@@ -166,10 +166,13 @@ void open_missing_standard_files() {
 
 /// What was printed is in memory yet. Throws core::Error (Run).
 void flush_standard_output() {
-  std::cout.flush();
-  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0 && std::cout.good()) return;
-  stride::core::fail_run({}, fmt::format("cannot write the standard output: {}",
-                                         std::generic_category().message(errno)));
+  errno = 0;
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return;
+  const int reason = errno;
+  stride::core::fail_run({},
+                         fmt::format("cannot write the standard output: {}",
+                                     reason != 0 ? std::generic_category().message(reason)
+                                                 : "an earlier part of it could not be written"));
 }
 
 void add_verbose(CLI::App& command) {

@@ -2,12 +2,14 @@
 
 #include <exception>
 #include <filesystem>
+#include <iostream>
 #include <memory>
 #include <new>
 #include <optional>
 #include <string>
 #include <system_error>
 
+#include <dlfcn.h>
 #include <spdlog/pattern_formatter.h>
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
@@ -33,6 +35,39 @@ void give_buffer() {
   const int mode = ::isatty(STDOUT_FILENO) != 0 ? _IOLBF : _IOFBF;
   std::setvbuf(stdout, output_buffer, mode, sizeof output_buffer);
 }
+
+/// Of the file that contains the code or the variable at this address; null if it is in none.
+const void* library_at(const void* address) {
+  Dl_info info{};
+  return ::dladdr(address, &info) != 0 ? info.dli_fbase : nullptr;
+}
+
+/// A standard stream of C++, as it is at the beginning.
+template <class Stream>
+class OwnStream {
+ public:
+  explicit OwnStream(Stream& stream) : stream_(stream) {}
+
+  /// A buffer of the C++ library may stay: std::ios::sync_with_stdio() puts another one there.
+  void restore() const {
+    stream_.exceptions(std::ios::goodbit);
+    stream_.tie(tie_);
+    if (library_at(stream_.rdbuf()) == library_at(buffer_)) {
+      stream_.clear();
+      stream_.flush();
+    } else {
+      stream_.rdbuf(buffer_);
+    }
+  }
+
+ private:
+  Stream& stream_;
+  decltype(stream_.rdbuf()) buffer_ = stream_.rdbuf();
+  decltype(stream_.tie()) tie_ = stream_.tie();
+};
+
+const OwnStream own_cout(std::cout), own_cerr(std::cerr), own_clog(std::clog);
+const OwnStream own_wcout(std::wcout), own_wcerr(std::wcerr), own_wclog(std::wclog);
 
 /// The text of a message.
 class SafeText final : public spdlog::custom_flag_formatter {
@@ -96,6 +131,8 @@ void set_up_output() {
 }
 
 void restore_streams() {
+  own_cout.restore(), own_cerr.restore(), own_clog.restore();
+  own_wcout.restore(), own_wcerr.restore(), own_wclog.restore();
   stdout = own_output;
   stderr = own_errors;
   std::setvbuf(stderr, nullptr, _IONBF, 0);

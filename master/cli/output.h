@@ -48,8 +48,9 @@ void print_warnings(std::span<const std::string> warnings);
 /// To be called before anything is printed. The log goes to the standard error stream, likewise.
 void set_up_output();
 
-/// Puts the standard streams back, where code of a unit has replaced them or given them a buffer,
-/// which may be in a library that is about to be unloaded. What the buffer holds is written.
+/// Puts the standard streams of C and C++ back, where code of a unit has replaced them or given
+/// them a buffer, which may be in a library that is about to be unloaded. What the buffer holds is
+/// written.
 void restore_streams();
 
 /// Whether another thread has the lock of a standard stream (flockfile), so that this one could

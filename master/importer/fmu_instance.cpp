@@ -203,7 +203,18 @@ void FmuInstance::restore_mode(const char* function) {
                   function, mode_.differences(left)));
 }
 
+void FmuInstance::check_registers(const char* function) {
+  if (core::ProcessorMode::are_registers_empty()) return;
+  if (std::exchange(has_register_warning_, true)) return;
+  warn(
+      fmt::format("{} left registers of x87 or MMX in use; they are emptied, here and after later "
+                  "calls, since long double values of other units would become NaN: a function has "
+                  "to empty them before it returns (_mm_empty, fstp)",
+                  function));
+}
+
 void FmuInstance::restore_process(const char* function) {
+  if (watched_calls_ > 0) --watched_calls_;
   if (options_.process == nullptr) return;
   const std::vector<std::string> changes = options_.process->restore();
   if (changes.empty()) return;
@@ -273,6 +284,21 @@ std::vector<UnitCall> unfinished_calls(const char* thread) {
                      .is_by_thread = present.thread() == thread});
   });
   return calls;
+}
+
+std::optional<UnitCall> last_call_of_this_thread() {
+  std::optional<UnitCall> last;
+  core::Listed<FmuInstance>::for_each([&](const FmuInstance& instance) {
+    const char* const function = instance.present_.last_function_of_thread();
+    if (function == nullptr) return;
+    last = {.function = function,
+            .unit = instance.name_,
+            .where = instance.options_.where,
+            .time = instance.time_,
+            .variable = {},
+            .is_by_thread = true};
+  });
+  return last;
 }
 
 // ---- Messages ----

@@ -86,6 +86,7 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics, public Call
  public:
   friend bool is_any_call_unfinished() noexcept;
   friend std::vector<UnitCall> unfinished_calls(const char* thread);
+  friend std::optional<UnitCall> last_call_of_this_thread();
 
   FmuInstance(const FmuInstance&) = delete;
   FmuInstance& operator=(const FmuInstance&) = delete;
@@ -115,9 +116,12 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics, public Call
   /// Calls function(instance, arguments...).
   template <class Function, class... Arguments>
   void call(const char* name, Function* function, Arguments... arguments);
-  /// Likewise; what it has changed of the process is put back.
+  /// Likewise; what it and some calls after it change of the process is put back after each.
   template <class Function, class... Arguments>
-  void call_and_restore(const char* name, Function* function, Arguments... arguments);
+  void call_and_watch(const char* name, Function* function, Arguments... arguments);
+  /// Likewise for this call, but for none after it: of the one that ends the initialization.
+  template <class Function, class... Arguments>
+  void call_and_end_watch(const char* name, Function* function, Arguments... arguments);
   /// As call(), one that may answer Discard, or Pending.
   template <class Function, class... Arguments>
   Status call_discardable(const char* name, Function* function, Arguments... arguments);
@@ -293,6 +297,11 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics, public Call
                                    const std::string& how_far, const char* why,
                                    const char* hint) const;
 
+  /// So many calls of an instance are compared more closely than can be afforded for all.
+  static constexpr std::uint64_t kCloselyWatched = 100;
+  /// For restore_process(), which takes tens of microseconds, after each phase of the start.
+  static constexpr int kMostWatched = 100;
+
   // What each call and each step need comes first, and close together.
   void* instance_ = nullptr;         ///< as the unit calls it
   const char* failed_in_ = nullptr;  ///< the function after whose status nothing goes on
@@ -300,7 +309,8 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics, public Call
   PresentCall present_;
   bool was_restored_ = false;  ///< from a kept state, and no step has ended since
   bool is_in_sequence_ = false;
-  bool is_fork_ = false;  ///< the present function has made this process, by fork()
+  bool is_fork_ = false;   ///< the present function has made this process, by fork()
+  int watched_calls_ = 0;  ///< so many of the next ones are followed by restore_process()
   const core::ProcessorMode mode_ = core::ProcessorMode::present();
   std::optional<Time> time_;
   double stop_seconds_ = std::numeric_limits<double>::infinity();
@@ -323,8 +333,13 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics, public Call
   [[gnu::always_inline]] void check_mode(const char* function) {
     if (!mode_.is_present()) [[unlikely]]
       restore_mode(function);
+    if (calls_ < kCloselyWatched) [[unlikely]]
+      check_registers(function);
+    core::ProcessorMode::empty_registers();
   }
   void restore_mode(const char* function);
+  /// Warns, once.
+  void check_registers(const char* function);
   std::string status_name(Status status) const;
   std::string failure_of(const char* function, Status status);
   bool is_known(Status status) const;
@@ -353,6 +368,7 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics, public Call
   };
   std::vector<HeldMessage> held_;  ///< those of them that are not logged if the call fails
   bool has_mode_warning_ = false;
+  bool has_register_warning_ = false;
   bool has_text_warning_ = false;
   bool has_null_state_warning_ = false;
   core::Listed<FmuInstance> listed_{*this};

@@ -46,12 +46,20 @@ template <class Function, class... Arguments>
   const Status status = call_discardable(name, function, arguments...);
   if (status == Status::Discard || status == Status::Pending) [[unlikely]]
     fail_call(name, status);
+  if (watched_calls_ > 0) [[unlikely]]
+    restore_process(name);
 }
 
 template <class Function, class... Arguments>
-void FmuInstance::call_and_restore(const char* name, Function* function, Arguments... arguments) {
+void FmuInstance::call_and_watch(const char* name, Function* function, Arguments... arguments) {
+  watched_calls_ = kMostWatched;
   call(name, function, arguments...);
-  restore_process(name);
+}
+
+template <class Function, class... Arguments>
+void FmuInstance::call_and_end_watch(const char* name, Function* function, Arguments... arguments) {
+  call_and_watch(name, function, arguments...);
+  watched_calls_ = 0;
 }
 
 template <class Make>
@@ -59,6 +67,7 @@ void FmuInstance::instantiate_by(const char* name, Make&& make) {
   check_callable(name);
   instance_ = guarded(name, make);
   restore_process(name);
+  watched_calls_ = kMostWatched;
   if (instance_ == nullptr) fail(std::string(name) + " failed: " + take_messages(name));
 }
 

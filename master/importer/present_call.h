@@ -17,6 +17,10 @@ namespace stride::importer {
 /// Its address identifies a thread.
 inline thread_local char this_thread = 0;
 
+class PresentCall;
+/// The last one that this thread has begun; its object may be gone.
+inline thread_local const PresentCall* last_call_of_thread = nullptr;
+
 /// What the process that watches this one sees of a call: see core::Outliving.
 struct LeftCall {
   static constexpr std::size_t kMostOutliving = 1024;
@@ -48,6 +52,8 @@ class PresentCall {
   /// `function` must outlive the call.
   [[gnu::always_inline]] void begin(const char* function,
                                     const std::optional<Time>& time) noexcept {
+    last_call_of_thread = this;
+    last_function_ = function;
     thread_.store(&this_thread, std::memory_order_relaxed);
     function_.store(function, std::memory_order_relaxed);
     left_->has_time = time.has_value();  // not as a whole, which would wait for its last change
@@ -80,6 +86,11 @@ class PresentCall {
   bool is_by_this_thread() const noexcept {
     return function() != nullptr && thread() == &this_thread;
   }
+  /// The function of the last call of all that this thread has made; null if it is no call of this
+  /// object.
+  const char* last_function_of_thread() const noexcept {
+    return last_call_of_thread == this ? last_function_ : nullptr;
+  }
   /// Null if no value is being read.
   const core::ValueReference* variable() const noexcept {
     return variable_.load(std::memory_order_relaxed);
@@ -88,6 +99,7 @@ class PresentCall {
  private:
   std::atomic<const char*> function_{nullptr};
   std::atomic<const char*> thread_{nullptr};
+  const char* last_function_ = nullptr;  ///< of the thread that makes the calls
   core::Outliving<LeftCall> left_;
   CallNote* const note_;
   std::atomic<const core::ValueReference*> variable_{nullptr};

@@ -29,6 +29,10 @@ bool is_any_call_unfinished() noexcept;
 /// For a fork of a process that must end.
 std::vector<UnitCall> unfinished_calls(const char* thread);
 
+/// The last call that this thread has made, if its instance still exists; it has returned. For a
+/// fork of a process that must end.
+std::optional<UnitCall> last_call_of_this_thread();
+
 /// To be called before a process is forked that is watched, and when it has ended: the calls that
 /// it has left, without variables, and the work on libraries. It may have damaged anything that is
 /// read here.

@@ -42,7 +42,10 @@ std::optional<std::uint64_t> MemoryWatch::excess() {
 }
 
 std::optional<std::uint64_t> MemoryWatch::measure() const {
-  const std::vector<pid_t> processes = descendants_of(::getpid());
+  std::vector<pid_t> processes;
+  for (const pid_t process : descendants_of(::getpid())) {
+    if (const auto thread = living_thread(process)) processes.push_back(*thread);
+  }
   const std::uint64_t most = before_ + *limit_ + kTolerance;
   if (use_->bound(processes) <= most) return std::nullopt;
   const std::uint64_t bytes = use_->of(processes);

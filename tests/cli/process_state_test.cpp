@@ -120,6 +120,32 @@ TEST_CASE("what a unit changes in its steps is put back at the end, the numbers'
   CHECK(numbers(workspace) == expected);
 }
 
+TEST_CASE("registers that a unit leaves in use are emptied, with or without a host") {
+  const Workspace workspace = beside_others("meddler.fmu");
+  REQUIRE(run_without_meddling(workspace).exit_code == 0);
+  const std::string expected = numbers(workspace);
+  const auto [wish, function] = GENERATE(table<std::string, std::string>(
+      {{"initialize registers", "fmi3ExitInitializationMode"}, {"step registers", "fmi3DoStep"}}));
+  for (const Arguments& options : {Arguments{}, Arguments{"--isolate=meddler"}}) {
+    const Outcome outcome = run_with(workspace, wish, options);
+    CHECK(outcome.exit_code == 0);
+#if defined(__x86_64__)
+    CHECK_THAT(outcome.err,
+               Contains("unit 'meddler': " + function + " left registers of x87 or MMX in use"));
+#endif
+    CHECK(numbers(workspace) == expected);
+  }
+}
+
+TEST_CASE("streams of C++ that a unit has replaced are put back") {
+  const Workspace workspace = beside_others("meddler.fmu");
+  const std::string phase = GENERATE("load", "instantiate", "initialize", "step", "terminate");
+  INFO(phase);
+  const Outcome outcome = run_with(workspace, phase + " streams");
+  CHECK(outcome.exit_code == 0);
+  CHECK(outcome.err == "");
+}
+
 TEST_CASE("inputs within a step are computed in the mode of stride, and the unit keeps its own") {
   const Workspace workspace(
       Parts{component("filter", "minimal.fmu") + component("meddler", "meddler.fmu"),

@@ -55,8 +55,8 @@ core::Capability* Fmi1Unit::find_capability(core::CapabilityId id) {
 void Fmi1Unit::enter_initialization(Time start, std::optional<Time> stop) {
   time_ = start;
   const double stop_seconds = set_stop(start, stop);
-  call_and_restore("fmiInitializeSlave", fmi_.InitializeSlave, to_seconds(start),
-                   static_cast<fmi1Boolean>(stop.has_value()), stop_seconds);
+  call_and_end_watch("fmiInitializeSlave", fmi_.InitializeSlave, to_seconds(start),
+                     static_cast<fmi1Boolean>(stop.has_value()), stop_seconds);
 }
 
 void Fmi1Unit::terminate() {

@@ -50,19 +50,19 @@ void Fmi2Unit::enter_initialization(Time start, std::optional<Time> stop) {
   time_ = start;
   const double stop_seconds = set_stop(start, stop);
   const auto tolerance = parts_.description->default_tolerance;
-  call_and_restore("fmi2SetupExperiment", fmi_.SetupExperiment, tolerance ? fmi2True : fmi2False,
-                   tolerance.value_or(0), to_seconds(start), stop ? fmi2True : fmi2False,
-                   stop_seconds);
+  call_and_watch("fmi2SetupExperiment", fmi_.SetupExperiment, tolerance ? fmi2True : fmi2False,
+                 tolerance.value_or(0), to_seconds(start), stop ? fmi2True : fmi2False,
+                 stop_seconds);
   is_instantiated_only_ = false;
   for (const auto& [references, values] : std::exchange(kept_parameters_, {})) {
     set(references, values);
   }
-  call_and_restore("fmi2EnterInitializationMode", fmi_.EnterInitializationMode);
+  call_and_watch("fmi2EnterInitializationMode", fmi_.EnterInitializationMode);
   for (const auto& [references, values] : std::exchange(kept_inputs_, {})) set(references, values);
 }
 
 void Fmi2Unit::exit_initialization() {
-  call_and_restore("fmi2ExitInitializationMode", fmi_.ExitInitializationMode);
+  call_and_end_watch("fmi2ExitInitializationMode", fmi_.ExitInitializationMode);
 }
 
 void Fmi2Unit::terminate() {

@@ -80,24 +80,23 @@ void Fmi3Unit::enter_configuration_mode() {
   const char* const capability = "structural parameters";
   require("fmi3EnterConfigurationMode", fmi_.EnterConfigurationMode, capability);
   require("fmi3ExitConfigurationMode", fmi_.ExitConfigurationMode, capability);
-  call_and_restore("fmi3EnterConfigurationMode", fmi_.EnterConfigurationMode);
+  call_and_watch("fmi3EnterConfigurationMode", fmi_.EnterConfigurationMode);
 }
 
 void Fmi3Unit::exit_configuration_mode() {
-  call_and_restore("fmi3ExitConfigurationMode", fmi_.ExitConfigurationMode);
+  call_and_watch("fmi3ExitConfigurationMode", fmi_.ExitConfigurationMode);
 }
 
 void Fmi3Unit::enter_initialization(Time start, std::optional<Time> stop) {
   time_ = start;
   const double stop_seconds = set_stop(start, stop);
   const auto tolerance = parts_.description->default_tolerance;
-  call_and_restore("fmi3EnterInitializationMode", fmi_.EnterInitializationMode,
-                   tolerance.has_value(), tolerance.value_or(0), to_seconds(start),
-                   stop.has_value(), stop_seconds);
+  call_and_watch("fmi3EnterInitializationMode", fmi_.EnterInitializationMode, tolerance.has_value(),
+                 tolerance.value_or(0), to_seconds(start), stop.has_value(), stop_seconds);
 }
 
 void Fmi3Unit::exit_initialization() {
-  call_and_restore("fmi3ExitInitializationMode", fmi_.ExitInitializationMode);
+  call_and_end_watch("fmi3ExitInitializationMode", fmi_.ExitInitializationMode);
 }
 
 void Fmi3Unit::terminate() {

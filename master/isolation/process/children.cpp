@@ -16,9 +16,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// It is a zombie afterwards until its parent has waited for it.
-bool has_died(pid_t process) {
-  std::ifstream file("/proc/" + std::to_string(process) + "/stat");
+/// It is a zombie afterwards until its parent has waited for it, or, the first thread of a process,
+/// until the others have ended.
+bool has_died(pid_t thread) {
+  std::ifstream file("/proc/" + std::to_string(thread) + "/stat");
   std::string text;
   std::getline(file, text, '\0');
   const std::size_t name_end = text.rfind(')');  // a name may contain anything
@@ -28,6 +29,17 @@ bool has_died(pid_t process) {
 }
 
 }  // namespace
+
+std::optional<pid_t> living_thread(pid_t process) {
+  if (!has_died(process)) return process;
+  std::error_code gone;
+  fs::directory_iterator thread("/proc/" + std::to_string(process) + "/task", gone);
+  for (const fs::directory_iterator end; !gone && thread != end; thread.increment(gone)) {
+    const pid_t number = std::stoi(thread->path().filename().string());
+    if (!has_died(number)) return number;
+  }
+  return std::nullopt;
+}
 
 std::optional<std::vector<pid_t>> children_of(pid_t process) {
   std::error_code gone;
@@ -54,7 +66,7 @@ std::vector<pid_t> descendants_of(pid_t process) {
 bool kill_children_of(pid_t process) {
   bool is_one_left = false;
   for (const pid_t child : children_of(process).value_or(std::vector<pid_t>{})) {
-    if (has_died(child)) continue;
+    if (!living_thread(child)) continue;
     ::kill(child, SIGKILL);
     is_one_left = true;
   }

@@ -9,6 +9,11 @@
 
 namespace stride::isolation {
 
+/// A thread of the process that has not ended: its first one may have, by a system call of its own,
+/// and then the files of /proc/PROCESS are empty, but not those of the thread. Nothing if the
+/// process has ended.
+std::optional<pid_t> living_thread(pid_t process);
+
 /// Those that any of its threads has started or adopted, with those that have ended and have not
 /// been waited for. Nothing if there is no such process, or no such list.
 std::optional<std::vector<pid_t>> children_of(pid_t process);

@@ -1,4 +1,4 @@
-// The kernel's Landlock: a file system that is read-only but for some folders.
+// The kernel's Landlock: a file system that is read-only but for some folders, without devices.
 #ifndef STRIDE_MASTER_ISOLATION_PROCESS_LANDLOCK_H
 #define STRIDE_MASTER_ISOLATION_PROCESS_LANDLOCK_H
 
@@ -14,12 +14,15 @@ int landlock_version();
 
 /// From these versions on.
 constexpr int kLandlockTruncates = 3;  ///< truncation without writing is seen, too
+constexpr int kLandlockRequests = 5;   ///< requests to devices (ioctl) are seen
 constexpr int kLandlockSignals = 6;    ///< signals stay within
 
 /// Leaves to this thread, and to all that it starts, no way to change the file system but in these
-/// folders (opened with O_PATH), in the files among them, and in a few devices. Needs no_new_privs.
-/// Throws std::system_error; then nothing has changed.
-void forbid_writing_outside(std::span<const Descriptor> writable, int version);
+/// folders (opened with O_PATH), in the files among them, and in a few devices without effect such
+/// as /dev/null. No other device in /dev is opened, also not for reading: no terminal, disk or
+/// virtual machine. What a folder of / has that does not exist yet cannot be read. Needs
+/// no_new_privs. Throws std::system_error; then nothing has changed.
+void restrict_files(std::span<const Descriptor> writable, int version);
 
 }  // namespace stride::isolation
 

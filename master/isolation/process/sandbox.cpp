@@ -89,10 +89,12 @@ void guard_files(Protections& protections, std::span<const WritableFolder> writa
   int version = 0;
   const bool is_guarded = put_on(protections, read_only_files(writable), [&] {
     version = landlock_version();
-    forbid_writing_outside(opened, version);
+    restrict_files(opened, version);
   });
   if (!is_guarded) return;
-  protections.in_force.back() += ": Landlock " + std::to_string(version);
+  const std::string mechanism = ": Landlock " + std::to_string(version);
+  protections.in_force.back() += mechanism;
+  protections.in_force.push_back("no terminals and other devices" + mechanism);
   if (version < kLandlockTruncates) {
     put_on(protections, "no truncation by name: seccomp", forbid_truncation);
   }
@@ -121,9 +123,11 @@ Protections enter_sandbox(std::span<const WritableFolder> writable, bool has_mem
   put_on(protections,
          "no change of owners, times and modes of files (chmod() does nothing): seccomp",
          forbid_changing_attributes);
+  put_on(protections, "no requests to files and devices (ioctl): seccomp", forbid_requests);
+  put_on(protections, "no locks on files (flock() does nothing): seccomp", ignore_locks);
   if (has_memory_limit) {
     put_on(protections, "no files sent through sockets, for the memory limit: seccomp",
-           forbid_sending_files);
+           forbid_hiding_files);
   }
   put_on(protections, "no system calls newer than Linux 6.4: seccomp", forbid_newer_calls);
   return protections;

@@ -31,16 +31,21 @@ struct WritableFolder {
 ///   the user, not those of a unit;
 /// - files are only read and executed, but for what is in the folders `writable` and below, and
 ///   /dev/null and its like. Nothing is made, removed, renamed, truncated or mounted elsewhere.
-///   What is open already is not covered (Landlock);
+///   What is open already is not covered. No terminal or other device is opened, but for /dev/null
+///   and its like, and those for rendering (Landlock);
+/// - requests to files and devices (ioctl) answer ENOTTY, but for a few without effect on others
+///   (seccomp);
 /// - owners, times, attributes and modes of files are not changed, wherever they are; a change of
 ///   modes answers that it is done (seccomp);
 /// - no call names another process, and nothing is shared by a key or a name (seccomp);
+/// - locks on files do nothing, and answer that they are had (seccomp);
 /// - no namespaces, mounts and other changes of the system (seccomp);
 /// - signals reach, and debuggers attach to, processes in the same sandbox only;
-/// - no socket but AF_UNIX, and no input into a terminal (seccomp);
+/// - no socket but AF_UNIX (seccomp);
 /// - no system calls newer than Linux 6.4 (seccomp);
-/// - with `has_memory_limit`, no files are sent through sockets (seccomp): those in memory would be
-///   open nowhere on their way, and escape the watch over memory.
+/// - with `has_memory_limit`, no files are sent through sockets, and no thread has open files of
+/// its
+///   own (seccomp): files in memory would escape the watch over it.
 ///
 /// The answer lists what the kernel lacks; the rest is in force. To be called while this
 /// process has one thread. Throws std::system_error if a folder cannot be opened.

@@ -6,14 +6,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <initializer_list>
-#include <iterator>
+#include <span>
 #include <system_error>
+#include <vector>
 
 #include <fcntl.h>
+#include <linux/close_range.h>
 #include <linux/filter.h>
-#include <linux/fs.h>
-#include <linux/fscrypt.h>
-#include <linux/fsverity.h>
 #include <linux/ioprio.h>
 #include <linux/seccomp.h>
 #include <sched.h>
@@ -37,8 +36,6 @@ scmp_arg_cmp argument(unsigned index, scmp_compare how, scmp_datum_t value,
   return {index, how, value, second};
 }
 
-constexpr scmp_datum_t kSetExt4Version = _IOW('f', 4, long);
-
 /// The part of a register that holds an int.
 constexpr scmp_datum_t kInt = 0xffffffffU;
 
@@ -61,18 +58,13 @@ class Filter {
   }
 
   /// The call does nothing, and answers that it is done.
-  void ignore(int call) { require(::seccomp_rule_add(context_, SCMP_ACT_ERRNO(0), call, 0)); }
+  void ignore(int call, std::initializer_list<scmp_arg_cmp> arguments = {}) {
+    deny(call, arguments, 0);
+  }
 
   /// All of these calls, with any arguments.
   void deny_all(std::initializer_list<int> calls) {
     for (const int call : calls) deny(call);
-  }
-
-  /// The requests to a device, whatever else ioctl() gets.
-  void deny_requests(std::initializer_list<scmp_datum_t> requests) {
-    for (const scmp_datum_t request : requests) {
-      deny(SCMP_SYS(ioctl), {argument(1, SCMP_CMP_MASKED_EQ, kInt, request)});
-    }
   }
 
   void load() {
@@ -115,6 +107,66 @@ void deny_special_modes(Filter& filter) {
   filter.deny(SCMP_SYS(openat2));  // whose mode cannot be seen
 }
 
+/// For what libseccomp cannot express.
+void load(std::span<sock_filter> program) {
+  const sock_fprog filter{static_cast<unsigned short>(program.size()), program.data()};
+  if (::prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &filter) != 0) {
+    throw std::system_error(errno, std::generic_category(), "seccomp");
+  }
+}
+
+/// The number of ioctl() in each of the machine's interfaces.
+struct Interface {
+  std::uint32_t architecture;
+  std::uint32_t request_call;
+};
+
+#if defined(__x86_64__)
+constexpr std::uint32_t kX32 = 0x40000000;
+constexpr Interface kInterfaces[] = {{SCMP_ARCH_X86_64, 16},
+                                     {SCMP_ARCH_X86_64, kX32 | 16},
+                                     {SCMP_ARCH_X86_64, kX32 | 514},
+                                     {SCMP_ARCH_X86, 54}};
+#elif defined(__aarch64__)
+constexpr Interface kInterfaces[] = {{SCMP_ARCH_AARCH64, 29}, {SCMP_ARCH_ARM, 54}};
+#else
+const Interface kInterfaces[] = {{::seccomp_arch_native(), __NR_ioctl}};
+#endif
+
+/// Flags of a descriptor, how much can be read, whether it is a terminal.
+constexpr std::uint32_t kHarmlessRequests[] = {FIOCLEX,  FIONCLEX, FIONBIO,
+                                               FIOASYNC, FIONREAD, TCGETS};
+/// The middle byte of all requests to /dev/dri.
+constexpr std::uint32_t kKind = 0xff00, kRendering = std::uint32_t{'d'} << 8;
+
+void forbid_requests_through(const Interface& interface) {
+  std::vector<sock_filter> program;
+  const auto look_at = [&](std::size_t offset) {
+    program.push_back(BPF_STMT(BPF_LD | BPF_W | BPF_ABS, static_cast<std::uint32_t>(offset)));
+  };
+  const auto answer = [&](std::uint32_t action) {
+    program.push_back(BPF_STMT(BPF_RET | BPF_K, action));
+  };
+  const auto allow_unless = [&](std::uint32_t value) {
+    program.push_back(BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, value, 1, 0));
+    answer(SECCOMP_RET_ALLOW);
+  };
+  const auto allow_if = [&](std::uint32_t value) {
+    program.push_back(BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, value, 0, 1));
+    answer(SECCOMP_RET_ALLOW);
+  };
+  look_at(offsetof(seccomp_data, arch));
+  allow_unless(interface.architecture);
+  look_at(offsetof(seccomp_data, nr));
+  allow_unless(interface.request_call);
+  look_at(offsetof(seccomp_data, args) + sizeof(seccomp_data::args[0]));  // its lower half
+  for (const std::uint32_t request : kHarmlessRequests) allow_if(request);
+  program.push_back(BPF_STMT(BPF_ALU | BPF_AND | BPF_K, kKind));
+  allow_if(kRendering);
+  answer(SECCOMP_RET_ERRNO | ENOTTY);
+  load(program);
+}
+
 }  // namespace
 
 void forbid_network() {
@@ -123,8 +175,6 @@ void forbid_network() {
   constexpr int kSocket = 1;  // of a 32-bit program, whose arguments cannot be seen
   filter.deny(SCMP_SYS(socketcall), {argument(0, SCMP_CMP_EQ, kSocket)});
   filter.deny(SCMP_SYS(io_uring_setup));  // makes sockets, too
-  // the shell that stride was started from would take it for the user's
-  filter.deny_requests({TIOCSTI, TIOCLINUX});
   filter.load();
 }
 
@@ -140,7 +190,6 @@ void forbid_reaching_processes() {
   filter.deny(SCMP_SYS(setpriority), {argument(0, SCMP_CMP_MASKED_EQ, kInt, PRIO_USER)});
   filter.deny(SCMP_SYS(ioprio_set), {not_own(1)});
   filter.deny(SCMP_SYS(ioprio_set), {argument(0, SCMP_CMP_MASKED_EQ, kInt, IOPRIO_WHO_USER)});
-  filter.deny_requests({TIOCSPGRP, TIOCSCTTY});
   // others that open the file wait for the process that has a lease on it
   for (const int call : {SCMP_SYS(fcntl), SCMP_SYS(fcntl64)}) {
     filter.deny(call, {argument(1, SCMP_CMP_MASKED_EQ, kInt, F_SETLEASE)});
@@ -201,14 +250,36 @@ void forbid_changing_attributes() {
     filter.ignore(call);
   }
   deny_special_modes(filter);
-  filter.deny_requests({FS_IOC_SETFLAGS, FS_IOC_FSSETXATTR, FS_IOC_SETVERSION, FS_IOC_SETFSLABEL,
-                        FS_IOC32_SETFLAGS, FS_IOC32_SETVERSION, FS_IOC_ENABLE_VERITY,
-                        kSetExt4Version, FS_IOC_SET_ENCRYPTION_POLICY});
   filter.load();
 }
 
-void forbid_sending_files() {
+void forbid_requests() {
+  for (const Interface& interface : kInterfaces) forbid_requests_through(interface);
+}
+
+void ignore_locks() {
   Filter filter;
+  filter.ignore(SCMP_SYS(flock));
+  constexpr scmp_datum_t kOfSmallMachines[] = {13, 14};  // F_SETLK64, F_SETLKW64
+  for (const int call : {SCMP_SYS(fcntl), SCMP_SYS(fcntl64)}) {
+    const auto ignore = [&](scmp_datum_t command) {
+      filter.ignore(call, {argument(1, SCMP_CMP_MASKED_EQ, kInt, command)});
+    };
+    for (const int command : {F_SETLK, F_SETLKW, F_OFD_SETLK, F_OFD_SETLKW}) {
+      ignore(static_cast<scmp_datum_t>(command));
+    }
+    for (const scmp_datum_t command : kOfSmallMachines) ignore(command);
+  }
+  filter.load();
+}
+
+void forbid_hiding_files() {
+  Filter filter;
+  // a thread with open files of its own, where the supervisor does not look
+  filter.deny(SCMP_SYS(clone),
+              {argument(0, SCMP_CMP_MASKED_EQ, CLONE_THREAD | CLONE_FILES, CLONE_THREAD)});
+  filter.deny(SCMP_SYS(close_range),
+              {argument(2, SCMP_CMP_MASKED_EQ, CLOSE_RANGE_UNSHARE, CLOSE_RANGE_UNSHARE)});
   filter.deny_all({SCMP_SYS(sendmsg), SCMP_SYS(sendmmsg)});
   constexpr int kSendMessage = 16, kSendMessages = 20;  // of a 32-bit program
   filter.deny(SCMP_SYS(socketcall), {argument(0, SCMP_CMP_EQ, kSendMessage)});
@@ -226,10 +297,7 @@ void forbid_newer_calls() {
       BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ERRNO | ENOSYS),
       BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ALLOW),
   };
-  const sock_fprog filter{std::size(program), program};
-  if (::prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &filter) != 0) {
-    throw std::system_error(errno, std::generic_category(), "seccomp");
-  }
+  load(program);
 }
 
 void forbid_truncation() {

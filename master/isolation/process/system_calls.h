@@ -9,13 +9,13 @@ namespace stride::isolation {
 /// no_new_privs. Throws std::system_error if the kernel takes no such filter; then nothing has
 /// changed.
 
-/// No socket but AF_UNIX, also not by way of io_uring, and no typing into a terminal.
+/// No socket but AF_UNIX, also not by way of io_uring.
 void forbid_network();
 
 /// No call that names another process (or a thread, by its number), and nothing that is shared with
 /// other processes by a key or a name: limits, priorities, processors, memory and files of others,
-/// the group in a terminal's foreground, System V memory, semaphores and queues, POSIX queues, keys
-/// of the kernel, performance counters, leases on files. Signals and debuggers are Landlock's
+/// System V memory, semaphores and queues, POSIX queues, keys of the kernel, performance counters,
+/// leases on files. Signals and debuggers are Landlock's
 /// matter.
 void forbid_reaching_processes();
 
@@ -37,9 +37,19 @@ void forbid_newer_calls();
 /// copies a file changes its mode, too, and goes on. A file gets its mode when it is made.
 void forbid_changing_attributes();
 
-/// No sendmsg() and sendmmsg(), by which open files are sent through a socket. A filter cannot see
-/// whether there are any; send() and write() carry none.
-void forbid_sending_files();
+/// Requests to devices and file systems (ioctl) answer ENOTTY, as if they knew none, but for those
+/// to /dev/dri and a few that change nothing for others: FIONREAD, FIONBIO, FIOASYNC, FIOCLEX,
+/// FIONCLEX and TCGETS.
+void forbid_requests();
+
+/// Locks on files (flock(), and those of fcntl()) do nothing, and answer that they are had: a lock
+/// of a file that can only be read would keep other programs waiting.
+void ignore_locks();
+
+/// No thread has open files of its own, which those who count them would not see; and no sendmsg()
+/// and sendmmsg(), by which open files are sent through a socket. A filter cannot see whether there
+/// are any; send() and write() carry none.
+void forbid_hiding_files();
 
 /// No cutting off of files by their names, or when they are opened for reading.
 void forbid_truncation();

@@ -36,6 +36,14 @@ void ProcessorMode::set() const noexcept {
   __builtin_ia32_writeeflags_u64((flags & ~(kBackward | kAligned)) | flags_);
 }
 
+bool ProcessorMode::are_registers_empty() noexcept {
+  struct {
+    std::uint32_t control, status, tags, rest[4];
+  } environment{};
+  asm volatile("fnstenv %0\n\tfldenv %0" : "+m"(environment));  // storing masks exceptions
+  return (environment.tags & 0xffff) == 0xffff;
+}
+
 bool ProcessorMode::goes_backward() const noexcept { return (flags_ & kBackward) != 0; }
 bool ProcessorMode::needs_alignment() const noexcept { return (flags_ & kAligned) != 0; }
 
@@ -60,6 +68,7 @@ void ProcessorMode::set() const noexcept { std::fesetround(rounding_); }
 #endif
 
 #if !defined(__x86_64__)
+bool ProcessorMode::are_registers_empty() noexcept { return true; }
 bool ProcessorMode::goes_backward() const noexcept { return false; }
 bool ProcessorMode::needs_alignment() const noexcept { return false; }
 #endif

@@ -1,5 +1,8 @@
 #include "master/importer/unit_call.h"
 
+#include <string>
+#include <thread>
+
 #include <catch2/catch.hpp>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -35,4 +38,16 @@ TEST_CASE("the calls that a process has left are named, whatever it has done to 
   CHECK(calls[1].function == "a function whose name is lost");
   CHECK_FALSE(left_calls(nullptr)[0].is_by_thread);
   CHECK(left_library_work().what.view().empty());
+}
+
+TEST_CASE("the last call of a thread is known when it has returned") {
+  PresentCall fuse("fuse", core::Location{}, nullptr), idle("idle", core::Location{}, nullptr);
+  fuse.begin("fmi3DoStep", {});
+  fuse.end();
+  CHECK(std::string(fuse.last_function_of_thread()) == "fmi3DoStep");
+  idle.begin("fmi3GetFloat64", {});
+  idle.end();
+  CHECK(fuse.last_function_of_thread() == nullptr);
+  CHECK(std::string(idle.last_function_of_thread()) == "fmi3GetFloat64");
+  std::thread([&] { CHECK(idle.last_function_of_thread() == nullptr); }).join();
 }

@@ -6,6 +6,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <functional>
+#include <iostream>
 #include <locale>
 #include <map>
 #include <sstream>
@@ -55,6 +56,25 @@ void flush_to_zero() {
 #endif
 }
 
+/// So that the next long double is NaN.
+void use_registers() {
+#if defined(__x86_64__)
+  asm volatile("fld1; fld1; fld1; fld1; fld1; fld1; fld1; fld1");
+#endif
+}
+
+/// Into a buffer of this library.
+void take_streams() {
+  struct Buffer : std::streambuf {
+    int sync() override { throw std::runtime_error("the buffer of the unit"); }
+  };
+  static Buffer buffer;
+  for (std::ostream* const stream : {&std::cout, &std::cerr, &std::clog}) {
+    stream->rdbuf(&buffer);
+    stream->exceptions(std::ios::badbit | std::ios::failbit);
+  }
+}
+
 void meddle(const std::string& what) {
   static const std::map<std::string, std::function<void()>> kWays{
       {"folder", [] { static_cast<void>(!::chdir("/")); }},
@@ -69,6 +89,8 @@ void meddle(const std::string& what) {
       {"rounding", [] { std::fesetround(FE_UPWARD); }},
       {"flush", flush_to_zero},
       {"exceptions", [] { ::feenableexcept(FE_DIVBYZERO); }},
+      {"registers", use_registers},
+      {"streams", take_streams},
       {"crash", [] { std::abort(); }},
       {"fork", [] { ::fork(); }},
   };
@@ -103,7 +125,7 @@ class Meddler : public stride::Unit {
     update_inputs_in_own_mode(step);
     seen_ = u_;
     sum_ += (u_ + 0.1) * stride::to_seconds(step.size());
-    tiny_ = sum_ * 1e-310;
+    tiny_ = static_cast<double>(static_cast<long double>(sum_) * 1e-310L);
     act("step");
   }
   void event(stride::Event&) override { act("event"); }

@@ -5,9 +5,11 @@
 #include <thread>
 
 #include <catch2/catch.hpp>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "master/isolation/process/process_memory.h"
 #include "master/isolation/process/shared_memory.h"
 
 using namespace stride::isolation;
@@ -52,6 +54,23 @@ TEST_CASE("the children of all threads of a process, and theirs, are listed") {
   }
   ::waitpid(child, nullptr, 0);
   CHECK_FALSE(has(children_of(::getpid()).value(), child));
+}
+
+TEST_CASE("a process whose first thread has ended lives on in another one") {
+  const pid_t child = ::fork();
+  if (child == 0) {
+    std::thread([] {
+      for (;;) ::pause();
+    }).detach();
+    ::syscall(SYS_exit, 0);
+  }
+  while (living_thread(child) == child) std::this_thread::yield();
+  REQUIRE(living_thread(child));
+  CHECK(unshared_bound(child) == 0);
+  CHECK(unshared_bound(*living_thread(child)) > 0);
+  CHECK(kill_children_of(::getpid()));
+  while (living_thread(child)) std::this_thread::yield();
+  ::waitpid(child, nullptr, 0);
 }
 
 TEST_CASE("a process that does not exist has no list of children") {

@@ -35,7 +35,7 @@ struct Folders {
       ::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);
       std::vector<Descriptor> writable;
       writable.push_back(open_path(open));
-      forbid_writing_outside(writable, version);
+      restrict_files(writable, version);
       return work();
     });
   }
@@ -122,6 +122,32 @@ TEST_CASE("reading, running and the null device stay as they are") {
   }
 }
 
+TEST_CASE("no terminal or other device is opened, also not for reading") {
+  if (lacks_landlock()) return;
+  const Folders folders;
+  const Terminal terminal;
+  const int version = GENERATE(range(1, landlock_version() + 1));
+  for (const std::string& device : {terminal.name, std::string("/dev/ptmx")}) {
+    INFO(device << ", Landlock " << version);
+    for (const int flags : {O_RDONLY, O_RDWR}) {
+      const auto work = [&] { return open_file(device, flags | O_NOCTTY | O_NONBLOCK); };
+      CHECK(in_child(work) == "done");
+      CHECK(folders.say(version, work) == "EACCES");
+    }
+  }
+  CHECK(folders.say(version, [] { return open_file("/dev/stdin", O_RDONLY); }) == "done");
+  CHECK(folders.say(version, [] { return open_file("/proc/self/status", O_RDONLY); }) == "done");
+}
+
+TEST_CASE("memory shared by its name can be read") {
+  if (lacks_landlock() || !fs::exists("/dev/shm")) return;
+  const Folders folders;
+  const ScratchFolder shared("/dev/shm");
+  const fs::path file = write_file(shared / "file", "text");
+  CHECK(folders.say(landlock_version(), [&] { return content(file); }) == "text");
+  CHECK(folders.say(landlock_version(), [&] { return open_file(file, O_RDWR); }) == "EACCES");
+}
+
 TEST_CASE("a single file may be what can be written") {
   if (lacks_landlock()) return;
   const Folders folders;
@@ -129,7 +155,7 @@ TEST_CASE("a single file may be what can be written") {
           ::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);
           std::vector<Descriptor> writable;
           writable.push_back(open_path(folders.closed / "file"));
-          forbid_writing_outside(writable, landlock_version());
+          restrict_files(writable, landlock_version());
           return open_file(folders.closed / "file", O_WRONLY) +
                  open_file(folders.closed / "new", O_WRONLY | O_CREAT);
         }) == "doneEACCES");

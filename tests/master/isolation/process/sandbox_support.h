@@ -17,6 +17,7 @@
 #include <unistd.h>
 
 #include "master/isolation/process/child.h"
+#include "master/isolation/process/descriptor.h"
 #include "master/isolation/process/landlock.h"
 #include "tests/scratch_folder.h"
 
@@ -51,6 +52,20 @@ inline std::string in_child(const std::function<std::string()>& work) {
   REQUIRE(outcome.end == isolation::ChildOutcome::End::Answered);
   return outcome.text;
 }
+
+/// One of its own; nobody types there.
+struct Terminal {
+  isolation::Descriptor machine{::posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC)};
+  std::string name = opened_name();
+  isolation::Descriptor user{::open(name.c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC)};
+
+ private:
+  std::string opened_name() const {
+    REQUIRE(::grantpt(machine.number()) == 0);
+    REQUIRE(::unlockpt(machine.number()) == 0);
+    return ::ptsname(machine.number());
+  }
+};
 
 /// Says aloud that a test is left out, which must not happen where CI=true.
 inline bool is_missing(const char* what, const std::function<void()>& use) {

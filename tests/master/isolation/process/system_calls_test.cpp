@@ -8,10 +8,12 @@
 #include <thread>
 #include <vector>
 
+#include <linux/close_range.h>
 #include <linux/fs.h>
 #include <linux/io_uring.h>
 #include <mqueue.h>
 #include <sched.h>
+#include <sys/file.h>
 #include <sys/ioctl.h>
 #include <sys/ipc.h>
 #include <sys/mman.h>
@@ -35,6 +37,8 @@ using namespace stride::isolation;
 using namespace stride::tests;
 
 namespace {
+
+constexpr unsigned long kSetExt4Version = _IOW('f', 4, long);
 
 void filtered(void (*forbid)()) {
   ::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);
@@ -79,18 +83,43 @@ TEST_CASE("of the sockets only those within the machine are left") {
         }) == "donedone");
 }
 
-TEST_CASE("no socket comes by way of io_uring, and nothing is typed into a terminal") {
+TEST_CASE("no socket comes by way of io_uring") {
   if (lacks_seccomp()) return;
   CHECK(say_filtered(forbid_network, [] {
           io_uring_params parameters{};
           return answer(::syscall(SYS_io_uring_setup, 1, &parameters));
         }) == "EACCES");
-  const char key = '\n';
-  CHECK(say_filtered(forbid_network,
-                     [&] { return answer(::ioctl(STDIN_FILENO, TIOCSTI, &key)); }) == "EACCES");
-  CHECK(in_child([&] { return answer(::ioctl(STDIN_FILENO, TIOCSTI, &key)); }) == "ENOTTY");
-  CHECK(say_filtered(forbid_network, [] {
-          return answer(::ioctl(STDIN_FILENO, TIOCGWINSZ, nullptr));
+}
+
+TEST_CASE("files and terminals take no requests but harmless ones") {
+  if (lacks_seccomp()) return;
+  const ScratchFolder scratch;
+  const auto path = write_file(scratch / "file", "text");
+  const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+  const Terminal terminal;
+  const auto request = [](const Descriptor& to, unsigned long number) {
+    return [&to, number] {
+      long data[64] = {};
+      return answer(::ioctl(to.number(), number, data));
+    };
+  };
+  for (const unsigned long number : {TIOCGWINSZ, TIOCSWINSZ, TCGETS, TIOCOUTQ, TIOCINQ}) {
+    INFO("request " << number);
+    const bool is_harmless = number == TCGETS || number == TIOCINQ;
+    CHECK(in_child(request(terminal.user, number)) == "done");
+    CHECK(say_filtered(forbid_requests, request(terminal.user, number)) ==
+          (is_harmless ? "done" : "ENOTTY"));
+  }
+  for (const unsigned long number : {FS_IOC_SETFLAGS, FS_IOC_SETVERSION, kSetExt4Version}) {
+    INFO("request " << number);
+    CHECK(say_filtered(forbid_requests, request(file, number)) == "ENOTTY");
+  }
+  for (const unsigned long number : {FIONREAD, FIOCLEX, FIONCLEX}) {
+    CHECK(say_filtered(forbid_requests, request(file, number)) == "done");
+  }
+  CHECK(say_filtered(forbid_requests, [&] {  // only the lower half counts
+          long data[64] = {};
+          return answer(::syscall(SYS_ioctl, terminal.user.number(), 1UL << 32 | TIOCSWINSZ, data));
         }) == "ENOTTY");
 }
 
@@ -146,8 +175,6 @@ TEST_CASE("no other process is reached by its number, a key or a name") {
        {"counters", [] { return ::syscall(SYS_perf_event_open, nullptr, 0, -1, -1, ~0UL); }},
        {"hiding", [] { return ::prctl(PR_SET_DUMPABLE, 0, 0, 0, 0); }},
        {"outliving", [] { return ::prctl(PR_SET_PDEATHSIG, 0, 0, 0, 0); }},
-       {"the foreground", [] { return ::tcsetpgrp(STDIN_FILENO, ::getpgrp()); }},
-       {"a terminal", [] { return ::ioctl(STDIN_FILENO, TIOCSCTTY, 0); }},
        {"System V memory", [] { return ::shmget(0x5712de, 1, 0); }},
        {"System V memory by number",
         [] { return reinterpret_cast<long>(::shmat(0x5712de, nullptr, 0)); }},
@@ -252,7 +279,6 @@ TEST_CASE("modes, owners, times and attributes of files stay as they are") {
   const int open = ::open(file, O_RDONLY | O_CLOEXEC);
   const uid_t user = ::getuid();
   const gid_t group = ::getgid();
-  int flags = 0;
   check_denied(forbid_changing_attributes,
                {{"chown", [&] { return ::chown(file, user, group); }},
                 {"fchown", [&] { return ::fchown(open, user, group); }},
@@ -266,10 +292,52 @@ TEST_CASE("modes, owners, times and attributes of files stay as they are") {
                 {"lsetxattr", [&] { return ::lsetxattr(file, "user.x", "y", 1, 0); }},
                 {"fsetxattr", [&] { return ::fsetxattr(open, "user.x", "y", 1, 0); }},
                 {"removexattr", [&] { return ::removexattr(file, "user.x"); }},
-                {"fremovexattr", [&] { return ::fremovexattr(open, "user.x"); }},
-                {"flags", [&] { return ::ioctl(open, FS_IOC_SETFLAGS, &flags); }},
-                {"version", [&] { return ::ioctl(open, FS_IOC_SETVERSION, &flags); }}});
+                {"fremovexattr", [&] { return ::fremovexattr(open, "user.x"); }}});
   ::close(open);
+}
+
+TEST_CASE("a lock of a file is not had, and answers that it is") {
+  if (lacks_seccomp()) return;
+  const ScratchFolder scratch;
+  const auto path = write_file(scratch / "file", "text");
+  const Descriptor own(::open(path.c_str(), O_RDWR | O_CLOEXEC));
+  const Descriptor others(::open(path.c_str(), O_RDWR | O_CLOEXEC));
+  REQUIRE(::flock(own.number(), LOCK_EX) == 0);
+  struct flock range {};
+  range.l_type = F_WRLCK;
+  REQUIRE(::fcntl(own.number(), F_OFD_SETLK, &range) == 0);
+  const auto lock = [&] {
+    std::string answers = answer(::flock(others.number(), LOCK_EX | LOCK_NB));
+    for (const int command : {F_SETLK, F_OFD_SETLK}) {
+      answers += " " + answer(::fcntl(others.number(), command, &range));
+    }
+    return answers;
+  };
+  CHECK(in_child(lock) == "EAGAIN EAGAIN EAGAIN");
+  CHECK(say_filtered(ignore_locks, lock) == "done done done");
+  CHECK(say_filtered(ignore_locks, [&] {
+          return answer(::fcntl(others.number(), F_SETLKW, &range)) +
+                 answer(::fcntl(others.number(), F_OFD_SETLKW, &range)) +
+                 answer(::fcntl(others.number(), F_GETFL));
+        }) == "donedonedone");
+}
+
+TEST_CASE("no thread has open files of its own") {
+  if (lacks_seccomp()) return;
+  constexpr unsigned long kThread = CLONE_VM | CLONE_FS | CLONE_SIGHAND | CLONE_THREAD;
+  const auto start = [](unsigned long flags) {
+    return [=] {
+      alignas(16) static char stack[1 << 16];
+      const auto wait = [](void*) { return ::pause(); };
+      return answer(::clone(wait, stack + sizeof stack, static_cast<int>(flags), nullptr));
+    };
+  };
+  CHECK(in_child(start(kThread)) == "done");
+  CHECK(say_filtered(forbid_hiding_files, start(kThread)) == "EACCES");
+  CHECK(say_filtered(forbid_hiding_files, start(kThread | CLONE_FILES)) == "done");
+  check_denied(forbid_hiding_files,
+               {{"a list of its own",
+                 [] { return ::syscall(SYS_close_range, 1000, 1001, CLOSE_RANGE_UNSHARE); }}});
 }
 
 TEST_CASE("a change of a file's mode is not made, and answers that it is") {
@@ -333,10 +401,10 @@ TEST_CASE("no file is sent through a socket, and bytes are") {
   mmsghdr message{};
   message.msg_hdr.msg_iov = &content;
   message.msg_hdr.msg_iovlen = 1;
-  check_denied(forbid_sending_files,
+  check_denied(forbid_hiding_files,
                {{"sendmsg", [&] { return ::sendmsg(ends[0], &message.msg_hdr, 0); }},
                 {"sendmmsg", [&] { return ::sendmmsg(ends[0], &message, 1, 0); }}});
-  CHECK(say_filtered(forbid_sending_files, [&] { return answer(::send(ends[0], "x", 1, 0)); }) ==
+  CHECK(say_filtered(forbid_hiding_files, [&] { return answer(::send(ends[0], "x", 1, 0)); }) ==
         "done");
   for (const int end : ends) ::close(end);
 }

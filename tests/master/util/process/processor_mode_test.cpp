@@ -36,6 +36,22 @@ TEST_CASE("a mode is put back, and what another one does is said") {
 }
 
 #if defined(__x86_64__)
+TEST_CASE("registers that are left in use are emptied") {
+  volatile long double one = 1, three = 3;
+  const bool is_by_mmx = GENERATE(true, false);
+  CHECK(ProcessorMode::are_registers_empty());
+  if (is_by_mmx) {
+    asm volatile("pxor %mm0, %mm0");
+  } else {
+    asm volatile("fld1");
+  }
+  const bool are_empty = ProcessorMode::are_registers_empty();
+  ProcessorMode::empty_registers();
+  CHECK_FALSE(are_empty);
+  CHECK(ProcessorMode::are_registers_empty());
+  CHECK(static_cast<double>(one / three) == third());
+}
+
 TEST_CASE("the direction of string instructions and the check of alignment are parts of it") {
   const auto [bit, words] = GENERATE(table<unsigned, const char*>(
       {{1U << 10, "the direction flag is set: string instructions run backward"},
