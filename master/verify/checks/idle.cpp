@@ -118,7 +118,9 @@ Finding check_idle(const Trial& trial) {
     return passed("skipping of idle time changes nothing", {"it promised nothing in these runs"});
   }
   const TestedUnit longer(over(trial.tested, promises.longest));
-  promises.add(compare({longer, trial.note}, {seed + 10 * rounds, Wander::Still, Jump::Once}));
+  for (const Jump jump : {Jump::Late, Jump::EarlyAndLate}) {
+    promises.add(compare({longer, trial.note}, {seed + 10 * rounds, Wander::Still, jump}));
+  }
   std::vector<std::string> notes;
   const Duration length = longer.step() * static_cast<std::int64_t>(longer.steps());
   if (promises.longest > length && promises.longest < Duration::max()) {
@@ -128,7 +130,7 @@ Finding check_idle(const Trial& trial) {
                     core::to_text(promises.longest), core::to_text(length)));
   }
   return passed(fmt::format("{} promises were kept, in {} runs with random inputs", promises.count,
-                            rounds + 1),
+                            rounds + 2),
                 notes);
 }
 
