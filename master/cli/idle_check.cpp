@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
 #include "master/report/csv_reader.h"
 #include "master/util/error.h"
@@ -61,7 +62,7 @@ class Allowances {
 
   Column of(core::VariableId id) const {
     Column column{id, core::is_real(system_.variable(id).type)};
-    const auto tolerance = idle_.tolerance(system_, id);
+    const auto tolerance = tolerance_of(id);
     if (tolerance) {
       column.absolute = *tolerance * static_cast<double>(std::max<std::size_t>(1, inexact_units_));
     }
@@ -71,6 +72,21 @@ class Allowances {
   }
 
  private:
+  /// That of an output, also where its value is that of an input.
+  std::optional<double> tolerance_of(core::VariableId id) const {
+    if (system_.is_output(id) || system_.variable(id).causality != core::Causality::Input) {
+      return idle_.tolerance(system_, id);
+    }
+    std::optional<double> tolerance;
+    for (const core::Connection& connection : system_.connections_to(id)) {
+      const auto own = idle_.tolerance(system_, connection.from);
+      if (!own) continue;
+      const double converted = *own * std::abs(connection.conversion.linear.factor);
+      tolerance = std::max(converted, tolerance.value_or(0));
+    }
+    return tolerance;
+  }
+
   const core::System& system_;
   const core::IdleOptions& idle_;
   std::size_t inexact_units_ = 0;  ///< with outputs that have tolerances
@@ -175,6 +191,16 @@ class SignalComparison {
   std::size_t points_ = 0;
 };
 
+bool may_suspend(const scenario::LoadedScenario& loaded) {
+  if (!loaded.options().may_skip_idle_time()) return false;
+  const auto& components = loaded.system().components();
+  const auto& skips = loaded.options().idle.max_skip;
+  for (std::size_t i = 0; i < std::min(components.size(), skips.size()); ++i) {
+    if (skips[i] && components[i].description->promises_idle) return true;
+  }
+  return false;
+}
+
 std::string message_text(const CsvReader& reader) {
   return fmt::format("{} {} {} {}", value_of(reader, 0), value_of(reader, 2), value_of(reader, 3),
                      value_of(reader, 4));
@@ -231,9 +257,16 @@ std::string compare_with_full_run(const scenario::LoadedScenario& loaded,
   }
   if (first) {
     core::fail_run(first->context, first->text + "; that is more than idle skipping may change",
-                   "no unit breaks its promises by more than its tolerances and deadbands, whose "
-                   "effect has grown: <stride:Tolerance> and <stride:Deadband> make it smaller, "
+                   "no unit breaks its promises, beyond tolerances and deadbands, whose effect on "
+                   "others is this: <stride:Tolerance> and <stride:Deadband> make it smaller, "
                    "<stride:IdleSkip components=\"…\" enabled=\"false\"/> leaves a unit out");
+  }
+  if (!may_suspend(loaded)) {
+    spdlog::warn(
+        "--check-idle has tested nothing: no unit can be suspended in this run (idle skipping "
+        "needs "
+        "units that promise to be idle, fixed or event-driven steps, Jacobi and held inputs, and "
+        "must not be switched off)");
   }
   return fmt::format(
       "Idle skipping changes nothing but what tolerances allow: {} communication points and {} "

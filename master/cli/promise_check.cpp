@@ -193,6 +193,15 @@ class UnitPair {
       expected_.pop_front();
     }
     if (sent_.empty() && expected_.empty()) return std::nullopt;
+    const bool are_both =
+        !sent_.empty() && !expected_.empty() && sent_.front().time == expected_.front().time;
+    if (are_both) {
+      return BrokenPromise{
+          sent_.front().time, unit_.variables[sent_.front().variable].name,
+          fmt::format("it sends {}, and an instance with the same inputs that is "
+                      "never suspended {}",
+                      text_of(sent_.front(), unit_), text_of(expected_.front(), unit_))};
+    }
     const bool has_more =
         expected_.empty() || (!sent_.empty() && sent_.front().time <= expected_.front().time);
     const Sent& first = has_more ? sent_.front() : expected_.front();

@@ -46,7 +46,7 @@ TEST_CASE("verify: promises that are kept pass") {
   const Outcome honest = verify_idle("idler.fmu", tank("honest"));
   CHECK(honest.exit_code == 0);
   CHECK_THAT(honest.out,
-             Contains("promises were kept, in 13 runs with random inputs") && Contains("1 passed"));
+             Contains("promises were kept, in 14 runs with random inputs") && Contains("1 passed"));
   CHECK_THAT(verify_idle("minimal.fmu").out, Contains("it never promises to be idle"));
 }
 
@@ -124,6 +124,22 @@ TEST_CASE("run --check-idle: the tolerances of others excuse nothing") {
   CHECK(outcome.exit_code == 1);
   CHECK_THAT(outcome.err, StartsWith("stride: error: unit 'liar', variable 'level'") &&
                               Contains("; the tolerance is 0.001"));
+}
+
+TEST_CASE("run --check-idle: a recorded input has the tolerance of its source") {
+  const Workspace workspace(
+      Parts{tank_component("tank", "honest", "0", "1") + component("sink", "minimal.fmu"),
+            connection("tank.level", "sink.u"),
+            "<stride:Step size=\"0.001\"/><stride:Record signals=\"sink.u\"/>"
+            "<stride:Tolerance variable=\"tank.level\" value=\"0.02\"/>"});
+  CHECK(workspace.run({"--check-idle", "--quiet"}).err == "");
+}
+
+TEST_CASE("run --check-idle says that it has tested nothing") {
+  const Workspace workspace = tank_scenario("loses_time");
+  const Outcome outcome = workspace.run({"--check-idle", "--coupling", "gauss-seidel"});
+  CHECK(outcome.exit_code == 0);
+  CHECK_THAT(outcome.err, Contains("--check-idle has tested nothing: no unit can be suspended"));
 }
 
 TEST_CASE("run --check-idle needs idle skipping") {
