@@ -54,7 +54,6 @@ class OwnStream {
     stream_.tie(tie_);
     if (library_at(stream_.rdbuf()) == library_at(buffer_)) {
       stream_.clear();
-      stream_.flush();
     } else {
       stream_.rdbuf(buffer_);
     }
