@@ -13,8 +13,8 @@ using core::ValueType;
 /// Of the deadband, to each side, so that rounding does not leave it.
 constexpr double kWander = 0.49;
 
-/// The point of the early jump.
-constexpr std::size_t kEarlyJump = 3;
+/// The point of Jump::Once.
+constexpr std::size_t kOnlyJump = 3;
 
 /// One number out of two.
 std::uint64_t mixed(std::uint64_t one, std::uint64_t other) { return (one << 32) ^ other; }
@@ -24,23 +24,20 @@ std::uint64_t mixed(std::uint64_t one, std::uint64_t other) { return (one << 32)
 IdleStimulus::IdleStimulus(const TestedUnit& tested, std::uint64_t seed, Wander wander, Jump jump)
     : Stimulus(tested, seed),
       unit_(tested.description()),
-      steps_(tested.steps()),
       seed_(seed),
       wander_(wander),
       jump_(jump) {}
 
 /// At one point in ten to one in a thousand, by the seed.
 bool IdleStimulus::ticks_at(std::size_t k) const {
-  if (is_quiet()) return k == late();
+  if (is_quiet()) return false;
   const double share = 0.1 * std::pow(10, -2 * uniform(seed_ + 1, 0));
   return k > 0 && uniform(seed_ + 1, k) < share;
 }
 
 /// Each input has a rhythm of its own, from some points to hundreds of them.
 std::size_t IdleStimulus::jumps_until(const Input& input, std::size_t k) const {
-  if (is_quiet()) {
-    return (k >= late() ? 1U : 0U) + (jump_ == Jump::EarlyAndLate && k >= kEarlyJump ? 1U : 0U);
-  }
+  if (is_quiet()) return jump_ == Jump::Once && k >= kOnlyJump ? 1 : 0;
   const double rhythm = 3 * std::pow(10, 2 * uniform(seed_ + 2, input.reference));
   return static_cast<std::size_t>(static_cast<double>(k) / rhythm);
 }

@@ -11,9 +11,8 @@ namespace stride::verify {
 /// How an input with a deadband moves between two jumps.
 enum class Wander { Still, WithinDeadbands };
 /// How far inputs jump: to the values of Stimulus, or far beyond them, where min and max allow it.
-/// Late: near, all of them shortly before the end of the run, where Event Mode is entered, and
-/// nothing happens before. EarlyAndLate: likewise soon after the start, too.
-enum class Jump { Near, Far, Late, EarlyAndLate };
+/// Once: near, all of them soon after the start, and nothing else happens. Never: nothing at all.
+enum class Jump { Near, Far, Once, Never };
 
 /// Inputs that jump at random points, and mostly beyond their deadbands. In between they stay what
 /// they are, or move at random such that two values are never further apart than the deadband.
@@ -29,13 +28,10 @@ class IdleStimulus final : public Stimulus {
 
  private:
   std::size_t jumps_until(const Input& input, std::size_t k) const;
-  bool is_quiet() const { return jump_ == Jump::Late || jump_ == Jump::EarlyAndLate; }
-  /// The point of the late jump.
-  std::size_t late() const { return steps_ - steps_ / 10; }
+  bool is_quiet() const { return jump_ == Jump::Once || jump_ == Jump::Never; }
   double element(const Input& input, double start, double other, std::uint64_t jump) const;
 
   const core::UnitDescription& unit_;
-  std::size_t steps_;
   std::uint64_t seed_;
   Wander wander_;
   Jump jump_;

@@ -62,15 +62,13 @@ TEST_CASE("between two jumps inputs stay, or move within their deadbands") {
   CHECK(still.front() == 1);  // the start value
 }
 
-TEST_CASE("a quiet stimulus jumps near the end, and something ticks there only") {
+TEST_CASE("a quiet stimulus jumps once or never, and nothing ticks") {
   const TestedUnit tested = idler();
-  const std::size_t late = tested.steps() - tested.steps() / 10;
-  REQUIRE(late < kPoints);
-  const IdleStimulus quiet(tested, 5, Wander::Still, Jump::Late);
-  const IdleStimulus early(tested, 5, Wander::Still, Jump::EarlyAndLate);
-  CHECK(count_beyond(course(quiet), 0) == 1);
-  CHECK(count_beyond(course(early), 0) == 2);
-  for (std::size_t k = 0; k < kPoints; ++k) CHECK(quiet.ticks_at(k) == (k == late));
+  const auto [jump, jumps] =
+      GENERATE(table<Jump, std::size_t>({{Jump::Once, 1}, {Jump::Never, 0}}));
+  const IdleStimulus quiet(tested, 5, Wander::Still, jump);
+  CHECK(count_beyond(course(quiet), 0) == jumps);
+  for (std::size_t k = 0; k < kPoints; ++k) CHECK_FALSE(quiet.ticks_at(k));
 }
 
 TEST_CASE("a stimulus is a function of the seed and the point") {
