@@ -34,6 +34,12 @@ const char* name(Extrapolation extrapolation) {
   return "quadratic";
 }
 
+std::optional<Duration> IdleOptions::longest_suspension(const System& system,
+                                                        std::size_t component) const {
+  const bool promises = system.components()[component].description->promises_idle;
+  return promises && component < max_skip.size() ? max_skip[component] : std::nullopt;
+}
+
 std::optional<double> IdleOptions::tolerance(const System& system, VariableId output) const {
   const auto setting = setting_of(tolerances, output);
   return setting ? setting : system.variable(output).tolerance;

@@ -51,7 +51,7 @@ class Allowances {
       : system_(loaded.system()), idle_(loaded.options().idle) {
     for (std::size_t i = 0; i < system_.components().size(); ++i) {
       const auto& variables = system_.components()[i].description->variables;
-      if (i >= idle_.max_skip.size() || !idle_.max_skip[i]) continue;
+      if (!idle_.longest_suspension(system_, i)) continue;
       inexact_units_ += std::ranges::any_of(
           variables, [](const core::Variable& variable) { return variable.tolerance.has_value(); });
       has_deadbands_ |= std::ranges::any_of(
@@ -193,10 +193,8 @@ class SignalComparison {
 
 bool may_suspend(const scenario::LoadedScenario& loaded) {
   if (!loaded.options().may_skip_idle_time()) return false;
-  const auto& components = loaded.system().components();
-  const auto& skips = loaded.options().idle.max_skip;
-  for (std::size_t i = 0; i < std::min(components.size(), skips.size()); ++i) {
-    if (skips[i] && components[i].description->promises_idle) return true;
+  for (std::size_t i = 0; i < loaded.system().components().size(); ++i) {
+    if (loaded.options().idle.longest_suspension(loaded.system(), i)) return true;
   }
   return false;
 }

@@ -273,7 +273,7 @@ class PromiseCheck : public core::Observer {
 
  private:
   void add(const scenario::IdleTwin& twin, Duration step) {
-    if (twin.unit >= idle_.max_skip.size() || !idle_.max_skip[twin.unit]) return;
+    if (!idle_.longest_suspension(system_, twin.unit)) return;
     const core::UnitDescription& unit = *system_.components()[twin.unit].description;
     UnitPair pair(twin, unit, step);
     for (const core::Connection& connection : system_.connections()) {

@@ -19,9 +19,8 @@ IdleScheduler::IdleScheduler(RunContext& context)
       activities_(context.activities),
       options_(context.options.idle),
       states_(units_.size()) {
-  for (std::size_t i = 0; i < std::min(units_.size(), options_.max_skip.size()); ++i) {
-    const std::optional<Duration>& max_skip = options_.max_skip[i];
-    if (max_skip && system_.components()[i].description->promises_idle) add_candidate(i, *max_skip);
+  for (std::size_t i = 0; i < units_.size(); ++i) {
+    if (const auto longest = options_.longest_suspension(system_, i)) add_candidate(i, *longest);
   }
 }
 
