@@ -152,6 +152,14 @@ function(stride_add_test_program name)
   endif()
 endfunction()
 
+# stride_machine_tests(NAME...)
+#
+# Tests that watch what else a machine may have a say in: processes that are late, end or are killed, their time limits
+# and memory. The label `machine`: scripts/test.sh gives them, and no others, a second chance.
+function(stride_machine_tests)
+  set_tests_properties(${ARGV} PROPERTIES LABELS machine)
+endfunction()
+
 # stride_parallel_tests(NAME...)
 #
 # Tests with several threads, in programs of their own: the label `parallel` and the target `parallel_tests`, for the

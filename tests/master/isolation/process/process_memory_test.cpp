@@ -24,8 +24,9 @@ TEST_CASE("memory that was used counts, also when it is no longer there") {
     ::munmap(block, kSize);
     const std::uint64_t after = private_memory(self);
     std::string text;
-    for (const bool holds : {before > 0, with >= before + kSize, after + kSize / 2 < with,
-                             most_memory(self) >= kSize}) {
+    // not to the byte: a page of the program is no longer private once another process has it, too
+    for (const bool holds : {before > 0, with > before + kSize - kSize / 8,
+                             after + kSize / 2 < with, most_memory(self) >= kSize}) {
       text += holds ? '1' : '0';
     }
     return text;
