@@ -312,3 +312,15 @@ TEST_CASE("the dimensions of connectors are read, each with its size or the name
   CHECK_THAT(error_of([&] { read(ssd(system("root", "", declared("<ssc:Dimension/>"), ""))); }),
              Contains("needs one of the attributes 'size' and 'sizeConnector'"));
 }
+
+TEST_CASE("indices in a file of SSP 1.0, which has none, are a warning, once for the file") {
+  const std::string inside =
+      system("root", "", component("a"),
+             wire("a.y", "a.u", "", "startIndices='2'") + wire("a.y", "a.v", "", "endIndices='1'"));
+  const Scenario scenario = read(ssd(inside, "1.0"));
+  CHECK(paths(scenario) == Strings{"a.y > a.v[1]", "a.y[2] > a.u"});
+  REQUIRE(scenario.warnings.size() == 1);
+  CHECK_THAT(scenario.warnings[0],
+             Contains("x.ssd:7: 'startIndices' is of SSP 2.0, and this file is of SSP 1.0"));
+  CHECK(read(ssd(inside)).warnings.empty());
+}
