@@ -26,11 +26,11 @@ constexpr std::size_t kMostHints = 120;
 System::System(const SystemDeclaration& declaration) : name_(declaration.name) {
   Diagnostics diagnostics;
   add_components(declaration);
-  const std::vector<Target> targets = find_targets(declaration, diagnostics);
-  if (!diagnostics.attempt([&] { add_structural_values(targets); })) diagnostics.raise();
+  add_structural_values(declaration, diagnostics);
+  diagnostics.raise();
   check_connectors(declaration, diagnostics);
   add_connections(declaration, diagnostics);
-  add_start_values(targets, diagnostics);
+  add_start_values(declaration, diagnostics);
   if (diagnostics.any()) sum_up_misfits(declaration, diagnostics);
   diagnostics.raise();
   add_outputs(declaration);
@@ -43,6 +43,13 @@ std::string System::prefix(VariableId id) const {
 std::string System::range_name(const ElementRange& range) const {
   if (is_whole(range)) return full_name(range.id);
   return prefix(range.id) + element_name(variable(range.id), range.first);
+}
+
+std::string System::elements_name(const ConnectorElements& elements) const {
+  const ElementRange& first = elements.parts.front();
+  if (!elements.are_scalars()) return range_name(first);
+  const std::string scalar = full_name(first.id);
+  return scalar.substr(0, scalar.rfind('['));
 }
 
 bool System::is_sampled(VariableId id) const {

@@ -56,7 +56,12 @@ struct SystemOutput {
 };
 struct StartValue {
   VariableId id;
-  ValueBlock value;
+  ValueBlock value;  ///< of all elements
+  /// Elements that no value was given for, ascending: they keep the unit's own.
+  std::vector<std::size_t> kept{};
+
+  /// The value with the elements that are kept, of those that the unit has.
+  ValueBlock over(const ValueBlock& own) const;
 };
 
 /// An immutable, valid system. Components are in the order of the file, connections are sorted by
@@ -107,6 +112,8 @@ class System {
   std::string full_name(VariableId id) const { return prefix(id) + variable(id).name; }
   /// Likewise, with its indices if it is an element of an array: "component.variable[2]".
   std::string range_name(const ElementRange& range) const;
+  /// Likewise; of scalars that stand for an array "component.array".
+  std::string elements_name(const ConnectorElements& elements) const;
   bool is_whole(const ElementRange& range) const { return range.size == variable(range.id).size; }
   /// "component.", or empty for an output of the system.
   std::string prefix(VariableId id) const;
@@ -122,11 +129,21 @@ class System {
   /// A start value and what it is for.
   struct Target {
     const StartDeclaration* declaration;
-    VariableId id;
+    ConnectorElements elements;
   };
+  /// What a variable has of start values so far.
+  struct GivenElements {
+    ValueBlock value;
+    std::vector<bool> is_given;
+  };
+  using GivenValues = std::map<VariableId, GivenElements>;
+  bool is_structural(const StartDeclaration& declaration) const;
+  std::optional<Target> find_target(const StartDeclaration& declaration) const;
   std::vector<Target> find_targets(const SystemDeclaration& declaration, Diagnostics& diagnostics);
-  void add_structural_values(const std::vector<Target>& targets);
-  void add_start_values(const std::vector<Target>& targets, Diagnostics& diagnostics);
+  void add_structural_values(const SystemDeclaration& declaration, Diagnostics& diagnostics);
+  void add_start_values(const SystemDeclaration& declaration, Diagnostics& diagnostics);
+  void give(const Target& target, GivenValues& values);
+  static std::vector<StartValue> listed(GivenValues values);
   void resize(const StartDeclaration& declaration, VariableId structural_parameter,
               std::size_t size);
   std::size_t find_component(const std::string& name, const Location& where) const;
@@ -176,8 +193,9 @@ class System {
   PathConnector path_connector(const ElementRange& element) const;
   ElementRange whole(VariableId id) const { return {id, 0, variable(id).size}; }
   void note_missing(const StartDeclaration& declaration);
-  void note_replaced(const StartDeclaration& declaration, VariableId id);
-  ValueBlock start_value(const StartDeclaration& declaration, VariableId id);
+  void note_replaced(const Target& target);
+  ValueBlock start_value(const StartDeclaration& declaration, const ElementRange& part,
+                         const std::string& text);
 
   std::string name_;
   std::vector<Component> components_;

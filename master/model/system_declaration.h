@@ -61,6 +61,7 @@ struct OutputDeclaration {
   std::vector<ViaDeclaration> via;  ///< the last one is the system's connector itself, by its name
   Location where{};
 };
+/// A start value of what a connector may be: see ConnectionDeclaration.
 struct StartDeclaration {
   std::string component, variable;
   std::string value;

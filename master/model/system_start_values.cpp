@@ -1,4 +1,5 @@
 // The part of System that checks and makes its start values.
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
@@ -15,6 +16,7 @@
 #include "master/model/way.h"
 #include "master/util/limited_warnings.h"
 #include "master/util/message_text.h"
+#include "master/util/words.h"
 
 namespace stride::core {
 namespace {
@@ -81,7 +83,20 @@ void convert_start(ValueBlock& value, const LinearConversion& conversion) {
   });
 }
 
+Variable element_of(const Variable& array) {
+  Variable element = array;
+  element.dimensions.clear();
+  element.size = 1;
+  return element;
+}
+
 }  // namespace
+
+ValueBlock StartValue::over(const ValueBlock& own) const {
+  ValueBlock all = value;
+  for (const std::size_t element : kept) copy_elements(all, element, own, element, 1);
+  return all;
+}
 
 /// Nothing, and a warning, where a parameter set holds a value for no component, as SSP allows.
 void System::note_missing(const StartDeclaration& wanted) {
@@ -95,6 +110,33 @@ void System::note_missing(const StartDeclaration& wanted) {
   }
 }
 
+/// Whether it is for a structural parameter, whose size no other one gives.
+bool System::is_structural(const StartDeclaration& wanted) const {
+  const std::size_t component = find_component(wanted.component, wanted.where);
+  const UnitDescription& description = *components_[component].description;
+  try {
+    const auto found = core::find_elements(names_, component, description,
+                                           {wanted.where, wanted.component, wanted.variable, {}});
+    return found && variable(found->parts.front().id).causality == Causality::StructuralParameter;
+  } catch (const Error&) {
+    return false;  // an index may be right when the sizes are known
+  }
+}
+
+/// Nothing if it is not there.
+std::optional<System::Target> System::find_target(const StartDeclaration& wanted) const {
+  const std::size_t component = find_component(wanted.component, wanted.where);
+  const UnitDescription& description = *components_[component].description;
+  const Context context{wanted.where, wanted.component, wanted.variable, {}};
+  check_unambiguous(context, description);
+  auto found = core::find_elements(names_, component, description, context);
+  if (!found) return std::nullopt;
+  for (const ElementRange& part : found->parts) {
+    check_settable(description, variable(part.id), context);
+  }
+  return Target{&wanted, std::move(*found)};
+}
+
 /// Of those that are there; of the others, what must not be ignored is an error.
 std::vector<System::Target> System::find_targets(const SystemDeclaration& declaration,
                                                  Diagnostics& diagnostics) {
@@ -102,20 +144,18 @@ std::vector<System::Target> System::find_targets(const SystemDeclaration& declar
   std::vector<const StartDeclaration*> missing;
   std::set<std::size_t> found_groups;
   for (const StartDeclaration& wanted : declaration.start_values) {
-    const std::size_t component = find_component(wanted.component, wanted.where);
-    const auto place = names_.variable(component, wanted.variable);
-    if (!place) {
-      missing.push_back(&wanted);
+    if (is_structural(wanted)) {
+      found_groups.insert(wanted.group);
       continue;
     }
-    const VariableId id{component, *place};
-    found_groups.insert(wanted.group);
+    if (diagnostics.mentions(wanted.component, wanted.variable)) continue;
     diagnostics.attempt([&] {
-      const UnitDescription& description = *components_[component].description;
-      const Context context{wanted.where, wanted.component, wanted.variable, {}};
-      check_unambiguous(context, description);
-      check_settable(description, variable(id), context);
-      targets.push_back({&wanted, id});
+      if (auto target = find_target(wanted)) {
+        found_groups.insert(wanted.group);
+        targets.push_back(std::move(*target));
+      } else {
+        missing.push_back(&wanted);
+      }
     });
   }
   LimitedWarnings ignored(warnings_,
@@ -129,21 +169,24 @@ std::vector<System::Target> System::find_targets(const SystemDeclaration& declar
   return targets;
 }
 
-ValueBlock System::start_value(const StartDeclaration& wanted, VariableId id) {
-  const Variable& target = variable(id);
-  const UnitDescription& description = *components_[id.component].description;
+/// Of a part of the target, from that part's text.
+ValueBlock System::start_value(const StartDeclaration& wanted, const ElementRange& part,
+                               const std::string& given) {
+  std::optional<Variable> element;
+  if (!is_whole(part)) element = element_of(variable(part.id));
+  const Variable& target = element ? *element : variable(part.id);
+  const UnitDescription& description = *components_[part.id.component].description;
   const Context context{wanted.where, wanted.component, wanted.variable, {}};
   const UnitOfMeasure unit = known_unit(wanted.unit, description);
-  if (wanted.via.empty() && !wanted.suppress_unit_conversion &&
-      !convert(unit, path_connector(whole(id)).unit)) {
+  const PathConnector end = path_connector(part);
+  if (wanted.via.empty() && !wanted.suppress_unit_conversion && !convert(unit, end.unit)) {
     fail_input(context,
-               fmt::format("the value is in '{}', the variable in '{}'", unit.name,
-                           path_connector(whole(id)).unit.name),
+               fmt::format("the value is in '{}', the variable in '{}'", unit.name, end.unit.name),
                "give the value in the variable's unit");
   }
   Way way({"the value", {}, unit, {}, true});
-  way.go(wanted, path_connector(whole(id)));
-  const auto [text, linear] = compose_text(wanted.value, way.path, way.segments, context);
+  way.go(wanted, end);
+  const auto [text, linear] = compose_text(given, way.path, way.segments, context);
   const std::optional<std::string> meant = meant_value(target.type, text);
   if (meant) {
     warnings_.push_back(to_text(context) +
@@ -172,36 +215,85 @@ void System::resize(const StartDeclaration& declaration, VariableId structural_p
   shared = std::make_shared<const UnitDescription>(std::move(description));
 }
 
-void System::add_structural_values(const std::vector<Target>& targets) {
-  std::map<VariableId, ValueBlock> values;
-  for (const auto& [wanted, id] : targets) {
-    if (variable(id).causality != Causality::StructuralParameter) continue;
-    ValueBlock value = start_value(*wanted, id);
-    if (value.type() == ValueType::UInt64) resize(*wanted, id, value.numbers<std::uint64_t>()[0]);
-    values.insert_or_assign(id, std::move(value));
+/// Scalars that stand for an array have a word of the text each.
+void System::give(const Target& target, GivenValues& values) {
+  const auto& [wanted, elements] = target;
+  const std::vector<std::string> texts =
+      elements.are_scalars() ? words_of(wanted->value) : std::vector{wanted->value};
+  if (texts.size() != elements.parts.size()) {
+    fail_input({wanted->where, wanted->component, wanted->variable, {}},
+               fmt::format("'{}' is not a value for it, expected {} {} values separated by blanks",
+                           name_text(wanted->value), elements.parts.size(),
+                           core::name(variable(elements.parts.front().id).type)));
   }
-  for (auto& [id, value] : values) structural_values_.push_back({id, std::move(value)});
+  for (std::size_t i = 0; i < texts.size(); ++i) {
+    const ElementRange& part = elements.parts[i];
+    const ValueBlock value = start_value(*wanted, part, texts[i]);
+    const Variable& whole = variable(part.id);
+    auto& [given, is_given] =
+        values
+            .try_emplace(part.id,
+                         GivenElements{{whole.type, whole.size}, std::vector<bool>(whole.size)})
+            .first->second;
+    copy_elements(given, part.first, value, 0, part.size);
+    std::fill_n(is_given.begin() + static_cast<std::ptrdiff_t>(part.first), part.size, true);
+  }
+}
+
+std::vector<StartValue> System::listed(GivenValues values) {
+  std::vector<StartValue> list;
+  for (auto& [id, given] : values) {
+    StartValue& start = list.emplace_back(StartValue{id, std::move(given.value)});
+    for (std::size_t i = 0; i < given.is_given.size(); ++i) {
+      if (!given.is_given[i]) start.kept.push_back(i);
+    }
+  }
+  return list;
+}
+
+/// They come first, since the sizes of arrays, and so their elements, follow from them.
+void System::add_structural_values(const SystemDeclaration& declaration, Diagnostics& diagnostics) {
+  GivenValues values;
+  for (const StartDeclaration& wanted : declaration.start_values) {
+    if (!is_structural(wanted)) continue;
+    diagnostics.attempt([&] {
+      const Target target = find_target(wanted).value();
+      give(target, values);
+      for (const ElementRange& part : target.elements.parts) {
+        const ValueBlock& value = values.at(part.id).value;
+        if (value.type() != ValueType::UInt64 || value.size() != 1) continue;
+        resize(wanted, part.id, value.numbers<std::uint64_t>()[0]);
+      }
+    });
+  }
+  structural_values_ = listed(std::move(values));
 }
 
 /// A value that was set by name, and nothing of which is what the unit gets.
-void System::note_replaced(const StartDeclaration& wanted, VariableId id) {
-  if (wanted.is_optional) return;
-  const std::span<const Connection> sources = connections_to(id);
-  if (sources.empty() || !unconnected_elements(id).empty()) return;
+void System::note_replaced(const Target& target) {
+  if (target.declaration->is_optional) return;
+  const auto source_of = [&](const ElementRange& part) -> const Connection* {
+    const auto is_of_part = [&](const ElementRange& range) { return range.overlaps(part); };
+    if (std::ranges::any_of(unconnected_elements(part.id), is_of_part)) return nullptr;
+    const auto sources = connections_to(part.id);
+    const auto found = std::ranges::find_if(sources, is_of_part, &Connection::target);
+    return found == sources.end() ? nullptr : &*found;
+  };
+  const std::vector<ElementRange>& parts = target.elements.parts;
+  if (!std::ranges::all_of(parts, source_of)) return;
   warnings_.push_back(fmt::format(
       "{}'{}' is connected to '{}', whose value replaces this one at the initialisation",
-      core::to_text(Context{wanted.where}), full_name(id), range_name(sources.front().source())));
+      core::to_text(Context{target.declaration->where}), elements_name(target.elements),
+      range_name(source_of(parts.front())->source())));
 }
 
-void System::add_start_values(const std::vector<Target>& targets, Diagnostics& diagnostics) {
-  std::map<VariableId, ValueBlock> values;
-  for (const Target& target : targets) {
-    const VariableId id = target.id;
-    if (variable(id).causality == Causality::StructuralParameter) continue;
-    diagnostics.attempt([&] { values.insert_or_assign(id, start_value(*target.declaration, id)); });
-    note_replaced(*target.declaration, id);
+void System::add_start_values(const SystemDeclaration& declaration, Diagnostics& diagnostics) {
+  GivenValues values;
+  for (const Target& target : find_targets(declaration, diagnostics)) {
+    diagnostics.attempt([&] { give(target, values); });
+    note_replaced(target);
   }
-  for (auto& [id, value] : values) start_values_.push_back({id, std::move(value)});
+  start_values_ = listed(std::move(values));
 }
 
 }  // namespace stride::core

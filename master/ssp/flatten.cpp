@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "master/model/array_element.h"
 #include "master/ssp/port_graph.h"
 #include "master/util/limited_warnings.h"
 #include "master/util/suggest.h"
@@ -117,8 +118,12 @@ class Flattener {
   bool apply(const ParameterValue& value, const SystemNode& node, const std::string& name) {
     bool is_found = false;
     const auto& ports = graph_.connectors(node);
+    const auto indexed = core::indexed_name(name);
     if (const auto port = ports.find(name); port != ports.end()) {
       apply(value, port->second);
+      is_found = true;
+    } else if (const auto array = indexed ? ports.find(indexed->array) : port; array != port) {
+      apply(value, array->second, indexed->brackets);
       is_found = true;
     }
     const auto& elements = graph_.elements(node);
@@ -164,14 +169,14 @@ class Flattener {
   }
 
   /// To whatever a connector of a system leads: an input to all that it feeds, an output to what
-  /// feeds it.
-  void apply(const ParameterValue& value, std::size_t port) {
-    if (ports_[port].flow == Flow::Out) return apply_backward(value, port);
+  /// feeds it. `indices`: those behind its name.
+  void apply(const ParameterValue& value, std::size_t port, const std::string& indices = "") {
+    if (ports_[port].flow == Flow::Out) return apply_backward(value, port, indices);
     const std::size_t before = flat_.declaration.start_values.size();
     graph_.follow(port, [&](const PortGraph::Way& found) {
       const PortConnection& last = connections_[found.back()];
       const Port& to = ports_[last.to];
-      core::StartDeclaration start = this->start(value, to.component, to.connector);
+      core::StartDeclaration start = this->start(value, to.component, to.connector + indices);
       start.via.push_back({ports_[port].path_connector, value.segment});
       for (std::size_t i = 0; i + 1 < found.size(); ++i) start.via.push_back(via(found[i]));
       start.suppress_unit_conversion = last.segment.suppress_unit_conversion;
@@ -181,7 +186,7 @@ class Flattener {
     if (flat_.declaration.start_values.size() == before) warn_of_open(value, port);
   }
 
-  void apply_backward(const ParameterValue& value, std::size_t port) {
+  void apply_backward(const ParameterValue& value, std::size_t port, const std::string& indices) {
     std::vector<ViaDeclaration> via{{ports_[port].path_connector, value.segment}};
     const PortGraph::Way way = graph_.way_to(port);
     for (auto connection = way.rbegin(); connection != way.rend(); ++connection) {
@@ -199,7 +204,7 @@ class Flattener {
     }
     if (!ports_[port].is_component()) return warn_of_open(value, port);
     core::StartDeclaration start =
-        this->start(value, ports_[port].component, ports_[port].connector);
+        this->start(value, ports_[port].component, ports_[port].connector + indices);
     start.suppress_unit_conversion = via.back().segment.suppress_unit_conversion;
     start.transformation = via.back().segment.transformation;
     via.pop_back();

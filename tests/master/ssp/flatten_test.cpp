@@ -313,6 +313,19 @@ TEST_CASE("the dimensions of connectors are read, each with its size or the name
              Contains("needs one of the attributes 'size' and 'sizeConnector'"));
 }
 
+TEST_CASE("a value for an element of a system's connector is for that element of its ends") {
+  const auto with = [](const std::string& name, const std::string& inner_wire) {
+    const std::string s = system("s", connector("u", "input") + connector("y", "output"),
+                                 component("c"), inner_wire + wire("c.y", "y"));
+    return values(
+        read(ssd(system("root", "", s, "", "", parameters(name, "<ssv:Real value='7'/>")))));
+  };
+  CHECK(with("s.u", wire("u", "c.x[2]")) == Strings{"s.c.x[2] = 7"});
+  CHECK(with("s.u[2]", wire("u", "c.x")) == Strings{"s.c.x[2] = 7"});
+  CHECK(with("s.y[1,2]", "") == Strings{"s.c.y[1,2] = 7"});
+  CHECK(with("s.v[2]", wire("u", "c.x")).empty());
+}
+
 TEST_CASE("indices in a file of SSP 1.0, which has none, are a warning, once for the file") {
   const std::string inside =
       system("root", "", component("a"),
