@@ -20,6 +20,26 @@ namespace {
 /// for all warnings and for the mistakes that Diagnostics shows.
 constexpr std::size_t kMostHints = 120;
 
+/// "2 × 'n'"
+std::string dimensions_text(const std::vector<DimensionDeclaration>& dimensions) {
+  std::vector<std::string> texts;
+  for (const auto& [size, connector] : dimensions) {
+    texts.push_back(size ? std::to_string(*size) : fmt::format("'{}'", connector));
+  }
+  return fmt::format("{}", fmt::join(texts, " × "));
+}
+
+/// Nothing if a connector gives one of them.
+std::optional<std::vector<Dimension>> known_sizes(
+    const std::vector<DimensionDeclaration>& dimensions) {
+  std::vector<Dimension> sizes;
+  for (const DimensionDeclaration& dimension : dimensions) {
+    if (!dimension.size) return std::nullopt;
+    sizes.emplace_back(*dimension.size);
+  }
+  return sizes;
+}
+
 }  // namespace
 
 /// Mistakes are reported together, except those that follow from others.
@@ -30,10 +50,12 @@ System::System(const SystemDeclaration& declaration) : name_(declaration.name) {
   diagnostics.raise();
   check_connectors(declaration, diagnostics);
   add_connections(declaration, diagnostics);
+  check_inputs(declaration, diagnostics);
   add_start_values(declaration, diagnostics);
   if (diagnostics.any()) sum_up_misfits(declaration, diagnostics);
   diagnostics.raise();
-  add_outputs(declaration);
+  add_outputs(declaration, diagnostics);
+  diagnostics.raise();
 }
 
 std::string System::prefix(VariableId id) const {
@@ -100,7 +122,7 @@ void System::check_connectors(const SystemDeclaration& declaration, Diagnostics&
 void System::check_connector(const SystemDeclaration& declaration, std::size_t component,
                              const ConnectorDeclaration& connector) {
   const Context context{connector.where, components_[component].name, connector.name, {}};
-  const ConnectorElements elements = find_elements(context, declaration);
+  const ConnectorElements elements = find_elements(context, &declaration);
   check_dimensions(context, connector, elements);
   for (const ElementRange& element : elements.parts) check_element(context, connector, element);
 }
@@ -108,18 +130,40 @@ void System::check_connector(const SystemDeclaration& declaration, std::size_t c
 void System::check_dimensions(const Context& context, const ConnectorDeclaration& connector,
                               const ConnectorElements& elements) const {
   if (connector.dimensions.empty()) return;
-  bool is_same = connector.dimensions.size() == elements.dimensions.size();
-  std::vector<std::string> declared;
-  for (std::size_t i = 0; i < connector.dimensions.size(); ++i) {
-    const auto& [size, size_connector] = connector.dimensions[i];
-    declared.push_back(size ? std::to_string(*size) : fmt::format("'{}'", size_connector));
-    is_same = is_same && (!size || *size == elements.dimensions[i]);
+  const auto is_same = [](const DimensionDeclaration& declared, std::size_t size) {
+    return !declared.size || *declared.size == size;
+  };
+  if (std::ranges::equal(connector.dimensions, elements.dimensions, is_same)) return;
+  fail_input(
+      context,
+      fmt::format("the connector has the dimensions {}, the unit has {}",
+                  dimensions_text(connector.dimensions),
+                  elements.dimensions.empty() ? "a scalar" : dimensions_text(elements.dimensions)));
+}
+
+void System::check_inputs(const SystemDeclaration& declaration, Diagnostics& diagnostics) {
+  for (const InputDeclaration& wanted : declaration.inputs) {
+    if (diagnostics.mentions(wanted.component, wanted.variable)) continue;
+    diagnostics.attempt([&] {
+      const Context context{wanted.where, wanted.component, wanted.variable, {}};
+      check_way(wanted.via, find_elements(context, nullptr));
+    });
   }
-  if (is_same) return;
-  fail_input(context,
-             fmt::format(
-                 "the connector has the dimensions {}, the unit has {}", fmt::join(declared, " × "),
-                 elements.dimensions.empty() ? "a scalar" : dimensions_text(elements.dimensions)));
+}
+
+/// The sizes of connectors of systems; of arrays only the number of elements has to be the same.
+void System::check_way(const std::vector<ViaDeclaration>& via, const ConnectorElements& end) {
+  for (const ViaDeclaration& connector : via) {
+    const std::optional<std::vector<Dimension>> declared = known_sizes(connector.dimensions);
+    if (!declared || declared->empty() || element_count(*declared) == end.size()) continue;
+    if (!misfits_.insert(connector.connector.name).second) continue;
+    fail_input({connector.where, {}, {}, {}},
+               fmt::format("the connector '{}' of a system has the dimensions {}, and '{}', which "
+                           "it is connected to, is {}",
+                           connector.connector.name, dimensions_text(connector.dimensions),
+                           elements_name(end), shape_text(end)),
+               "correct the size of its <ssc:Dimension>, or the connection");
+  }
 }
 
 void System::check_element(const Context& context, const ConnectorDeclaration& connector,
@@ -177,14 +221,14 @@ std::size_t System::find_component(const std::string& name, const Location& wher
   fail_input({where}, fmt::format("there is no component '{}'", name), suggestion(name, names));
 }
 
-/// If it is not there, the error contains what the declaration expects.
+/// If it is not there, the error contains what the declaration, if there is one, expects.
 ConnectorElements System::find_elements(const Context& context,
-                                        const SystemDeclaration& expecting) {
+                                        const SystemDeclaration* expecting) {
   const std::size_t index = find_component(context.unit, context.where);
   const UnitDescription& description = *components_[index].description;
   check_unambiguous(context, description);
   if (auto found = core::find_elements(names_, index, description, context)) return *found;
-  fail_unknown(context, description, &expecting);
+  fail_unknown(context, description, expecting);
 }
 
 void System::fail_unknown(const Context& context, const UnitDescription& description,
@@ -209,6 +253,7 @@ PathConnector System::path_connector(const ElementRange& element) const {
 /// Element by element where one end consists of scalars.
 std::vector<Connection> System::connect(const ConnectionDeclaration& wanted, const Ends& ends) {
   check_ends(wanted, ends.first.parts.front(), ends.second.parts.front());
+  check_way(wanted.via, ends.first);
   check_shapes(wanted, ends);
   const std::size_t count = std::max(ends.first.parts.size(), ends.second.parts.size());
   const auto part = [&](const ConnectorElements& end, std::size_t i) -> ElementRange {
@@ -248,7 +293,7 @@ Conversion System::converted_on(const std::vector<PathConnector>& path,
   return conversion;
 }
 
-void System::add_outputs(const SystemDeclaration& declaration) {
+void System::add_outputs(const SystemDeclaration& declaration, Diagnostics& diagnostics) {
   std::set<std::string> names;
   for (std::size_t c = 0; !declaration.outputs.empty() && c < components_.size(); ++c) {
     const auto& variables = components_[c].description->variables;
@@ -256,14 +301,16 @@ void System::add_outputs(const SystemDeclaration& declaration) {
   }
   for (const OutputDeclaration& wanted : declaration.outputs) {
     // a variable of that name is recorded as it is
-    if (!names.contains(wanted.via.back().connector.name)) add_output(wanted, declaration);
+    if (names.contains(wanted.via.back().connector.name)) continue;
+    diagnostics.attempt([&] { add_output(wanted, declaration); });
   }
 }
 
 /// Scalars of an array become as many outputs.
 void System::add_output(const OutputDeclaration& wanted, const SystemDeclaration& declaration) {
   const ConnectorElements from =
-      find_elements({wanted.where, wanted.component, wanted.variable, {}}, declaration);
+      find_elements({wanted.where, wanted.component, wanted.variable, {}}, &declaration);
+  check_way(wanted.via, from);
   for (std::size_t i = 0; i < from.parts.size(); ++i) {
     const std::string& name = wanted.via.back().connector.name;
     add_output(wanted, from.parts[i],

@@ -122,7 +122,7 @@ class System {
   void add_components(const SystemDeclaration& declaration);
   void add_connections(const SystemDeclaration& declaration, Diagnostics& diagnostics);
   void sum_up_misfits(const SystemDeclaration& declaration, Diagnostics& diagnostics) const;
-  void add_outputs(const SystemDeclaration& declaration);
+  void add_outputs(const SystemDeclaration& declaration, Diagnostics& diagnostics);
   void add_output(const OutputDeclaration& output, const SystemDeclaration& declaration);
   void add_output(const OutputDeclaration& declaration, const ElementRange& from,
                   const std::string& name);
@@ -150,6 +150,8 @@ class System {
   [[noreturn]] void fail_unknown(const Context& context, const UnitDescription& description,
                                  const SystemDeclaration* expecting);
   void check_connectors(const SystemDeclaration& declaration, Diagnostics& diagnostics);
+  void check_inputs(const SystemDeclaration& declaration, Diagnostics& diagnostics);
+  void check_way(const std::vector<ViaDeclaration>& via, const ConnectorElements& end);
   void check_connector(const SystemDeclaration& declaration, std::size_t component,
                        const ConnectorDeclaration& connector);
   void check_dimensions(const Context& context, const ConnectorDeclaration& connector,
@@ -168,7 +170,7 @@ class System {
   void check_message(const ConnectionDeclaration& declaration, const Connection& connection) const;
   void note_missing_data(const ConnectionDeclaration& declaration, const Connection& clocks);
   using Ends = std::pair<ConnectorElements, ConnectorElements>;
-  ConnectorElements find_elements(const Context& context, const SystemDeclaration& expecting);
+  ConnectorElements find_elements(const Context& context, const SystemDeclaration* expecting);
   bool is_known(const std::string& component, const std::string& connector) const;
   std::optional<Ends> find_ends(const SystemDeclaration& declaration,
                                 const ConnectionDeclaration& wanted, Diagnostics& diagnostics);
@@ -208,6 +210,7 @@ class System {
   std::map<ElementRange, UnitOfMeasure> connector_units_;  ///< those that connectors declare
   std::set<VariableId> message_clocks_;  ///< time-based clocks that are connected to triggered ones
   std::size_t unknown_variables_ = 0;    ///< reported so far
+  std::set<std::string> misfits_;        ///< connectors of systems that were reported
 };
 
 }  // namespace stride::core

@@ -218,7 +218,7 @@ std::optional<System::Ends> System::find_ends(const SystemDeclaration& declarati
     std::optional<ConnectorElements> end;
     if (diagnostics.mentions(component, connector)) return end;
     diagnostics.attempt([&] {
-      end = find_elements({wanted.where, component, connector, {}}, declaration);
+      end = find_elements({wanted.where, component, connector, {}}, &declaration);
     });
     return end;
   };

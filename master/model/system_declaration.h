@@ -44,6 +44,8 @@ struct ComponentDeclaration {
 struct ViaDeclaration {
   PathConnector connector;
   PathSegment segment;
+  std::vector<DimensionDeclaration> dimensions{};  ///< none: not checked
+  Location where{};                                ///< of the connector
 };
 /// A connector is a variable, an element of an array ("m[1,2]"), or an array of which the unit has
 /// the elements as scalars: see find_elements().
@@ -54,6 +56,12 @@ struct ConnectionDeclaration {
   Location where{};
   Transformation transformation{};    ///< on the way from the last of `via`, as is the above
   std::vector<ViaDeclaration> via{};  ///< connectors of systems in between
+};
+/// What a connector of a system that no component feeds leads to.
+struct InputDeclaration {
+  std::string component, variable;
+  std::vector<ViaDeclaration> via;  ///< the first one is that connector
+  Location where{};                 ///< of the last connection
 };
 /// An output connector of the system.
 struct OutputDeclaration {
@@ -82,6 +90,7 @@ struct SystemDeclaration {
   std::vector<ConnectionDeclaration> connections;
   std::vector<StartDeclaration> start_values;  ///< a later one replaces an earlier one
   std::vector<OutputDeclaration> outputs{};
+  std::vector<InputDeclaration> inputs{};  ///< have no value of their own: they are checked only
 };
 
 }  // namespace stride::core

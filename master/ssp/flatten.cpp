@@ -42,6 +42,7 @@ class Flattener {
     unmatched_.finish();
     open_.finish();
     add_outputs();
+    add_inputs();
     return std::move(flat_);
   }
 
@@ -57,7 +58,10 @@ class Flattener {
   }
 
   ViaDeclaration via(std::size_t connection) const {
-    return {ports_[connections_[connection].to].path_connector, connections_[connection].segment};
+    return via(ports_[connections_[connection].to], connections_[connection].segment);
+  }
+  static ViaDeclaration via(const Port& port, const core::PathSegment& segment) {
+    return {port.path_connector, segment, port.dimensions, port.where};
   }
 
   void add_connection(const PortGraph::Way& way) {
@@ -90,6 +94,23 @@ class Flattener {
       output.where = connector.declared.where;
       for (const std::size_t connection : way) output.via.push_back(via(connection));
       flat_.declaration.outputs.push_back(std::move(output));
+    }
+  }
+
+  /// What no component feeds, such as the inputs of the root system.
+  void add_inputs() {
+    for (std::size_t i = 0; i < ports_.size(); ++i) {
+      if (ports_[i].is_component() || !ports_[i].incoming.empty()) continue;
+      graph_.follow(i, [&](const PortGraph::Way& way) {
+        const PortConnection& last = connections_[way.back()];
+        const Port& to = ports_[last.to];
+        core::InputDeclaration& input = flat_.declaration.inputs.emplace_back();
+        input.component = flat_.declaration.components[to.component].name;
+        input.variable = to.connector;
+        input.where = last.where;
+        input.via.push_back(via(ports_[i], {}));
+        for (std::size_t w = 0; w + 1 < way.size(); ++w) input.via.push_back(via(way[w]));
+      });
     }
   }
 

@@ -251,6 +251,16 @@ TEST_CASE("a start value of a system's connector reaches the element that it lea
   CHECK(workspace.signals().numbers("old.y[1]").back() == 9);
   const Outcome small = workspace.run(with({}));
   CHECK_THAT(input_error_of(small),
-             Contains("unit 'second', variable 'u[3]': 'u' "
+             Contains(workspace.at("startConnector=\"i\"") + "unit 'second', variable 'u[3]': 'u' "
                                                              "is an array of 2 elements"));
+}
+
+TEST_CASE("the dimensions of a system's connector are those of what it is connected to") {
+  const OneAmplifier workspace(float_connector("k", "<ssc:Dimension size=\"3\"/>"),
+                               from_root("k", "second", "u"));
+  CHECK(workspace.run(with({"second.n=3", "second.gain=1 1 1"})).exit_code == 0);
+  CHECK_THAT(input_error_of(workspace.run(with({}))),
+             Contains(workspace.at("<ssd:Connector name=\"k\"") +
+                      "the connector 'k' of a system has the dimensions 3, and 'second.u', which "
+                      "it is connected to, is an array of 2 elements"));
 }

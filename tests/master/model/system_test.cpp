@@ -759,3 +759,50 @@ TEST_CASE("a warning that a value of an element is replaced is for what is conne
   system.start_values = {start_of("s", "u", "1 2 3")};
   CHECK_THAT(System(system).warnings().at(0), Contains("'s.u' is connected to 'a.y[1]'"));
 }
+
+// ---- Connectors of systems ----
+
+TEST_CASE("connectors of systems have as many elements as what they are connected to") {
+  const auto via = [](std::vector<DimensionDeclaration> dimensions) {
+    return std::vector<ViaDeclaration>{{{"s.o", {}, {}, {}, false}, {}, dimensions, {"s.ssd", 7}}};
+  };
+  const auto of_connection = [&](const std::string& from, const std::string& to,
+                                 std::vector<DimensionDeclaration> dimensions) {
+    SystemDeclaration system = arrays_and_scalars({from_to(from, to), from_to("a.y", "b.u")});
+    system.connections[0].via = via(std::move(dimensions));
+    return reason(system);
+  };
+  CHECK(of_connection("a.y", "s.u", {{3, ""}}) == "accepted");
+  CHECK(of_connection("a.y", "s.u", {}) == "accepted");
+  CHECK(of_connection("a.y", "s.u", {{{}, "n"}}) == "accepted");
+  CHECK_THAT(of_connection("a.y", "s.u", {{2, ""}, {2, ""}}),
+             StartsWith("s.ssd:7: the connector 's.o' of a system has the dimensions 2 × 2, and "
+                        "'a.y', which it is connected to, is an array of 3 elements"));
+  CHECK_THAT(of_connection("a.y[1]", "s.u[1]", {{3, ""}}),
+             Contains("'a.y[1]'") && Contains("is a scalar"));
+  CHECK_THAT(of_connection("s.y", "a.u", {{2, ""}}),
+             Contains("'s.y', which it is connected to, is scalars of 3 elements"));
+
+  SystemDeclaration twice = arrays_and_scalars({from_to("a.y", "s.u"), from_to("a.y", "b.u")});
+  twice.connections[0].via = twice.connections[1].via = via({{2, ""}});
+  CHECK_THAT(reason(twice), StartsWith("s.ssd:7: the connector 's.o'"));
+
+  SystemDeclaration open = arrays_and_scalars({});
+  open.inputs = {{"a", "u", via({{4, ""}}), {"s.ssd", 9}}};
+  CHECK_THAT(reason(open), StartsWith("s.ssd:7: the connector 's.o'") && Contains("'a.u'"));
+  open.inputs = {};
+  open.outputs = {{"a", "y", via({{4, ""}}), {"s.ssd", 9}}};
+  CHECK_THAT(reason(open), StartsWith("s.ssd:7: the connector 's.o'") && Contains("'a.y'"));
+}
+
+TEST_CASE("an input of the system leads to what is there, and a wrong end is reported once") {
+  SystemDeclaration system = arrays_and_scalars({});
+  system.inputs = {{"a", "u[4]", {}, {"s.ssd", 9}}};
+  system.start_values = {start_of("a", "u[4]", "7", true)};
+  CHECK_THAT(reason(system),
+             StartsWith("s.ssd:9: unit 'a', variable 'u[4]': 'u' is an array of 3"));
+  system.inputs = {{"a", "w", {}, {"s.ssd", 9}}};
+  system.start_values = {start_of("a", "w", "7", true)};
+  CHECK_THAT(reason(system), StartsWith("s.ssd:9: unit 'a', variable 'w': its model 'arrays' has "
+                                        "no such variable\n"));
+}
