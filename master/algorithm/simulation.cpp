@@ -194,8 +194,14 @@ class Simulation::Run {
     }
   }
 
+  /// FMI sets an array as a whole. Before the initialisation, the unit has its own start values.
   void set(const StartValue& start) {
-    units_[start.id.component]->set({&system_.variable(start.id).reference, 1}, start.value);
+    Unit& unit = *units_[start.id.component];
+    const Variable& variable = system_.variable(start.id);
+    if (start.kept.empty()) return unit.set({&variable.reference, 1}, start.value);
+    ValueBlock own(variable.type, variable.size);
+    unit.get({&variable.reference, 1}, own);
+    unit.set({&variable.reference, 1}, start.over(own));
   }
 
   void start_observers() {

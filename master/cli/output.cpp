@@ -123,7 +123,7 @@ void set_up_output() {
   give_buffer();
   auto log = spdlog::stderr_color_mt("stride");
   auto formatter = std::make_unique<spdlog::pattern_formatter>();
-  formatter->add_flag<SafeText>('*').set_pattern("%^%l%$: %*");
+  formatter->add_flag<SafeText>('*').set_pattern("stride: %^%l%$: %*");
   log->set_formatter(std::move(formatter));
   log->set_level(spdlog::level::warn);
   spdlog::set_default_logger(log);

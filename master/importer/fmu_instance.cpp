@@ -182,10 +182,10 @@ void FmuInstance::note_fork() noexcept {
 
 /// What is in memory, as lines of results, is the first process's to write.
 void FmuInstance::leave_fork() const {
-  const std::string text = core::terminal_text(
-      fmt::format("warning: unit '{}': {} called fork() and returned in both processes; the new "
-                  "one ends here\n",
-                  name_, present_.function()));
+  const std::string text = core::terminal_text(fmt::format(
+      "stride: warning: unit '{}': {} called fork() and returned in both processes; the new "
+      "one ends here\n",
+      name_, present_.function()));
   (void)!::write(STDERR_FILENO, text.data(), text.size());
   ::_exit(0);
 }

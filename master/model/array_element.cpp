@@ -18,9 +18,9 @@ std::optional<std::size_t> parse_index(std::string_view text) {
   return index;
 }
 
-/// "an array of 2 × 3 elements", for an error.
+/// "'m' is an array of 2 × 3 elements", for an error.
 std::string array_text(const Variable& array) {
-  return fmt::format("'{}' is an array of {} elements", array.name, dimensions_text(sizes(array)));
+  return fmt::format("'{}' is an array of {}", array.name, elements_text(sizes(array)));
 }
 
 }  // namespace
@@ -42,6 +42,11 @@ std::string element_name(const Variable& variable, std::size_t element) {
 
 std::string dimensions_text(std::span<const std::size_t> dimensions) {
   return fmt::format("{}", fmt::join(dimensions, " × "));
+}
+
+std::string elements_text(std::span<const std::size_t> dimensions) {
+  const bool is_one = dimensions.size() == 1 && dimensions.front() == 1;
+  return dimensions_text(dimensions) + (is_one ? " element" : " elements");
 }
 
 std::vector<std::size_t> sizes(const Variable& variable) {
@@ -75,12 +80,14 @@ std::size_t element_at(const Variable& array, const IndexedName& name, const Con
     fail_input(context,
                fmt::format("{}, and {} names none of them", array_text(array), name.brackets),
                fmt::format("an element is named by a whole number for each dimension, such as "
-                           "'{}'; connect the whole array, or elements one by one",
+                           "'{}'; name the whole array, or elements one by one",
                            element_name(array, 0)));
   }
   if (name.indices.size() != count) {
-    fail_input(context, fmt::format("{}, so {} indices are expected, and {} has {}",
-                                    array_text(array), count, name.brackets, name.indices.size()));
+    fail_input(context,
+               fmt::format("{}, so {} expected, and {} has {}", array_text(array),
+                           count == 1 ? "1 index is" : fmt::format("{} indices are", count),
+                           name.brackets, name.indices.size()));
   }
   std::size_t element = 0;
   for (std::size_t i = 0; i < count; ++i) {

@@ -21,6 +21,8 @@ std::string element_name(const std::string& array, std::span<const std::size_t> 
 
 /// "2 × 3"
 std::string dimensions_text(std::span<const std::size_t> dimensions);
+/// "2 × 3 elements", "1 element"
+std::string elements_text(std::span<const std::size_t> dimensions);
 std::vector<std::size_t> sizes(const Variable& variable);
 
 /// A name that ends in square brackets: "m[1,2]".

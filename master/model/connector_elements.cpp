@@ -14,7 +14,7 @@ namespace {
 using Scalars = std::map<std::vector<std::size_t>, std::size_t>;
 
 [[noreturn]] void fail_parts(const Context& context, const std::string& reason,
-                             const std::string& hint = "connect them one by one") {
+                             const std::string& hint = "name them one by one") {
   fail_input(context,
              fmt::format("the unit has no array '{0}', but scalars '{0}[…]', and {1}",
                          context.variable, reason),
@@ -45,7 +45,7 @@ std::vector<std::size_t> dimensions_of(const Scalars& scalars, const Context& co
     for (std::size_t i = 0; i < indices.size(); ++i) {
       if (indices[i] == 0) {
         fail_parts(context, "some have the index 0",
-                   "indices of an array start at 1; connect them one by one");
+                   "indices of an array start at 1; name them one by one");
       }
       dimensions[i] = std::max(dimensions[i], indices[i]);
     }
@@ -69,7 +69,25 @@ void check_complete(const Scalars& scalars, std::span<const std::size_t> dimensi
                                   element_name(context.variable, dimensions, element)));
 }
 
+/// Of "x[2][1]", where `x` is the array.
+void check_indexed_once(const NameIndex& names, std::size_t component, const IndexedName& name,
+                        const Context& context) {
+  const std::optional<IndexedName> element = indexed_name(name.array);
+  if (!element || !names.variable(component, element->array)) return;
+  fail_input(context,
+             fmt::format("'{}' is an element of the array '{}' already, and it has no element {}",
+                         name.array, element->array, name.brackets),
+             "give the indices once; startIndices and endIndices of a connection mean the same as "
+             "indices behind its names");
+}
+
 }  // namespace
+
+std::string shape_text(const ConnectorElements& elements) {
+  if (elements.dimensions.empty()) return "a scalar";
+  return fmt::format("{} of {}", elements.are_scalars() ? "scalars" : "an array",
+                     elements_text(elements.dimensions));
+}
 
 std::optional<ConnectorElements> find_elements(const NameIndex& names, std::size_t component,
                                                const UnitDescription& description,
@@ -80,7 +98,10 @@ std::optional<ConnectorElements> find_elements(const NameIndex& names, std::size
   }
   if (const auto indexed = indexed_name(context.variable)) {
     const auto array = names.variable(component, indexed->array);
-    if (!array) return std::nullopt;
+    if (!array) {
+      check_indexed_once(names, component, *indexed, context);
+      return std::nullopt;
+    }
     const std::size_t first = element_at(description.variables[*array], *indexed, context);
     return ConnectorElements{{{{component, *array}, first, 1}}, {}};
   }

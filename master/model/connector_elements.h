@@ -22,6 +22,9 @@ struct ConnectorElements {
   bool are_scalars() const { return parts.size() > 1; }
 };
 
+/// "a scalar", "an array of 2 × 3 elements" or "scalars of 2 × 3 elements".
+std::string shape_text(const ConnectorElements& elements);
+
 /// The variable of that name or alias; or else, of "m[1,2]", that element of the array `m`; or else
 /// the scalars "m[1,1]" to "m[2,3]", which FMI 2.0 has in place of an array `m`. Nothing if the
 /// component has none of these. Throws Error (Input) if the array has no such element, or the

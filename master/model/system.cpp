@@ -1,23 +1,16 @@
 #include "master/model/system.h"
 
 #include <algorithm>
-#include <cmath>
-#include <cstdlib>
-#include <limits>
 #include <map>
 #include <set>
-#include <stdexcept>
-#include <type_traits>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "master/model/array_element.h"
-#include "master/model/meant_value.h"
 #include "master/model/number_range.h"
 #include "master/model/unknown_variable.h"
-#include "master/util/limited_warnings.h"
-#include "master/util/message_text.h"
+#include "master/model/way.h"
 #include "master/util/suggest.h"
 
 namespace stride::core {
@@ -27,85 +20,25 @@ namespace {
 /// for all warnings and for the mistakes that Diagnostics shows.
 constexpr std::size_t kMostHints = 120;
 
-/// Only what FMI calls initial = exact or approx can be set before the start; of FMI 1.0, which has
-/// no such word, what has a start value.
-void check_settable(const UnitDescription& unit, const Variable& variable, const Context& context) {
-  const bool exact = variable.initial == Initial::Exact || variable.initial == Initial::Approx;
-  if (exact && variable.variability != Variability::Constant && variable.type != ValueType::Clock) {
-    return;
+/// "2 × 'n'"
+std::string dimensions_text(const std::vector<DimensionDeclaration>& dimensions) {
+  std::vector<std::string> texts;
+  for (const auto& [size, connector] : dimensions) {
+    texts.push_back(size ? std::to_string(*size) : fmt::format("'{}'", connector));
   }
-  if (unit.fmi_version.starts_with("1.")) {
-    const bool is_constant = variable.variability == Variability::Constant;
-    fail_input(context,
-               is_constant ? "a constant cannot be set"
-                           : fmt::format("a {} {} without a start value cannot be set",
-                                         name(variable.variability), name(variable.causality)),
-               "parameters, inputs and, in FMI 1.0, what has a start value in the model "
-               "description can");
-  }
-  fail_input(context,
-             fmt::format("a {} {} with initial = {} cannot be set", name(variable.variability),
-                         name(variable.causality), name(variable.initial)),
-             "parameters, inputs and what the unit declares as initial = exact can");
+  return fmt::format("{}", fmt::join(texts, " × "));
 }
 
-/// What is expected in place of a number that is out of range.
-std::string bound_text(const Variable& variable, double number, double least, double most) {
-  if (number < least) return "at least " + variable.min;
-  return number > most ? "at most " + variable.max : "a number";
-}
-
-/// Whether the element lies within min and max, which are texts in the description.
-void check_range(const Variable& variable, const ValueBlock& value, const Context& context) {
-  visit(value, [&](auto elements) {
-    using T = typename decltype(elements)::value_type;
-    if constexpr (std::is_arithmetic_v<T> && !std::is_same_v<std::remove_const_t<T>, bool>) {
-      const auto bound = [&](const std::string& text, double otherwise) {
-        return text.empty() ? otherwise : std::strtod(text.c_str(), nullptr);
-      };
-      constexpr double kInfinity = std::numeric_limits<double>::infinity();
-      const double least = bound(variable.min, -kInfinity);
-      const double most = bound(variable.max, kInfinity);
-      for (const auto element : elements) {
-        const double number = static_cast<double>(element);
-        if (number >= least && number <= most) continue;
-        if (std::isnan(number) && variable.min.empty() && variable.max.empty()) continue;
-        fail_input(context, fmt::format("the value {} is out of range, expected {}", element,
-                                        bound_text(variable, number, least, most)));
-      }
-    }
-  });
-}
-
-void convert_start(ValueBlock& value, const LinearConversion& conversion) {
-  if (conversion.is_identity()) return;  // which keeps the sign of -0
-  visit(value, [&](auto elements) {
-    using T = typename decltype(elements)::value_type;
-    if constexpr (std::is_floating_point_v<T>) {
-      for (T& element : elements) {
-        element = static_cast<T>(conversion.factor * element + conversion.offset);
-      }
-    }
-  });
-}
-
-/// What a value comes through, from its beginning on.
-struct Way {
-  std::vector<PathConnector> path;
-  std::vector<PathSegment> segments{};
-
-  explicit Way(PathConnector first) : path{std::move(first)} {}
-
-  template <class Declaration>
-  void go(const Declaration& wanted, PathConnector last) {
-    for (const ViaDeclaration& via : wanted.via) go(via.connector, via.segment);
-    go(std::move(last), PathSegment{wanted.suppress_unit_conversion, wanted.transformation});
+/// Nothing if a connector gives one of them.
+std::optional<std::vector<Dimension>> known_sizes(
+    const std::vector<DimensionDeclaration>& dimensions) {
+  std::vector<Dimension> sizes;
+  for (const DimensionDeclaration& dimension : dimensions) {
+    if (!dimension.size) return std::nullopt;
+    sizes.emplace_back(*dimension.size);
   }
-  void go(PathConnector next, PathSegment segment) {
-    path.push_back(std::move(next));
-    segments.push_back(std::move(segment));
-  }
-};
+  return sizes;
+}
 
 }  // namespace
 
@@ -113,14 +46,16 @@ struct Way {
 System::System(const SystemDeclaration& declaration) : name_(declaration.name) {
   Diagnostics diagnostics;
   add_components(declaration);
-  const std::vector<Target> targets = find_targets(declaration, diagnostics);
-  if (!diagnostics.attempt([&] { add_structural_values(targets); })) diagnostics.raise();
+  add_structural_values(declaration, diagnostics);
+  diagnostics.raise();
   check_connectors(declaration, diagnostics);
   add_connections(declaration, diagnostics);
-  add_start_values(targets, diagnostics);
+  check_inputs(declaration, diagnostics);
+  add_start_values(declaration, diagnostics);
   if (diagnostics.any()) sum_up_misfits(declaration, diagnostics);
   diagnostics.raise();
-  add_outputs(declaration);
+  add_outputs(declaration, diagnostics);
+  diagnostics.raise();
 }
 
 std::string System::prefix(VariableId id) const {
@@ -130,6 +65,13 @@ std::string System::prefix(VariableId id) const {
 std::string System::range_name(const ElementRange& range) const {
   if (is_whole(range)) return full_name(range.id);
   return prefix(range.id) + element_name(variable(range.id), range.first);
+}
+
+std::string System::elements_name(const ConnectorElements& elements) const {
+  const ElementRange& first = elements.parts.front();
+  if (!elements.are_scalars()) return range_name(first);
+  const std::string scalar = full_name(first.id);
+  return scalar.substr(0, scalar.rfind('['));
 }
 
 bool System::is_sampled(VariableId id) const {
@@ -180,7 +122,7 @@ void System::check_connectors(const SystemDeclaration& declaration, Diagnostics&
 void System::check_connector(const SystemDeclaration& declaration, std::size_t component,
                              const ConnectorDeclaration& connector) {
   const Context context{connector.where, components_[component].name, connector.name, {}};
-  const ConnectorElements elements = find_elements(context, declaration);
+  const ConnectorElements elements = find_elements(context, &declaration);
   check_dimensions(context, connector, elements);
   for (const ElementRange& element : elements.parts) check_element(context, connector, element);
 }
@@ -188,18 +130,40 @@ void System::check_connector(const SystemDeclaration& declaration, std::size_t c
 void System::check_dimensions(const Context& context, const ConnectorDeclaration& connector,
                               const ConnectorElements& elements) const {
   if (connector.dimensions.empty()) return;
-  bool is_same = connector.dimensions.size() == elements.dimensions.size();
-  std::vector<std::string> declared;
-  for (std::size_t i = 0; i < connector.dimensions.size(); ++i) {
-    const auto& [size, size_connector] = connector.dimensions[i];
-    declared.push_back(size ? std::to_string(*size) : fmt::format("'{}'", size_connector));
-    is_same = is_same && (!size || *size == elements.dimensions[i]);
+  const auto is_same = [](const DimensionDeclaration& declared, std::size_t size) {
+    return !declared.size || *declared.size == size;
+  };
+  if (std::ranges::equal(connector.dimensions, elements.dimensions, is_same)) return;
+  fail_input(
+      context,
+      fmt::format("the connector has the dimensions {}, the unit has {}",
+                  dimensions_text(connector.dimensions),
+                  elements.dimensions.empty() ? "a scalar" : dimensions_text(elements.dimensions)));
+}
+
+void System::check_inputs(const SystemDeclaration& declaration, Diagnostics& diagnostics) {
+  for (const InputDeclaration& wanted : declaration.inputs) {
+    if (diagnostics.mentions(wanted.component, wanted.variable)) continue;
+    diagnostics.attempt([&] {
+      const Context context{wanted.where, wanted.component, wanted.variable, {}};
+      check_way(wanted.via, find_elements(context, nullptr));
+    });
   }
-  if (is_same) return;
-  fail_input(context,
-             fmt::format(
-                 "the connector has the dimensions {}, the unit has {}", fmt::join(declared, " × "),
-                 elements.dimensions.empty() ? "a scalar" : dimensions_text(elements.dimensions)));
+}
+
+/// The sizes of connectors of systems; of arrays only the number of elements has to be the same.
+void System::check_way(const std::vector<ViaDeclaration>& via, const ConnectorElements& end) {
+  for (const ViaDeclaration& connector : via) {
+    const std::optional<std::vector<Dimension>> declared = known_sizes(connector.dimensions);
+    if (!declared || declared->empty() || element_count(*declared) == end.size()) continue;
+    if (!misfits_.insert(connector.connector.name).second) continue;
+    fail_input({connector.where, {}, {}, {}},
+               fmt::format("the connector '{}' of a system has the dimensions {}, and '{}', which "
+                           "it is connected to, is {}",
+                           connector.connector.name, dimensions_text(connector.dimensions),
+                           elements_name(end), shape_text(end)),
+               "correct the size of its <ssc:Dimension>, or the connection");
+  }
 }
 
 void System::check_element(const Context& context, const ConnectorDeclaration& connector,
@@ -257,14 +221,14 @@ std::size_t System::find_component(const std::string& name, const Location& wher
   fail_input({where}, fmt::format("there is no component '{}'", name), suggestion(name, names));
 }
 
-/// If it is not there, the error contains what the declaration expects.
+/// If it is not there, the error contains what the declaration, if there is one, expects.
 ConnectorElements System::find_elements(const Context& context,
-                                        const SystemDeclaration& expecting) {
+                                        const SystemDeclaration* expecting) {
   const std::size_t index = find_component(context.unit, context.where);
   const UnitDescription& description = *components_[index].description;
   check_unambiguous(context, description);
   if (auto found = core::find_elements(names_, index, description, context)) return *found;
-  fail_unknown(context, description, &expecting);
+  fail_unknown(context, description, expecting);
 }
 
 void System::fail_unknown(const Context& context, const UnitDescription& description,
@@ -289,6 +253,7 @@ PathConnector System::path_connector(const ElementRange& element) const {
 /// Element by element where one end consists of scalars.
 std::vector<Connection> System::connect(const ConnectionDeclaration& wanted, const Ends& ends) {
   check_ends(wanted, ends.first.parts.front(), ends.second.parts.front());
+  check_way(wanted.via, ends.first);
   check_shapes(wanted, ends);
   const std::size_t count = std::max(ends.first.parts.size(), ends.second.parts.size());
   const auto part = [&](const ConnectorElements& end, std::size_t i) -> ElementRange {
@@ -328,128 +293,7 @@ Conversion System::converted_on(const std::vector<PathConnector>& path,
   return conversion;
 }
 
-/// Nothing, and a warning, where a parameter set holds a value for no component, as SSP allows.
-void System::note_missing(const StartDeclaration& wanted) {
-  try {
-    const std::size_t component = find_component(wanted.component, wanted.where);
-    fail_unknown({wanted.where, wanted.component, wanted.variable, {}},
-                 *components_[component].description, nullptr);
-  } catch (const Error& mistake) {
-    if (!wanted.is_optional) throw;
-    warnings_.push_back(fmt::format("{}\n  the value is ignored, as SSP requires", mistake.what()));
-  }
-}
-
-/// Of those that are there; of the others, what must not be ignored is an error.
-std::vector<System::Target> System::find_targets(const SystemDeclaration& declaration,
-                                                 Diagnostics& diagnostics) {
-  std::vector<Target> targets;
-  std::vector<const StartDeclaration*> missing;
-  std::set<std::size_t> found_groups;
-  for (const StartDeclaration& wanted : declaration.start_values) {
-    const std::size_t component = find_component(wanted.component, wanted.where);
-    const auto place = names_.variable(component, wanted.variable);
-    if (!place) {
-      missing.push_back(&wanted);
-      continue;
-    }
-    const VariableId id{component, *place};
-    found_groups.insert(wanted.group);
-    diagnostics.attempt([&] {
-      const UnitDescription& description = *components_[component].description;
-      const Context context{wanted.where, wanted.component, wanted.variable, {}};
-      check_unambiguous(context, description);
-      check_settable(description, variable(id), context);
-      targets.push_back({&wanted, id});
-    });
-  }
-  LimitedWarnings ignored(warnings_,
-                          "values of variables that are not there, which are ignored, too");
-  for (const StartDeclaration* wanted : missing) {
-    if (wanted->group != 0 && found_groups.contains(wanted->group)) continue;
-    if (wanted->is_optional && !ignored.count()) continue;
-    diagnostics.attempt([&] { note_missing(*wanted); });
-  }
-  ignored.finish();
-  return targets;
-}
-
-ValueBlock System::start_value(const StartDeclaration& wanted, VariableId id) {
-  const Variable& target = variable(id);
-  const UnitDescription& description = *components_[id.component].description;
-  const Context context{wanted.where, wanted.component, wanted.variable, {}};
-  const UnitOfMeasure unit = known_unit(wanted.unit, description);
-  if (wanted.via.empty() && !wanted.suppress_unit_conversion &&
-      !convert(unit, path_connector(whole(id)).unit)) {
-    fail_input(context,
-               fmt::format("the value is in '{}', the variable in '{}'", unit.name,
-                           path_connector(whole(id)).unit.name),
-               "give the value in the variable's unit");
-  }
-  Way way({"the value", {}, unit, {}, true});
-  way.go(wanted, path_connector(whole(id)));
-  const auto [text, linear] = compose_text(wanted.value, way.path, way.segments, context);
-  const std::optional<std::string> meant = meant_value(target.type, text);
-  if (meant) {
-    warnings_.push_back(to_text(context) +
-                        fmt::format("'{}' is taken for {}", name_text(text), *meant));
-  }
-  try {
-    ValueBlock value = parse(target, meant.value_or(text));
-    convert_start(value, linear);
-    check_range(target, value, context);
-    return value;
-  } catch (const std::invalid_argument& mistake) {
-    fail_input(context, mistake.what());
-  }
-}
-
-void System::resize(const StartDeclaration& declaration, VariableId structural_parameter,
-                    std::size_t size) {
-  auto& shared = components_[structural_parameter.component].description;
-  UnitDescription description = *shared;
-  if (const Variable* large = description.resize(variable(structural_parameter).reference, size)) {
-    fail_input({declaration.where, declaration.component, declaration.variable, {}},
-               fmt::format("with the value {}, '{}' would have more than {} elements", size,
-                           large->name, kMaxElements),
-               "give a smaller value");
-  }
-  shared = std::make_shared<const UnitDescription>(std::move(description));
-}
-
-void System::add_structural_values(const std::vector<Target>& targets) {
-  std::map<VariableId, ValueBlock> values;
-  for (const auto& [wanted, id] : targets) {
-    if (variable(id).causality != Causality::StructuralParameter) continue;
-    ValueBlock value = start_value(*wanted, id);
-    if (value.type() == ValueType::UInt64) resize(*wanted, id, value.numbers<std::uint64_t>()[0]);
-    values.insert_or_assign(id, std::move(value));
-  }
-  for (auto& [id, value] : values) structural_values_.push_back({id, std::move(value)});
-}
-
-/// A value that was set by name, and nothing of which is what the unit gets.
-void System::note_replaced(const StartDeclaration& wanted, VariableId id) {
-  if (wanted.is_optional) return;
-  const std::span<const Connection> sources = connections_to(id);
-  if (sources.empty() || !unconnected_elements(id).empty()) return;
-  warnings_.push_back(fmt::format(
-      "{}'{}' is connected to '{}', whose value replaces this one at the initialisation",
-      core::to_text(Context{wanted.where}), full_name(id), range_name(sources.front().source())));
-}
-
-void System::add_start_values(const std::vector<Target>& targets, Diagnostics& diagnostics) {
-  std::map<VariableId, ValueBlock> values;
-  for (const Target& target : targets) {
-    const VariableId id = target.id;
-    if (variable(id).causality == Causality::StructuralParameter) continue;
-    diagnostics.attempt([&] { values.insert_or_assign(id, start_value(*target.declaration, id)); });
-    note_replaced(*target.declaration, id);
-  }
-  for (auto& [id, value] : values) start_values_.push_back({id, std::move(value)});
-}
-
-void System::add_outputs(const SystemDeclaration& declaration) {
+void System::add_outputs(const SystemDeclaration& declaration, Diagnostics& diagnostics) {
   std::set<std::string> names;
   for (std::size_t c = 0; !declaration.outputs.empty() && c < components_.size(); ++c) {
     const auto& variables = components_[c].description->variables;
@@ -457,14 +301,16 @@ void System::add_outputs(const SystemDeclaration& declaration) {
   }
   for (const OutputDeclaration& wanted : declaration.outputs) {
     // a variable of that name is recorded as it is
-    if (!names.contains(wanted.via.back().connector.name)) add_output(wanted, declaration);
+    if (names.contains(wanted.via.back().connector.name)) continue;
+    diagnostics.attempt([&] { add_output(wanted, declaration); });
   }
 }
 
 /// Scalars of an array become as many outputs.
 void System::add_output(const OutputDeclaration& wanted, const SystemDeclaration& declaration) {
   const ConnectorElements from =
-      find_elements({wanted.where, wanted.component, wanted.variable, {}}, declaration);
+      find_elements({wanted.where, wanted.component, wanted.variable, {}}, &declaration);
+  check_way(wanted.via, from);
   for (std::size_t i = 0; i < from.parts.size(); ++i) {
     const std::string& name = wanted.via.back().connector.name;
     add_output(wanted, from.parts[i],

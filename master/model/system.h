@@ -56,7 +56,12 @@ struct SystemOutput {
 };
 struct StartValue {
   VariableId id;
-  ValueBlock value;
+  ValueBlock value;  ///< of all elements
+  /// Elements that no value was given for, ascending: they keep the unit's own.
+  std::vector<std::size_t> kept{};
+
+  /// The value with the elements that are kept, of those that the unit has.
+  ValueBlock over(const ValueBlock& own) const;
 };
 
 /// An immutable, valid system. Components are in the order of the file, connections are sorted by
@@ -107,6 +112,8 @@ class System {
   std::string full_name(VariableId id) const { return prefix(id) + variable(id).name; }
   /// Likewise, with its indices if it is an element of an array: "component.variable[2]".
   std::string range_name(const ElementRange& range) const;
+  /// Likewise; of scalars that stand for an array "component.array".
+  std::string elements_name(const ConnectorElements& elements) const;
   bool is_whole(const ElementRange& range) const { return range.size == variable(range.id).size; }
   /// "component.", or empty for an output of the system.
   std::string prefix(VariableId id) const;
@@ -115,24 +122,36 @@ class System {
   void add_components(const SystemDeclaration& declaration);
   void add_connections(const SystemDeclaration& declaration, Diagnostics& diagnostics);
   void sum_up_misfits(const SystemDeclaration& declaration, Diagnostics& diagnostics) const;
-  void add_outputs(const SystemDeclaration& declaration);
+  void add_outputs(const SystemDeclaration& declaration, Diagnostics& diagnostics);
   void add_output(const OutputDeclaration& output, const SystemDeclaration& declaration);
   void add_output(const OutputDeclaration& declaration, const ElementRange& from,
                   const std::string& name);
   /// A start value and what it is for.
   struct Target {
     const StartDeclaration* declaration;
-    VariableId id;
+    ConnectorElements elements;
   };
+  /// What a variable has of start values so far.
+  struct GivenElements {
+    ValueBlock value;
+    std::vector<bool> is_given;
+  };
+  using GivenValues = std::map<VariableId, GivenElements>;
+  bool is_structural(const StartDeclaration& declaration) const;
+  std::optional<Target> find_target(const StartDeclaration& declaration) const;
   std::vector<Target> find_targets(const SystemDeclaration& declaration, Diagnostics& diagnostics);
-  void add_structural_values(const std::vector<Target>& targets);
-  void add_start_values(const std::vector<Target>& targets, Diagnostics& diagnostics);
+  void add_structural_values(const SystemDeclaration& declaration, Diagnostics& diagnostics);
+  void add_start_values(const SystemDeclaration& declaration, Diagnostics& diagnostics);
+  void give(const Target& target, GivenValues& values);
+  static std::vector<StartValue> listed(GivenValues values);
   void resize(const StartDeclaration& declaration, VariableId structural_parameter,
               std::size_t size);
   std::size_t find_component(const std::string& name, const Location& where) const;
   [[noreturn]] void fail_unknown(const Context& context, const UnitDescription& description,
                                  const SystemDeclaration* expecting);
   void check_connectors(const SystemDeclaration& declaration, Diagnostics& diagnostics);
+  void check_inputs(const SystemDeclaration& declaration, Diagnostics& diagnostics);
+  void check_way(const std::vector<ViaDeclaration>& via, const ConnectorElements& end);
   void check_connector(const SystemDeclaration& declaration, std::size_t component,
                        const ConnectorDeclaration& connector);
   void check_dimensions(const Context& context, const ConnectorDeclaration& connector,
@@ -151,7 +170,7 @@ class System {
   void check_message(const ConnectionDeclaration& declaration, const Connection& connection) const;
   void note_missing_data(const ConnectionDeclaration& declaration, const Connection& clocks);
   using Ends = std::pair<ConnectorElements, ConnectorElements>;
-  ConnectorElements find_elements(const Context& context, const SystemDeclaration& expecting);
+  ConnectorElements find_elements(const Context& context, const SystemDeclaration* expecting);
   bool is_known(const std::string& component, const std::string& connector) const;
   std::optional<Ends> find_ends(const SystemDeclaration& declaration,
                                 const ConnectionDeclaration& wanted, Diagnostics& diagnostics);
@@ -176,8 +195,9 @@ class System {
   PathConnector path_connector(const ElementRange& element) const;
   ElementRange whole(VariableId id) const { return {id, 0, variable(id).size}; }
   void note_missing(const StartDeclaration& declaration);
-  void note_replaced(const StartDeclaration& declaration, VariableId id);
-  ValueBlock start_value(const StartDeclaration& declaration, VariableId id);
+  void note_replaced(const Target& target);
+  ValueBlock start_value(const StartDeclaration& declaration, const ElementRange& part,
+                         const std::string& text);
 
   std::string name_;
   std::vector<Component> components_;
@@ -190,6 +210,7 @@ class System {
   std::map<ElementRange, UnitOfMeasure> connector_units_;  ///< those that connectors declare
   std::set<VariableId> message_clocks_;  ///< time-based clocks that are connected to triggered ones
   std::size_t unknown_variables_ = 0;    ///< reported so far
+  std::set<std::string> misfits_;        ///< connectors of systems that were reported
 };
 
 }  // namespace stride::core

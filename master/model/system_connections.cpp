@@ -41,16 +41,6 @@ const char* direction_hint(const Variable& source, const Variable& target) {
   return "a connection starts at an output and ends at an input";
 }
 
-std::string shape(const ConnectorElements& elements) {
-  if (elements.dimensions.empty()) return "a scalar";
-  return fmt::format("{} of {} elements", elements.are_scalars() ? "scalars" : "an array",
-                     dimensions_text(elements.dimensions));
-}
-
-bool overlap(const ElementRange& a, const ElementRange& b) {
-  return a == b || (a.id == b.id && a.first < b.first + b.size && b.first < a.first + a.size);
-}
-
 /// The variable that carries a value through a connection between clocked variables also needs its
 /// clock connected.
 std::vector<VariableId> clocks_of(const System& system, VariableId id) {
@@ -94,9 +84,9 @@ void System::add_connection(const ConnectionDeclaration& wanted, const Connectio
   const ElementRange target = connection.target();
   const auto behind = declared.lower_bound(target);
   auto same = declared.end();
-  if (behind != declared.end() && overlap(behind->first, target)) {
+  if (behind != declared.end() && behind->first.overlaps(target)) {
     same = behind;
-  } else if (behind != declared.begin() && overlap(std::prev(behind)->first, target)) {
+  } else if (behind != declared.begin() && std::prev(behind)->first.overlaps(target)) {
     same = std::prev(behind);
   }
   if (same != declared.end()) {
@@ -228,7 +218,7 @@ std::optional<System::Ends> System::find_ends(const SystemDeclaration& declarati
     std::optional<ConnectorElements> end;
     if (diagnostics.mentions(component, connector)) return end;
     diagnostics.attempt([&] {
-      end = find_elements({wanted.where, component, connector, {}}, declaration);
+      end = find_elements({wanted.where, component, connector, {}}, &declaration);
     });
     return end;
   };
@@ -399,15 +389,9 @@ void System::check_shapes(const ConnectionDeclaration& wanted, const Ends& ends)
   const auto& [from, to] = ends;
   const bool has_scalars = from.are_scalars() || to.are_scalars();
   if (has_scalars ? from.dimensions == to.dimensions : from.size() == to.size()) return;
-  const auto name_of = [&](const ConnectorElements& end) {
-    const VariableId id = end.parts.front().id;
-    if (!end.are_scalars()) return range_name(end.parts.front());
-    const std::string scalar = full_name(id);
-    return scalar.substr(0, scalar.rfind('['));
-  };
   fail_input({wanted.where, {}, {}, {}},
-             fmt::format("cannot connect '{}' to '{}': {} and {}", name_of(from), name_of(to),
-                         shape(from), shape(to)),
+             fmt::format("cannot connect '{}' to '{}': {} and {}", elements_name(from),
+                         elements_name(to), shape_text(from), shape_text(to)),
              from.dimensions.empty() != to.dimensions.empty()
                  ? "an element of an array is named by its indices, such as 'x[1]'"
                  : "");

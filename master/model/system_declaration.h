@@ -44,6 +44,8 @@ struct ComponentDeclaration {
 struct ViaDeclaration {
   PathConnector connector;
   PathSegment segment;
+  std::vector<DimensionDeclaration> dimensions{};  ///< none: not checked
+  Location where{};                                ///< of the connector
 };
 /// A connector is a variable, an element of an array ("m[1,2]"), or an array of which the unit has
 /// the elements as scalars: see find_elements().
@@ -55,12 +57,19 @@ struct ConnectionDeclaration {
   Transformation transformation{};    ///< on the way from the last of `via`, as is the above
   std::vector<ViaDeclaration> via{};  ///< connectors of systems in between
 };
+/// What a connector of a system that no component feeds leads to.
+struct InputDeclaration {
+  std::string component, variable;
+  std::vector<ViaDeclaration> via;  ///< the first one is that connector
+  Location where{};                 ///< of the last connection
+};
 /// An output connector of the system.
 struct OutputDeclaration {
   std::string component, variable;
   std::vector<ViaDeclaration> via;  ///< the last one is the system's connector itself, by its name
   Location where{};
 };
+/// A start value of what a connector may be: see ConnectionDeclaration.
 struct StartDeclaration {
   std::string component, variable;
   std::string value;
@@ -81,6 +90,7 @@ struct SystemDeclaration {
   std::vector<ConnectionDeclaration> connections;
   std::vector<StartDeclaration> start_values;  ///< a later one replaces an earlier one
   std::vector<OutputDeclaration> outputs{};
+  std::vector<InputDeclaration> inputs{};  ///< have no value of their own: they are checked only
 };
 
 }  // namespace stride::core

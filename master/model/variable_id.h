@@ -20,6 +20,12 @@ struct ElementRange {
   std::size_t first = 0;
   std::size_t size = 1;
   auto operator<=>(const ElementRange&) const = default;
+
+  /// Whether they have an element in common, or are the same.
+  bool overlaps(const ElementRange& other) const {
+    return *this == other ||
+           (id == other.id && first < other.first + other.size && other.first < first + size);
+  }
 };
 
 }  // namespace stride::core

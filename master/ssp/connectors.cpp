@@ -58,21 +58,11 @@ std::optional<ValueType> type_of(const xml::Element& type, const std::string& ss
             core::suggestion(std::string(name), known));
 }
 
-core::DimensionDeclaration read_dimension(const xml::Element& element) {
-  element.allow_attributes({"size", "sizeConnector"});
-  if (element.attribute("size").has_value() == element.attribute("sizeConnector").has_value()) {
-    element.fail(
-        fmt::format("{} needs one of the attributes 'size' and 'sizeConnector'", element.tag()));
-  }
-  return {element.number<std::size_t>("size"), element.attribute_or("sizeConnector")};
-}
-
 void read_child(const xml::Element& child, const SspFile& file,
                 core::ConnectorDeclaration& connector, bool& has_type) {
   const xml::Name name = child.name();
   if (name == xml::Name{kSsc, "Dimension"}) {
-    connector.dimensions.push_back(read_dimension(child));
-    return;
+    return read_dimension(child, connector);
   }
   // a unit's own clocks hold; geometry and annotations change nothing
   if (name == xml::Name{kSsd, "Clock"} || name == xml::Name{kSsd, "ConnectorGeometry"} ||
@@ -108,6 +98,16 @@ Connector read_connector(const xml::Element& element, const SspFile& file,
 }
 
 }  // namespace
+
+void read_dimension(const xml::Element& dimension, core::ConnectorDeclaration& connector) {
+  dimension.allow_attributes({"size", "sizeConnector"});
+  if (dimension.attribute("size").has_value() == dimension.attribute("sizeConnector").has_value()) {
+    dimension.fail(
+        fmt::format("{} needs one of the attributes 'size' and 'sizeConnector'", dimension.tag()));
+  }
+  connector.dimensions.push_back(
+      {dimension.number<std::size_t>("size"), dimension.attribute_or("sizeConnector")});
+}
 
 bool read_type(const xml::Element& child, const SspFile& file,
                core::ConnectorDeclaration& connector) {

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "master/model/array_element.h"
 #include "master/ssp/port_graph.h"
 #include "master/util/limited_warnings.h"
 #include "master/util/suggest.h"
@@ -41,6 +42,7 @@ class Flattener {
     unmatched_.finish();
     open_.finish();
     add_outputs();
+    add_inputs();
     return std::move(flat_);
   }
 
@@ -56,7 +58,10 @@ class Flattener {
   }
 
   ViaDeclaration via(std::size_t connection) const {
-    return {ports_[connections_[connection].to].path_connector, connections_[connection].segment};
+    return via(ports_[connections_[connection].to], connections_[connection].segment);
+  }
+  static ViaDeclaration via(const Port& port, const core::PathSegment& segment) {
+    return {port.path_connector, segment, port.dimensions, port.where};
   }
 
   void add_connection(const PortGraph::Way& way) {
@@ -92,6 +97,23 @@ class Flattener {
     }
   }
 
+  /// What no component feeds, such as the inputs of the root system.
+  void add_inputs() {
+    for (std::size_t i = 0; i < ports_.size(); ++i) {
+      if (ports_[i].is_component() || !ports_[i].incoming.empty()) continue;
+      graph_.follow(i, [&](const PortGraph::Way& way) {
+        const PortConnection& last = connections_[way.back()];
+        const Port& to = ports_[last.to];
+        core::InputDeclaration& input = flat_.declaration.inputs.emplace_back();
+        input.component = flat_.declaration.components[to.component].name;
+        input.variable = to.connector;
+        input.where = last.where;
+        input.via.push_back(via(ports_[i], {}));
+        for (std::size_t w = 0; w + 1 < way.size(); ++w) input.via.push_back(via(way[w]));
+      });
+    }
+  }
+
   // ---- Parameters ----
 
   /// What is inside goes first, since what is bound to the outside replaces it.
@@ -117,8 +139,12 @@ class Flattener {
   bool apply(const ParameterValue& value, const SystemNode& node, const std::string& name) {
     bool is_found = false;
     const auto& ports = graph_.connectors(node);
+    const auto indexed = core::indexed_name(name);
     if (const auto port = ports.find(name); port != ports.end()) {
       apply(value, port->second);
+      is_found = true;
+    } else if (const auto array = indexed ? ports.find(indexed->array) : port; array != port) {
+      apply(value, array->second, indexed->brackets);
       is_found = true;
     }
     const auto& elements = graph_.elements(node);
@@ -164,14 +190,14 @@ class Flattener {
   }
 
   /// To whatever a connector of a system leads: an input to all that it feeds, an output to what
-  /// feeds it.
-  void apply(const ParameterValue& value, std::size_t port) {
-    if (ports_[port].flow == Flow::Out) return apply_backward(value, port);
+  /// feeds it. `indices`: those behind its name.
+  void apply(const ParameterValue& value, std::size_t port, const std::string& indices = "") {
+    if (ports_[port].flow == Flow::Out) return apply_backward(value, port, indices);
     const std::size_t before = flat_.declaration.start_values.size();
     graph_.follow(port, [&](const PortGraph::Way& found) {
       const PortConnection& last = connections_[found.back()];
       const Port& to = ports_[last.to];
-      core::StartDeclaration start = this->start(value, to.component, to.connector);
+      core::StartDeclaration start = this->start(value, to.component, to.connector + indices);
       start.via.push_back({ports_[port].path_connector, value.segment});
       for (std::size_t i = 0; i + 1 < found.size(); ++i) start.via.push_back(via(found[i]));
       start.suppress_unit_conversion = last.segment.suppress_unit_conversion;
@@ -181,7 +207,7 @@ class Flattener {
     if (flat_.declaration.start_values.size() == before) warn_of_open(value, port);
   }
 
-  void apply_backward(const ParameterValue& value, std::size_t port) {
+  void apply_backward(const ParameterValue& value, std::size_t port, const std::string& indices) {
     std::vector<ViaDeclaration> via{{ports_[port].path_connector, value.segment}};
     const PortGraph::Way way = graph_.way_to(port);
     for (auto connection = way.rbegin(); connection != way.rend(); ++connection) {
@@ -199,7 +225,7 @@ class Flattener {
     }
     if (!ports_[port].is_component()) return warn_of_open(value, port);
     core::StartDeclaration start =
-        this->start(value, ports_[port].component, ports_[port].connector);
+        this->start(value, ports_[port].component, ports_[port].connector + indices);
     start.suppress_unit_conversion = via.back().segment.suppress_unit_conversion;
     start.transformation = via.back().segment.transformation;
     via.pop_back();

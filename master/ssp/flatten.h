@@ -19,8 +19,9 @@ struct FlatSystem {
 /// A component is named by its path from the root system, which is left out itself:
 /// "arm.motor.controller". Connections lead from component to component, by way of the connectors
 /// of systems and the signals of dictionaries in between. Values bound to a system come after
-/// those bound to what is in it, so they replace them, and one for a connector of a system goes to
-/// all that it leads to. What leads nowhere is listed in `warnings`. Throws core::Error (Input).
+/// those bound to what is in it, so they replace them, and one for a connector of a system, or for
+/// an element of one ("u[2]"), goes to all that it leads to. What leads nowhere is listed in
+/// `warnings`. Throws core::Error (Input).
 FlatSystem flatten(const SystemNode& root, std::vector<std::string>& warnings);
 
 }  // namespace stride::ssp

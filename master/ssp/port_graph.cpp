@@ -52,6 +52,8 @@ void PortGraph::add_system(const SystemNode& node, const std::string& prefix,
     Port port{joined(prefix, declared.name), connector.flow, Port::kNone, declared.name, {}};
     port.path_connector = {port.path, declared.type, declared.unit, declared.items,
                            connector.flow == Flow::In};
+    port.dimensions = declared.dimensions;
+    port.where = declared.where;
     system.ports.emplace(declared.name, ports_.size());
     ports_.push_back(std::move(port));
   }
@@ -183,6 +185,8 @@ std::size_t PortGraph::find_signal(const ElementNode& reference, const std::stri
   const core::ConnectorDeclaration& declared = entry->second;
   Port port{joined(path, name), Flow::Unsaid, Port::kNone, name, {}};
   port.path_connector = {port.path, declared.type, declared.unit, declared.items, false};
+  port.dimensions = declared.dimensions;
+  port.where = declared.where;
   ports_.push_back(std::move(port));
   return shared->second;
 }

@@ -23,8 +23,10 @@ struct Port {
   std::size_t component = kNone;  ///< of a component's connector
   std::string connector;
   core::PathConnector path_connector{};  ///< of another
-  std::vector<std::size_t> outgoing{};   ///< connections
-  std::vector<std::size_t> incoming{};   ///< one at most, where it is not a component's connector
+  std::vector<core::DimensionDeclaration> dimensions{};
+  core::Location where{};               ///< where another than a component's is declared
+  std::vector<std::size_t> outgoing{};  ///< connections
+  std::vector<std::size_t> incoming{};  ///< one at most, where it is not a component's connector
 
   bool is_component() const { return component != kNone; }
 };

@@ -20,8 +20,12 @@ core::ConnectorDeclaration read_entry(const xml::Element& element, const SspFile
   entry.name = element.required("name");
   entry.where = element.where();
   for (const xml::Element& child : element.children()) {
-    if (child.is(kSsc, "Dimension") || child.is(kSsb, "Annotations")) continue;
+    if (child.is(kSsb, "Annotations")) continue;
     if (child.is(kSsc, "MetaData") || child.is(kSsc, "Signature")) continue;
+    if (child.is(kSsc, "Dimension")) {
+      read_dimension(child, entry);
+      continue;
+    }
     if (read_type(child, file, entry)) continue;
     child.fail(fmt::format("{} is not known in {}", child.tag(), element.tag()));
   }

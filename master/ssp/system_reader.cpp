@@ -298,12 +298,21 @@ class SystemReader {
   }
 
   /// With its indices, if the connection is restricted to an element: "m[1,2]".
-  static std::string connector(const xml::Element& connection, const std::string& end) {
+  std::string connector(const xml::Element& connection, const std::string& end) {
     const std::string name = connection.required((end + "Connector").c_str());
     const std::string indices = end + "Indices";
     if (!connection.attribute(indices.c_str())) return name;
+    warn_of_later_version(connection, indices);
     return fmt::format("{}[{}]", name,
                        fmt::join(connection.number_list<std::uint64_t>(indices.c_str()), ","));
+  }
+
+  /// Once for all connections of the file.
+  void warn_of_later_version(const xml::Element& connection, const std::string& indices) {
+    if (file_.version != "1.0" || std::exchange(has_later_indices_, true)) return;
+    warn(connection, fmt::format("'{}' is of SSP 2.0, and this file is of SSP {}; it is used, "
+                                 "here and in further connections",
+                                 indices, file_.version));
   }
 
   SystemConnection read_connection(const xml::Element& element) {
@@ -328,6 +337,7 @@ class SystemReader {
   std::vector<std::filesystem::path> folders_;  ///< of sources
   SspFile file_;
   Reading& reading_;
+  bool has_later_indices_ = false;
   std::map<std::string, xml::Element> own_systems_;  ///< by id, when one of them was referred to
 };
 

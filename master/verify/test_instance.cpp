@@ -88,7 +88,10 @@ void TestInstance::start() {
 void TestInstance::set_start_values() {
   const core::System& system = tested_.system();
   const auto set_all = [&](std::span<const core::StartValue> values) {
-    for (const core::StartValue& start : values) set(system.variable(start.id), start.value);
+    for (const core::StartValue& start : values) {
+      const core::Variable& variable = system.variable(start.id);
+      set(variable, start.kept.empty() ? start.value : start.over(get(variable)));
+    }
   };
   if (!system.structural_values().empty()) {
     auto& configuration = capability<core::ConfigurationMode>();

@@ -145,3 +145,122 @@ TEST_CASE("an array of FMI 3.0 is connected to scalars of FMI 2.0, and these to 
   CHECK_THAT(input_error_of(workspace.run(with({"second.n=1"}))),
              Contains("cannot connect 'first.y' to 'old.u"));
 }
+
+// ---- Start values of elements ----
+
+namespace {
+
+/// Where `second` amplifies its start values alone, by 1 if nothing else is set; the system may
+/// have connectors, and values that are bound to it.
+class OneAmplifier : public Workspace {
+ public:
+  explicit OneAmplifier(const std::string& connectors = "", const std::string& connections = "",
+                        const std::string& values = "")
+      : Workspace(text(connectors, connections)) {
+    write_scalars(*this, "scalars");
+    scratch().write("values.ssv",
+                    "<ssv:ParameterSet version=\"2.0\" name=\"p\" "
+                    "xmlns:ssv=\"http://ssp-standard.org/SSP1/SystemStructureParameterValues\">"
+                    "<ssv:Parameters>" +
+                        values + "</ssv:Parameters></ssv:ParameterSet>");
+  }
+
+ private:
+  static std::string text(const std::string& connectors, const std::string& connections) {
+    std::string text = scenario_text(
+        Parts{component("second", "resizable.fmu") + component("old", "scalars"), connections});
+    return text.insert(text.find("<ssd:Elements>"),
+                       "<ssd:Connectors>" + connectors +
+                           "</ssd:Connectors>\n<ssd:ParameterBindings><ssd:ParameterBinding "
+                           "source=\"values.ssv\"/></ssd:ParameterBindings>\n");
+  }
+};
+
+std::string float_connector(const std::string& name, const std::string& dimension = "") {
+  return "<ssd:Connector name=\"" + name + "\" kind=\"input\"><ssc:Float64/>" + dimension +
+         "</ssd:Connector>\n";
+}
+
+std::string from_root(const std::string& connector, const std::string& component,
+                      const std::string& end) {
+  return "<ssd:Connection startConnector=\"" + connector + "\" endElement=\"" + component +
+         "\" endConnector=\"" + end + "\"/>\n";
+}
+
+std::string float_value(const std::string& name, const std::string& value) {
+  return "<ssv:Parameter name=\"" + name + "\"><ssv:Float64 value=\"" + value +
+         "\"/></ssv:Parameter>";
+}
+
+/// The outputs of `second` at the start and at the end, where they are the same.
+std::vector<double> amplified(const Workspace& workspace, const Outcome& outcome,
+                              std::size_t count) {
+  CAPTURE(outcome.err);
+  REQUIRE(outcome.exit_code == 0);
+  const Csv signals = workspace.signals();
+  std::vector<double> values;
+  for (std::size_t i = 1; i <= count; ++i) {
+    const auto column = signals.numbers("second.y[" + std::to_string(i) + "]");
+    CHECK(column.front() == column.back());
+    values.push_back(column.back());
+  }
+  return values;
+}
+
+using Numbers = std::vector<double>;
+
+}  // namespace
+
+TEST_CASE("--set of elements goes with the size that the same command sets") {
+  const OneAmplifier workspace;
+  CHECK(amplified(workspace,
+                  workspace.run(with({"second.u[3]=5", "second.gain[3]=2", "second.n=4",
+                                      "second.gain=1 1 1 1", "second.u[1]=7"})),
+                  4) == Numbers{7, 0, 5, 0});
+  CHECK(amplified(workspace, workspace.run(with({"second.u=1 2", "second.gain[2]=3"})), 2) ==
+        Numbers{1, 6});
+  CHECK_THAT(input_error_of(workspace.run(with({"second.u[3]=5"}))),
+             Contains("--set second.u[3]=5: unit 'second', variable 'u[3]': 'u' is an array of 2 "
+                      "elements, and the index 3 in [3] is not from 1 to 2"));
+  CHECK_THAT(input_error_of(workspace.run(with({"second.n=3", "second.u[0]=5"}))),
+             Contains("an array of 3 elements") && Contains("indices start at 1"));
+}
+
+TEST_CASE("values of a set are for elements, and wrong indices an error with its file") {
+  const OneAmplifier workspace("", "",
+                               float_value("second.u[2]", "5") + float_value("second.no[2]", "6"));
+  const Outcome outcome = workspace.run(with({}));
+  CHECK(amplified(workspace, outcome, 2) == Numbers{0, 5});
+  CHECK_THAT(outcome.err, Contains("stride: warning: values.ssv:1: unit 'second', variable "
+                                   "'no[2]': its model 'resizable' has no such variable"));
+  CHECK_THAT(
+      input_error_of(workspace.run(with({"second.n=1", "second.gain=1"}))),
+      Contains("values.ssv:1: unit 'second', variable 'u[2]': 'u' is an array of 1 element,"));
+}
+
+TEST_CASE("a start value of a system's connector reaches the element that it leads to") {
+  const OneAmplifier workspace(
+      float_connector("i") + float_connector("j") +
+          float_connector("k", "<ssc:Dimension size=\"1\"/>"),
+      from_root("i", "second", "u[3]") + from_root("j", "second", "u[1]") +
+          from_root("k", "old", "u"),
+      float_value("i", "7") + float_value("j", "8") + float_value("k", "9"));
+  const Outcome outcome = workspace.run(with({"second.n=3", "second.gain=1 1 1", "old.gain=1"}));
+  CHECK(amplified(workspace, outcome, 3) == Numbers{8, 0, 7});
+  CHECK_THAT(outcome.err, !Contains("warning"));
+  CHECK(workspace.signals().numbers("old.y[1]").back() == 9);
+  const Outcome small = workspace.run(with({}));
+  CHECK_THAT(input_error_of(small),
+             Contains(workspace.at("startConnector=\"i\"") + "unit 'second', variable 'u[3]': 'u' "
+                                                             "is an array of 2 elements"));
+}
+
+TEST_CASE("the dimensions of a system's connector are those of what it is connected to") {
+  const OneAmplifier workspace(float_connector("k", "<ssc:Dimension size=\"3\"/>"),
+                               from_root("k", "second", "u"));
+  CHECK(workspace.run(with({"second.n=3", "second.gain=1 1 1"})).exit_code == 0);
+  CHECK_THAT(input_error_of(workspace.run(with({}))),
+             Contains(workspace.at("<ssd:Connector name=\"k\"") +
+                      "the connector 'k' of a system has the dimensions 3, and 'second.u', which "
+                      "it is connected to, is an array of 2 elements"));
+}

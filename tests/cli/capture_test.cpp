@@ -212,7 +212,8 @@ TEST_CASE("points that the original did not have are reported once") {
       replay(workspace, "second", "minimal.fmu", {"u"}, {"--step", "0.0003", "--no-idle-skip"});
   CHECK(outcome.exit_code == 0);
   CHECK(outcome.err ==
-        "warning: unit 'player': there is a communication point at 0.0003 s where the captured "
+        "stride: warning: unit 'player': there is a communication point at 0.0003 s where the "
+        "captured "
         "unit had none, so steps are cut otherwise than they were; let the step policy be "
         "event-driven\n");
 }

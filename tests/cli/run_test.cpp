@@ -132,7 +132,7 @@ TEST_CASE("a run that ends where it starts has the initial values, and says so")
   CHECK(outcome.exit_code == 0);
   CHECK(workspace.signals().size() == 1);
   CHECK(outcome.err ==
-        "warning: the run ends where it starts, at 0 s, so it has initial values only\n");
+        "stride: warning: the run ends where it starts, at 0 s, so it has initial values only\n");
 }
 
 TEST_CASE("--set changes start values, as the closed form of the low-pass says") {

@@ -77,8 +77,8 @@ TEST_CASE("no text where there has to be one is an empty one, with a warning") {
   const Outcome outcome = run_raw_unit(workspace, is_hosted, "text");
   CHECK(outcome.exit_code == 0);
   CHECK(outcome.err ==
-        "warning: unit 'mute': fmi3GetString gave no text (NULL) for 'text', which FMI forbids; it "
-        "is taken as an empty one, here and later\n");
+        "stride: warning: unit 'mute': fmi3GetString gave no text (NULL) for 'text', which FMI "
+        "forbids; it is taken as an empty one, here and later\n");
 }
 
 TEST_CASE("a message with a status that FMI does not have is an error of the unit, hosted or not") {

@@ -58,6 +58,18 @@ struct Seen : Observer {
 
 }  // namespace
 
+TEST_CASE("a start value of an element leaves the others of its array to the unit") {
+  Fixture f;
+  ScriptedUnit& unit = f.add("a", Describe("array").input("u").size(3).done());
+  for (std::size_t i = 0; i < 3; ++i) set_real(unit.block(0), i, 10.0 * static_cast<double>(i));
+  unit.on_initialize = [&](ScriptedUnit& self) {
+    CHECK(self.block(0) ==
+          parse(*f.system->components()[0].description->variables.begin(), "0 7 20"));
+  };
+  f.declaration.start_values = {{"a", "u[2]", "7", {}, {}}};
+  f.build(0.1, 100ms).run();
+}
+
 TEST_CASE("a million steps of 1/3 ms end exactly, and every unit gets exact times") {
   Fixture f;
   Time expected{};

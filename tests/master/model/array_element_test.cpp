@@ -69,6 +69,8 @@ TEST_CASE("an element that an array does not have is an error with what is expec
   CHECK_THAT(element_mistake(matrix, "m[0,1]"), Contains("hint: indices start at 1"));
   CHECK_THAT(element_mistake(matrix, "m[3,1]"), Contains("the index 3") && !Contains("hint"));
   CHECK_THAT(element_mistake(matrix, "m[2]"), Contains("so 2 indices are expected, and [2] has 1"));
+  CHECK_THAT(element_mistake(array_of({3}), "m[1,2]"),
+             Contains("so 1 index is expected, and [1,2] has 2"));
   CHECK_THAT(element_mistake(matrix, "m[1,2:3]"),
              Contains("[1,2:3] names none of them") && Contains("such as 'm[1,1]'"));
   CHECK_THAT(element_mistake(array_of({}), "m[1]"),

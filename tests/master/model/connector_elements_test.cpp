@@ -66,6 +66,14 @@ TEST_CASE("a name is that of a variable, of an element, or of an array of scalar
   CHECK_THAT(names.reason("z[1]"), Contains("'z' is a scalar"));
 }
 
+TEST_CASE("an element of an element is an error that says so") {
+  const UnitNames names({{"y", {3}}, {"x[2]", {}}});
+  CHECK_THAT(names.reason("y[1][1]"), Contains("'y[1]' is an element of the array 'y' already") &&
+                                          Contains("give the indices once"));
+  CHECK_THAT(names.reason("x[2][1]"), Contains("'x[2]' is a scalar, so it has no element [1]"));
+  CHECK_FALSE(names.find("z[1][1]"));
+}
+
 TEST_CASE("a variable that is named like an element is preferred to the element") {
   const UnitNames names({{"x", {3}}, {"x[2]", {}}});
   CHECK(names.parts("x[2]") == PartPlaces{{1, 0}});

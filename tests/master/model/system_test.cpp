@@ -650,3 +650,159 @@ TEST_CASE("a warning that a value is replaced is for what is connected as a whol
   REQUIRE(built.warnings().size() == 1);
   CHECK_THAT(built.warnings()[0], Contains("'b.u' is connected to 's.y[1]'"));
 }
+
+// ---- Start values of elements ----
+
+namespace {
+
+/// "a.u = 1 _ 3" where nothing is given for the second element, in the order of the values.
+std::vector<std::string> start_texts(const System& system) {
+  std::vector<std::string> texts;
+  for (const StartValue& start : system.start_values()) {
+    std::string text = system.full_name(start.id) + " =";
+    for (std::size_t i = 0; i < start.value.size(); ++i) {
+      const bool is_kept = std::ranges::count(start.kept, i) > 0;
+      text += " " + (is_kept ? "_" : element_text(start.value, i));
+    }
+    texts.push_back(text);
+  }
+  return texts;
+}
+
+StartDeclaration start_of(const std::string& component, const std::string& variable,
+                          const std::string& value, bool is_optional = false) {
+  StartDeclaration start{component, variable, value, {}, {"s.ssd", 8}};
+  start.is_optional = is_optional;
+  return start;
+}
+
+std::vector<std::string> given(std::vector<StartDeclaration> starts) {
+  SystemDeclaration system = arrays_and_scalars({});
+  system.start_values = std::move(starts);
+  return start_texts(System(system));
+}
+
+std::string mistake_of(StartDeclaration start) {
+  SystemDeclaration system = arrays_and_scalars({});
+  system.start_values = {std::move(start)};
+  return reason(system);
+}
+
+}  // namespace
+
+TEST_CASE("start values of elements make one of their array, whose others keep the unit's") {
+  CHECK(given({start_of("a", "u[3]", "7"), start_of("a", "u[1]", "5")}) ==
+        WireTexts{"a.u = 5 _ 7"});
+  CHECK(given({start_of("a", "u", "1 2 3"), start_of("a", "u[2]", "5")}) ==
+        WireTexts{"a.u = 1 5 3"});
+  CHECK(given({start_of("a", "u[2]", "5"), start_of("a", "u", "1 2 3")}) ==
+        WireTexts{"a.u = 1 2 3"});
+  CHECK(given({start_of("a", "flags[2]", "true")}) == WireTexts{"a.flags = _ true"});
+  StartDeclaration converted = start_of("a", "u[2]", "1500");
+  converted.unit = {"mm", kMillimetres};
+  CHECK(given({converted}) == WireTexts{"a.u = _ 1.5 _"});
+  converted.via = {{{"i", ValueType::Float64, {"mm", kMillimetres}, {}, true}, {}}};
+  CHECK(given({converted}) == WireTexts{"a.u = _ 1.5 _"});
+}
+
+TEST_CASE("the value of an array whose elements are scalars is that of each of them") {
+  CHECK(given({start_of("s", "u", "1 2 3"), start_of("s", "u[2]", "5")}) ==
+        WireTexts{"s.u[1] = 1", "s.u[2] = 5", "s.u[3] = 3"});
+  CHECK_THAT(mistake_of(start_of("s", "u", "1 2")),
+             StartsWith("s.ssd:8: unit 's', variable 'u': '1 2' is not a value for it, expected 3 "
+                        "Float64 values separated by blanks"));
+}
+
+TEST_CASE("a start value for an element that the array does not have is an error") {
+  const bool is_optional = GENERATE(false, true);
+  CHECK_THAT(mistake_of(start_of("a", "u[4]", "7", is_optional)),
+             StartsWith("s.ssd:8: unit 'a', variable 'u[4]': 'u' is an array of 3 elements, and "
+                        "the index 4 in [4] is not from 1 to 3"));
+  CHECK_THAT(mistake_of(start_of("a", "u[0]", "7", is_optional)), Contains("indices start at 1"));
+  CHECK_THAT(mistake_of(start_of("a", "u[2]", "7 8", is_optional)),
+             Contains("variable 'u[2]': '7 8' is not a value for it, expected one Float64 value"));
+}
+
+TEST_CASE("elements are those of the sizes that structural parameters give, in any order") {
+  const auto resizable = Describe("resizable")
+                             .add("n", ValueType::UInt64, Causality::StructuralParameter)
+                             .exact()
+                             .input("u")
+                             .size(2)
+                             .done();
+  UnitDescription unit = *resizable;
+  unit.variables[0].variability = Variability::Fixed;
+  unit.variables[1].dimensions = {Dimension(2, ValueReference{0})};
+  SystemDeclaration system;
+  system.components = {{"r", std::make_shared<const UnitDescription>(unit), {}, {"s.ssd", 3}}};
+  system.start_values = {start_of("r", "u[3]", "7"), start_of("r", "n", "4")};
+  CHECK(start_texts(System(system)) == WireTexts{"r.u = _ _ 7 _"});
+  system.start_values.back().value = "1";
+  CHECK_THAT(reason(system), Contains("'u' is an array of 1 element, and the index 3"));
+}
+
+TEST_CASE("what is kept of a start value is the unit's own") {
+  SystemDeclaration declared = arrays_and_scalars({});
+  declared.start_values = {start_of("a", "u[2]", "5")};
+  const System system(declared);
+  const ValueBlock own = parse(system.variable({0, 0}), "10 20 30");
+  CHECK(system.start_values().at(0).over(own) == parse(system.variable({0, 0}), "10 5 30"));
+}
+
+TEST_CASE("a warning that a value of an element is replaced is for what is connected") {
+  SystemDeclaration system = arrays_and_scalars({from_to("s.y[1]", "a.u[2]")});
+  system.start_values = {start_of("a", "u[1]", "1"), start_of("a", "u[2]", "2")};
+  const System built(system);
+  REQUIRE(built.warnings().size() == 1);
+  CHECK_THAT(built.warnings()[0], Contains("'a.u[2]' is connected to 's.y[1]'"));
+  system.connections = {from_to("a.y", "s.u")};
+  system.start_values = {start_of("s", "u", "1 2 3")};
+  CHECK_THAT(System(system).warnings().at(0), Contains("'s.u' is connected to 'a.y[1]'"));
+}
+
+// ---- Connectors of systems ----
+
+TEST_CASE("connectors of systems have as many elements as what they are connected to") {
+  const auto via = [](std::vector<DimensionDeclaration> dimensions) {
+    return std::vector<ViaDeclaration>{{{"s.o", {}, {}, {}, false}, {}, dimensions, {"s.ssd", 7}}};
+  };
+  const auto of_connection = [&](const std::string& from, const std::string& to,
+                                 std::vector<DimensionDeclaration> dimensions) {
+    SystemDeclaration system = arrays_and_scalars({from_to(from, to), from_to("a.y", "b.u")});
+    system.connections[0].via = via(std::move(dimensions));
+    return reason(system);
+  };
+  CHECK(of_connection("a.y", "s.u", {{3, ""}}) == "accepted");
+  CHECK(of_connection("a.y", "s.u", {}) == "accepted");
+  CHECK(of_connection("a.y", "s.u", {{{}, "n"}}) == "accepted");
+  CHECK_THAT(of_connection("a.y", "s.u", {{2, ""}, {2, ""}}),
+             StartsWith("s.ssd:7: the connector 's.o' of a system has the dimensions 2 × 2, and "
+                        "'a.y', which it is connected to, is an array of 3 elements"));
+  CHECK_THAT(of_connection("a.y[1]", "s.u[1]", {{3, ""}}),
+             Contains("'a.y[1]'") && Contains("is a scalar"));
+  CHECK_THAT(of_connection("s.y", "a.u", {{2, ""}}),
+             Contains("'s.y', which it is connected to, is scalars of 3 elements"));
+
+  SystemDeclaration twice = arrays_and_scalars({from_to("a.y", "s.u"), from_to("a.y", "b.u")});
+  twice.connections[0].via = twice.connections[1].via = via({{2, ""}});
+  CHECK_THAT(reason(twice), StartsWith("s.ssd:7: the connector 's.o'"));
+
+  SystemDeclaration open = arrays_and_scalars({});
+  open.inputs = {{"a", "u", via({{4, ""}}), {"s.ssd", 9}}};
+  CHECK_THAT(reason(open), StartsWith("s.ssd:7: the connector 's.o'") && Contains("'a.u'"));
+  open.inputs = {};
+  open.outputs = {{"a", "y", via({{4, ""}}), {"s.ssd", 9}}};
+  CHECK_THAT(reason(open), StartsWith("s.ssd:7: the connector 's.o'") && Contains("'a.y'"));
+}
+
+TEST_CASE("an input of the system leads to what is there, and a wrong end is reported once") {
+  SystemDeclaration system = arrays_and_scalars({});
+  system.inputs = {{"a", "u[4]", {}, {"s.ssd", 9}}};
+  system.start_values = {start_of("a", "u[4]", "7", true)};
+  CHECK_THAT(reason(system),
+             StartsWith("s.ssd:9: unit 'a', variable 'u[4]': 'u' is an array of 3"));
+  system.inputs = {{"a", "w", {}, {"s.ssd", 9}}};
+  system.start_values = {start_of("a", "w", "7", true)};
+  CHECK_THAT(reason(system), StartsWith("s.ssd:9: unit 'a', variable 'w': its model 'arrays' has "
+                                        "no such variable\n"));
+}

@@ -312,3 +312,48 @@ TEST_CASE("the dimensions of connectors are read, each with its size or the name
   CHECK_THAT(error_of([&] { read(ssd(system("root", "", declared("<ssc:Dimension/>"), ""))); }),
              Contains("needs one of the attributes 'size' and 'sizeConnector'"));
 }
+
+TEST_CASE("a value for an element of a system's connector is for that element of its ends") {
+  const auto with = [](const std::string& name, const std::string& inner_wire) {
+    const std::string s = system("s", connector("u", "input") + connector("y", "output"),
+                                 component("c"), inner_wire + wire("c.y", "y"));
+    return values(
+        read(ssd(system("root", "", s, "", "", parameters(name, "<ssv:Real value='7'/>")))));
+  };
+  CHECK(with("s.u", wire("u", "c.x[2]")) == Strings{"s.c.x[2] = 7"});
+  CHECK(with("s.u[2]", wire("u", "c.x")) == Strings{"s.c.x[2] = 7"});
+  CHECK(with("s.y[1,2]", "") == Strings{"s.c.y[1,2] = 7"});
+  CHECK(with("s.v[2]", wire("u", "c.x")).empty());
+}
+
+TEST_CASE("what no component feeds is known by its ends, with what is declared of the way") {
+  const std::string array = "<ssc:Float64/><ssc:Dimension size='3'/>";
+  const std::string s = system("s", connector("u", "input", array), component("c"),
+                               wire("u", "c.x") + wire("u", "c.z"));
+  const Scenario scenario =
+      read(ssd(system("root", connector("i", "input") + connector("j", "input"), s + component("a"),
+                      wire("i", "s.u") + wire("j", "a.x[2]") + wire("a.y", "a.w"))));
+  std::vector<std::string> ends;
+  for (const core::InputDeclaration& input : scenario.system.inputs) {
+    std::string text;
+    for (const auto& via : input.via) text += via.connector.name + " > ";
+    ends.push_back(text + input.component + "." + input.variable);
+  }
+  CHECK(ends == Strings{"i > s.u > s.c.x", "i > s.u > s.c.z", "j > a.x[2]"});
+  const core::ViaDeclaration& inner = scenario.system.inputs.at(0).via.at(1);
+  REQUIRE(inner.dimensions.size() == 1);
+  CHECK(inner.dimensions[0].size == 3);
+  CHECK(inner.where.line == 8);
+}
+
+TEST_CASE("indices in a file of SSP 1.0, which has none, are a warning, once for the file") {
+  const std::string inside =
+      system("root", "", component("a"),
+             wire("a.y", "a.u", "", "startIndices='2'") + wire("a.y", "a.v", "", "endIndices='1'"));
+  const Scenario scenario = read(ssd(inside, "1.0"));
+  CHECK(paths(scenario) == Strings{"a.y > a.v[1]", "a.y[2] > a.u"});
+  REQUIRE(scenario.warnings.size() == 1);
+  CHECK_THAT(scenario.warnings[0],
+             Contains("x.ssd:7: 'startIndices' is of SSP 2.0, and this file is of SSP 1.0"));
+  CHECK(read(ssd(inside)).warnings.empty());
+}

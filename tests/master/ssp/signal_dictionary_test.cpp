@@ -94,3 +94,15 @@ TEST_CASE("dictionaries that cannot be meant are refused") {
   }));
   CHECK_THROWS_WITH(read_dictionaries(text), Contains(message));
 }
+
+TEST_CASE("an entry of a dictionary may be an array") {
+  const auto all = read_dictionaries(
+      "<ssd:SignalDictionary name='bus'>" +
+      dictionary("<ssb:DictionaryEntry name='x'><ssc:Float64/><ssc:Dimension size='2'/>"
+                 "<ssc:Dimension sizeConnector='n'/></ssb:DictionaryEntry>") +
+      "</ssd:SignalDictionary>");
+  const auto& dimensions = all.at("bus").entries.at("x").dimensions;
+  REQUIRE(dimensions.size() == 2);
+  CHECK(dimensions[0].size == 2);
+  CHECK(dimensions[1].size_connector == "n");
+}
