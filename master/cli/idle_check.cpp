@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include "master/algorithm/idle/idle_agreement.h"
 #include "master/report/csv_reader.h"
 #include "master/util/error.h"
 #include "master/util/time_text.h"
@@ -21,7 +22,6 @@ using report::CsvReader;
 
 /// Of the greatest value, for what has no tolerance of its own.
 constexpr double kEffect = 1e-3;
-constexpr double kRounding = 1e-9;
 
 struct Difference {
   core::Context context;
@@ -67,7 +67,7 @@ class Allowances {
       column.absolute = *tolerance * static_cast<double>(std::max<std::size_t>(1, inexact_units_));
     }
     const bool has_effects = inexact_units_ > 0 || has_deadbands_;
-    column.relative = has_effects && !tolerance ? kEffect : kRounding;
+    if (has_effects && !tolerance) column.relative = kEffect;
     return column;
   }
 
@@ -169,9 +169,9 @@ class SignalComparison {
   bool is_near(std::size_t i, const std::string& one, const std::string& other) const {
     const Column& column = columns_[i];
     if (!column.is_real) return false;
-    const double distance =
-        std::abs(std::strtod(one.c_str(), nullptr) - std::strtod(other.c_str(), nullptr));
-    return distance <= column.absolute + column.relative * greatest_[i];
+    return core::agree_when_idle(std::strtod(one.c_str(), nullptr),
+                                 std::strtod(other.c_str(), nullptr),
+                                 column.absolute + column.relative * greatest_[i], greatest_[i]);
   }
 
   core::Context context_of(core::VariableId id, Time time) const {
