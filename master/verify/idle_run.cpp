@@ -73,6 +73,7 @@ Recording IdleRun::run() {
   if (suspension_) catch_up(tested_.steps());
   Recording recording = instance_.recording();
   recording.longest_promise = longest_promise_.count();
+  recording.longest_suspension = longest_suspension_.count();
   for (Row& row : rows_) recording.rows.push_back(std::move(row));
   return recording;
 }
@@ -143,6 +144,7 @@ void IdleRun::catch_up(std::size_t k) {
     const Recording before = instance_.recording();
     check_step(instance_.leap_to(k), before);
     if (time < suspension_->until) check_outputs(expected);
+    longest_suspension_ = std::max(longest_suspension_, time - suspension_->since);
   }
   suspension_.reset();
 }
