@@ -149,6 +149,44 @@ TEST_CASE("run --check-idle: a recorded input has the tolerance of its source") 
   CHECK(workspace.run({"--check-idle", "--quiet"}).err == "");
 }
 
+TEST_CASE("run --check-idle: a unit is not blamed for what it gets within tolerances") {
+  const Workspace workspace(Parts{tank_component("tank", "honest", "0", "1") +
+                                      component("sink", "minimal.fmu") +
+                                      tank_component("other", "honest", "0"),
+                                  connection("tank.level", "sink.u"),
+                                  "<stride:Step size=\"0.001\"/><stride:Record signals=\"sink.y\"/>"
+                                  "<stride:Tolerance variable=\"tank.level\" value=\"0.02\"/>"});
+  const Outcome outcome = workspace.run({"--check-idle", "--quiet"});
+  CHECK(outcome.exit_code == 1);
+  CHECK_THAT(outcome.err,
+             StartsWith("stride: error: at 0.") &&
+                 Contains(" s: the results with and without idle skipping differ by more than "
+                          "skipping may change: 'sink.y' is ") &&
+                 Contains("no unit was found to break its promises; what differs depends on "
+                          "'tank', which was suspended"));
+}
+
+TEST_CASE("run --check-idle: a scenario that cannot be loaded is one error") {
+  const Workspace workspace(
+      Parts{tank_component("tank", "honest"), connection("tank.levl", "tank.inflow")});
+  const std::string error = input_error_of(workspace.run({"--check-idle"}));
+  CHECK(error == input_error_of(workspace.run()));
+  CHECK_THAT(error, Contains("did you mean 'level'"));
+}
+
+TEST_CASE("run --check-idle: a run that fails is told of once") {
+  const Workspace workspace(
+      Parts{tank_component("tank", "honest") + component("thrower", "thrower.fmu"), "",
+            "<stride:Step size=\"0.1\"/>"});
+  const Arguments fails{"--quiet", "--set", "thrower.throw_at=0.5"};
+  const Outcome plain = workspace.run(fails);
+  CHECK(plain.exit_code == 1);
+  const Outcome checked =
+      workspace.run({"--check-idle", "--quiet", "--set", "thrower.throw_at=0.5"});
+  CHECK(checked.exit_code == 1);
+  CHECK(checked.err == plain.err);
+}
+
 TEST_CASE("run --check-idle says that it has tested nothing") {
   const Workspace workspace = tank_scenario("loses_time");
   const Outcome outcome = workspace.run({"--check-idle", "--coupling", "gauss-seidel"});
