@@ -63,9 +63,11 @@ struct UnitInfo {
   /// While its inputs are held, steps of any sizes between two instants lead to the same values,
   /// but for rounding.
   bool split_invariant = false;
-  bool promises_idle = false;            ///< idle_until() may promise something (<stride/idle.h>)
-  std::optional<Duration> fixed_step;    ///< its internal step size, where that is fixed
-  std::optional<Duration> maximum_step;  ///< no communication step may be longer
+  bool promises_idle = false;          ///< idle_until() may promise something (<stride/idle.h>)
+  std::optional<Duration> fixed_step;  ///< its internal step size, where that is fixed
+  /// No communication step may be longer; without a value, or above kMaxSeconds, as Duration::max()
+  /// is, it may be of any size.
+  std::optional<Duration> maximum_step;
   std::optional<Duration>
       default_step;  ///< the communication step it prefers, where none is chosen
 };

@@ -272,7 +272,8 @@ class Writer {
         .attribute("xmlns:stride", "urn:org.stride:unit:1")
         .attribute("mayReject", unit_.info().may_reject);
     if (unit_.info().split_invariant) xml_.attribute("splitInvariant", true);
-    if (const auto& longest = unit_.info().maximum_step) {
+    const auto& longest = unit_.info().maximum_step;
+    if (longest && to_seconds(*longest) <= kMaxSeconds) {
       xml_.attribute("maximumStep", to_seconds(*longest));
     }
     for (const Variable& row : unit_.variables()) {

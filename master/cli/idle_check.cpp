@@ -10,6 +10,8 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include "master/algorithm/idle/idle_agreement.h"
+#include "master/cli/idle_cause.h"
 #include "master/report/csv_reader.h"
 #include "master/util/error.h"
 #include "master/util/time_text.h"
@@ -21,11 +23,11 @@ using report::CsvReader;
 
 /// Of the greatest value, for what has no tolerance of its own.
 constexpr double kEffect = 1e-3;
-constexpr double kRounding = 1e-9;
 
 struct Difference {
-  core::Context context;
+  Time time;
   std::string text;
+  std::optional<core::VariableId> id{};  ///< what differs, if it is a variable
 };
 
 Time time_of(const CsvReader& reader) {
@@ -67,7 +69,7 @@ class Allowances {
       column.absolute = *tolerance * static_cast<double>(std::max<std::size_t>(1, inexact_units_));
     }
     const bool has_effects = inexact_units_ > 0 || has_deadbands_;
-    column.relative = has_effects && !tolerance ? kEffect : kRounding;
+    if (has_effects && !tolerance) column.relative = kEffect;
     return column;
   }
 
@@ -114,7 +116,7 @@ class SignalComparison {
       const Time time = time_of(skipping_);
       const std::vector<std::string> values = values_at(skipping_, time, has_row);
       if (!go_to(time)) {
-        return Difference{{{}, {}, {}, time}, "there is a communication point here with skipping"};
+        return Difference{time, "there is a communication point with skipping only"};
       }
       if (auto difference = compare(time, values)) return difference;
       ++points_;
@@ -159,9 +161,10 @@ class SignalComparison {
   std::optional<Difference> compare(Time time, const std::vector<std::string>& values) const {
     for (std::size_t i = 0; i < columns_.size(); ++i) {
       if (values[i] == full_values_[i] || is_near(i, values[i], full_values_[i])) continue;
-      return Difference{context_of(columns_[i].id, time),
-                        fmt::format("the value is {} with skipping, and {} without it", values[i],
-                                    full_values_[i])};
+      return Difference{time,
+                        fmt::format("'{}' is {} with skipping, and {} without it",
+                                    system_.full_name(columns_[i].id), values[i], full_values_[i]),
+                        columns_[i].id};
     }
     return std::nullopt;
   }
@@ -169,15 +172,9 @@ class SignalComparison {
   bool is_near(std::size_t i, const std::string& one, const std::string& other) const {
     const Column& column = columns_[i];
     if (!column.is_real) return false;
-    const double distance =
-        std::abs(std::strtod(one.c_str(), nullptr) - std::strtod(other.c_str(), nullptr));
-    return distance <= column.absolute + column.relative * greatest_[i];
-  }
-
-  core::Context context_of(core::VariableId id, Time time) const {
-    const std::string unit =
-        system_.is_output(id) ? std::string() : system_.components()[id.component].name;
-    return {{}, unit, system_.variable(id).name, time};
+    return core::agree_when_idle(std::strtod(one.c_str(), nullptr),
+                                 std::strtod(other.c_str(), nullptr),
+                                 column.absolute + column.relative * greatest_[i], greatest_[i]);
   }
 
   const core::System& system_;
@@ -204,12 +201,43 @@ std::string message_text(const CsvReader& reader) {
                      value_of(reader, 4));
 }
 
-Difference message_difference(const CsvReader& reader, const std::string& text) {
-  return {{{}, value_of(reader, 2), value_of(reader, 3), time_of(reader)}, text};
+std::optional<core::VariableId> variable_of(const core::System& system, const CsvReader& reader) {
+  for (std::size_t i = 0; i < system.components().size(); ++i) {
+    const core::Component& component = system.components()[i];
+    if (component.name != value_of(reader, 2)) continue;
+    const auto variable = component.description->find(value_of(reader, 3));
+    if (variable) return core::VariableId{i, *variable};
+  }
+  return std::nullopt;
+}
+
+/// "a message of 'unit.variable' …"
+Difference message_difference(const core::System& system, const CsvReader& reader,
+                              const std::string& what) {
+  return {time_of(reader),
+          fmt::format("a message of '{}.{}' {}", value_of(reader, 2), value_of(reader, 3), what),
+          variable_of(system, reader)};
+}
+
+/// Of the messages that both have; nothing if they are equal.
+std::optional<Difference> message_difference(const core::System& system, const CsvReader& skipping,
+                                             const CsvReader& full) {
+  for (std::size_t i = 0; i < full.fields().size(); ++i) {
+    if (value_of(skipping, i) == value_of(full, i)) continue;
+    const bool is_other = message_text(skipping) != message_text(full);
+    return message_difference(
+        system, time_of(skipping) < time_of(full) ? skipping : full,
+        is_other ? fmt::format("differs: it is '{}' with skipping, and '{}' without it",
+                               message_text(skipping), message_text(full))
+                 : fmt::format("is {} with skipping, and {} without it", value_of(skipping, i),
+                               value_of(full, i)));
+  }
+  return std::nullopt;
 }
 
 /// The first difference of the messages; counts those that are equal.
-std::optional<Difference> first_message(const std::filesystem::path& skipping_file,
+std::optional<Difference> first_message(const core::System& system,
+                                        const std::filesystem::path& skipping_file,
                                         const std::filesystem::path& full_file,
                                         std::size_t& count) {
   CsvReader skipping(skipping_file);
@@ -218,18 +246,9 @@ std::optional<Difference> first_message(const std::filesystem::path& skipping_fi
     const bool has_skipping = skipping.next();
     const bool has_full = full.next();
     if (!has_skipping && !has_full) return std::nullopt;
-    if (!has_full) return message_difference(skipping, "the message is there with skipping only");
-    if (!has_skipping) return message_difference(full, "the message is missing with skipping");
-    for (std::size_t i = 0; i < full.fields().size(); ++i) {
-      if (value_of(skipping, i) == value_of(full, i)) continue;
-      const bool is_other = message_text(skipping) != message_text(full);
-      return message_difference(
-          time_of(skipping) < time_of(full) ? skipping : full,
-          is_other ? fmt::format("without skipping the message is '{}', and with it '{}'",
-                                 message_text(full), message_text(skipping))
-                   : fmt::format("the message is {} with skipping, and {} without it",
-                                 value_of(skipping, i), value_of(full, i)));
-    }
+    if (!has_full) return message_difference(system, skipping, "is there with skipping only");
+    if (!has_skipping) return message_difference(system, full, "is missing with skipping");
+    if (auto difference = message_difference(system, skipping, full)) return difference;
     ++count;
   }
 }
@@ -237,33 +256,33 @@ std::optional<Difference> first_message(const std::filesystem::path& skipping_fi
 }  // namespace
 
 std::string compare_with_full_run(const scenario::LoadedScenario& loaded,
+                                  const core::RunStatistics& statistics,
                                   const ResultsTarget& skipping,
                                   const std::filesystem::path& full) {
   const auto& [folder, files] = skipping;
   std::optional<Difference> first;
   std::size_t messages = 0, points = 0;
   if (!files.events.empty()) {
-    first = first_message(folder / files.events, full / files.events, messages);
+    first = first_message(loaded.system(), folder / files.events, full / files.events, messages);
   }
   if (!files.signals.empty()) {
     SignalComparison signals(loaded, folder / files.signals, full / files.signals);
     const auto difference = signals.first();
-    if (difference && (!first || difference->context.time <= first->context.time)) {
-      first = difference;
-    }
+    if (difference && (!first || difference->time <= first->time)) first = difference;
     points = signals.points();
   }
   if (first) {
-    core::fail_run(first->context, first->text + "; that is more than idle skipping may change",
-                   "no unit breaks its promises, beyond tolerances and deadbands, whose effect on "
-                   "others is this: <stride:Tolerance> and <stride:Deadband> make it smaller, "
-                   "<stride:IdleSkip components=\"…\" enabled=\"false\"/> leaves a unit out");
+    core::fail_run({.time = first->time},
+                   "the results with and without idle skipping differ by more than skipping may "
+                   "change: " +
+                       first->text,
+                   hint_on_cause(loaded.system(), statistics, first->id));
   }
   if (!may_suspend(loaded)) {
     spdlog::warn(
         "--check-idle has tested nothing: no unit can be suspended in this run (idle skipping "
-        "needs "
-        "units that promise to be idle, fixed or event-driven steps, Jacobi and held inputs, and "
+        "needs units that promise to be idle, fixed or event-driven steps, Jacobi and held inputs, "
+        "and "
         "must not be switched off)");
   }
   return fmt::format(

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <string>
 
+#include "master/algorithm/statistics.h"
 #include "master/cli/recorded_run.h"
 #include "master/scenario/loaded_scenario.h"
 
@@ -18,9 +19,11 @@ inline constexpr const char* kFullRunFolder = "no_idle_skip";
 /// floating-point outputs: one with a tolerance may be off by that of all units together, tolerance
 /// times number of units that have such outputs, and one without by a thousandth of its greatest
 /// value, if another unit's tolerance or deadband may have an effect on it. Returns, for people,
-/// what was compared. Throws core::Error (Run) that names the first difference, with the unit, the
-/// variable and the simulated time.
+/// what was compared. Throws core::Error (Run) that names the first difference, with the variable
+/// and the simulated time, and the units that were suspended on which it depends. `statistics`: of
+/// the run with skipping.
 std::string compare_with_full_run(const scenario::LoadedScenario& loaded,
+                                  const core::RunStatistics& statistics,
                                   const ResultsTarget& skipping, const std::filesystem::path& full);
 
 }  // namespace stride::cli

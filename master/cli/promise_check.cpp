@@ -9,9 +9,9 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <spdlog/spdlog.h>
 
+#include "master/algorithm/idle/idle_agreement.h"
 #include "master/algorithm/observer.h"
 #include "master/algorithm/simulation.h"
 #include "master/cli/crash_guard.h"
@@ -23,16 +23,7 @@
 namespace stride::cli {
 namespace {
 
-/// What sums over other steps may differ by, of the greatest value so far.
-constexpr double kSumRounding = 1e-9;
-
 double magnitude(double value) { return std::isfinite(value) ? std::abs(value) : 0; }
-
-std::string text_of(const core::ValueBlock& block, std::size_t first, std::size_t size) {
-  std::vector<std::string> elements;
-  for (std::size_t e = 0; e < size; ++e) elements.push_back(core::element_text(block, first + e));
-  return fmt::format("{}", fmt::join(elements, " "));
-}
 
 struct BrokenPromise {
   Time time;
@@ -84,7 +75,7 @@ class OutputPair {
     const double one = value(unit_, e);
     const double other = value(twin_, e);
     greatest_ = std::max({greatest_, magnitude(one), magnitude(other)});
-    return std::abs(one - other) <= tolerance_ + offsets_[e] + kSumRounding * greatest_;
+    return core::agree_when_idle(one, other, tolerance_ + offsets_[e], greatest_);
   }
 
   const core::Variable& variable_;
@@ -245,7 +236,7 @@ class PromiseCheck : public core::Observer {
     pairs_[found->second].send(
         message.id.component,
         {message.time, message.id.variable,
-         message.block == nullptr ? "" : text_of(*message.block, message.first, size)});
+         message.block == nullptr ? "" : core::elements_text(*message.block, message.first, size)});
   }
 
   bool watches_activities() const override { return true; }

@@ -80,6 +80,8 @@ class RecordedRun {
   /// failed. Whatever happens, the results are complete up to the last communication point.
   void run();
 
+  const core::RunStatistics& statistics() const { return simulation_.statistics(); }
+
   /// Instead of the end of run(), which something has prevented: ends the records without calling
   /// any unit, and writes what contains the error.
   void abandon(const std::string& error);

@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -38,6 +39,12 @@ namespace {
 
 constexpr int kMostThreads = 1024;
 
+/// Why work in a process of its own has failed.
+struct ChildFailure {
+  std::string text;
+  bool is_of_input = false;  ///< what the user gave is wrong
+};
+
 struct RunArguments {
   scenario::ScenarioRequest scenario;
   std::filesystem::path out;
@@ -51,7 +58,7 @@ struct RunArguments {
   bool quiet = false;
   bool check_idle = false;
   std::filesystem::path full_run{};  ///< the results without idle skipping to compare with
-  std::optional<std::string> broken_promise{};
+  std::optional<ChildFailure> promise_failure{}, full_run_failure{};
 };
 
 std::filesystem::path results_folder(const RunArguments& arguments) {
@@ -134,10 +141,10 @@ struct EndOfUnits {
 /// The run with idle skipping has come to its end: tells of a unit that broke a promise, or else
 /// compares the run with the one without.
 void conclude_idle_check(const RunArguments& arguments, const scenario::LoadedScenario& loaded,
-                         const ResultsTarget& results) {
+                         const core::RunStatistics& statistics, const ResultsTarget& results) {
   if (arguments.full_run.empty()) return;
-  if (arguments.broken_promise) core::fail_run({}, *arguments.broken_promise);
-  const std::string text = compare_with_full_run(loaded, results, arguments.full_run);
+  if (arguments.promise_failure) core::fail_run({}, arguments.promise_failure->text);
+  const std::string text = compare_with_full_run(loaded, statistics, results, arguments.full_run);
   if (!arguments.quiet) print_text("\n{}\n", text);
 }
 
@@ -185,7 +192,7 @@ void run(const RunArguments& arguments, Records& records, CrashGuard& guard) {
   const CrashGuard::Scope scope(guard, [&](const std::string& error) { recorded.abandon(error); });
   try {
     recorded.run();
-    conclude_idle_check(arguments, loaded, *records.results);
+    conclude_idle_check(arguments, loaded, recorded.statistics(), *records.results);
   } catch (const core::TakenFileError& failure) {
     end_with(failure.what());
   } catch (const std::exception& failure) {
@@ -223,6 +230,7 @@ RunArguments full_run(const RunArguments& arguments) {
   full.scenario.no_idle_skip = true;
   full.scenario.max_skip.clear();
   full.full_run.clear();
+  full.promise_failure.reset();
   full.captures.clear();
   full.junit.clear();
   full.scenario.film.clear();
@@ -235,30 +243,47 @@ struct EndOfFork {
   ~EndOfFork() { end_guarding(); }
 };
 
-/// In a process of its own, so that units of different runs share nothing. Returns why it failed.
-std::optional<std::string> failure_in_child(const std::string& what,
-                                            const std::function<void()>& work) {
+constexpr const char* kPromiseTest = "the test of the units' promises to be idle";
+constexpr const char* kFullRun = "the run without idle skipping";
+
+/// In a process of its own, so that units of different runs share nothing.
+std::optional<ChildFailure> failure_in_child(const std::string& what,
+                                             const std::function<void()>& work) {
   const Interruption interruption;
   const isolation::ChildOutcome outcome = isolation::run_in_child(
-      [&] {
+      [&]() -> std::string {
         const EndOfFork end;
-        work();
-        return std::string();
+        try {
+          work();
+        } catch (const core::Error& error) {
+          if (error.kind() != core::Error::Kind::Input) throw;
+          return error.what();
+        }
+        return {};
       },
       {.limit = {}, .interrupted = &Interruption::flag()});
   using End = isolation::ChildOutcome::End;
-  if (outcome.end == End::Answered) return std::nullopt;
   if (outcome.end == End::Interrupted) core::fail_run({}, "interrupted during " + what);
-  return outcome.end == End::Threw ? outcome.text : outcome.printed;
+  if (outcome.end == End::Threw) return ChildFailure{outcome.text};
+  if (outcome.end != End::Answered) {
+    return ChildFailure{outcome.printed.empty() ? "its process has ended" : outcome.printed};
+  }
+  if (outcome.text.empty()) return std::nullopt;
+  return ChildFailure{outcome.text, true};
 }
 
-/// Whether a check or a verdict fails in it is seen in the other run, too.
-void make_full_run(const RunArguments& arguments) {
-  const std::string what = "the run without idle skipping";
-  const auto why = failure_in_child(what, [&] { run_and_report(full_run(arguments)); });
-  if (why) spdlog::warn("{} has failed: {}", what, *why);
+/// What has failed in the further runs of --check-idle, beyond what is `told` already.
+void warn_of_further_runs(const RunArguments& arguments, std::string_view told) {
+  const auto warn = [&](const char* what, const std::optional<ChildFailure>& failure) {
+    if (!failure || failure->is_of_input) return;
+    const bool is_told = told.find(failure->text) != std::string_view::npos;
+    if (!is_told) spdlog::warn("{} has failed: {}", what, failure->text);
+  };
+  warn(kPromiseTest, arguments.promise_failure);
+  warn(kFullRun, arguments.full_run_failure);
 }
 
+/// The results without idle skipping, and then the run itself, which tells of a wrong scenario.
 void run_with_checks(RunArguments arguments) {
   if (!arguments.check_idle) return run_and_report(std::move(arguments));
   if (arguments.scenario.no_idle_skip) {
@@ -266,10 +291,19 @@ void run_with_checks(RunArguments arguments) {
                      "use one of them");
   }
   arguments.full_run = results_folder(arguments) / kFullRunFolder;
-  arguments.broken_promise = failure_in_child("the test of the units' promises to be idle",
-                                              [&] { run_beside_twins(arguments.scenario); });
-  make_full_run(arguments);
-  run_and_report(std::move(arguments));
+  arguments.promise_failure =
+      failure_in_child(kPromiseTest, [&] { run_beside_twins(arguments.scenario); });
+  if (!arguments.promise_failure || !arguments.promise_failure->is_of_input) {
+    arguments.full_run_failure =
+        failure_in_child(kFullRun, [&] { run_and_report(full_run(arguments)); });
+  }
+  try {
+    run_and_report(arguments);
+  } catch (const std::exception& error) {
+    warn_of_further_runs(arguments, error.what());
+    throw;
+  }
+  warn_of_further_runs(arguments, "");
 }
 
 void add_recording_options(CLI::App& command, RunArguments& arguments) {

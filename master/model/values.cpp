@@ -189,4 +189,14 @@ std::string element_text(const ValueBlock& block, std::size_t element) {
   });
 }
 
+std::string elements_text(const ValueBlock& block, std::size_t first, std::size_t count) {
+  std::string text;
+  for (std::size_t e = 0; e < count; ++e) {
+    text += (e == 0 ? "" : " ") + element_text(block, first + e);
+  }
+  return text;
+}
+
+std::string elements_text(const ValueBlock& block) { return elements_text(block, 0, block.size()); }
+
 }  // namespace stride::core

@@ -149,6 +149,11 @@ ValueBlock parse(const Variable& variable, const std::string& text);
 /// hexadecimal digits.
 std::string element_text(const ValueBlock& block, std::size_t element);
 
+/// Those of `count` elements from `first` on, separated by blanks.
+std::string elements_text(const ValueBlock& block, std::size_t first, std::size_t count);
+/// Those of all elements.
+std::string elements_text(const ValueBlock& block);
+
 }  // namespace stride::core
 
 #endif

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "master/algorithm/idle/idle_agreement.h"
 #include "master/util/time_text.h"
 #include "master/verify/idle_run.h"
 
@@ -15,9 +16,6 @@ namespace stride::verify {
 namespace {
 
 using core::Variable;
-
-/// What sums over other steps may differ by, as a share of the value or of 1.
-constexpr double kIdleRounding = 1e-9;
 
 std::string instant_text(std::int64_t picoseconds) { return core::to_text(Duration(picoseconds)); }
 
@@ -46,8 +44,8 @@ bool are_near(const std::string& one, const std::string& other, double tolerance
     if (a == b) continue;
     const double x = std::strtod(a.c_str(), nullptr);
     const double y = std::strtod(b.c_str(), nullptr);
-    const double rounding = kIdleRounding * std::max({1.0, std::abs(x), std::abs(y)});
-    if (!(std::abs(x - y) <= tolerance + rounding)) return false;
+    const double greatest = std::max({1.0, std::abs(x), std::abs(y)});
+    if (!core::agree_when_idle(x, y, tolerance, greatest)) return false;
   }
   return true;
 }

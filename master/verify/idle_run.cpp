@@ -17,14 +17,6 @@ using core::Variable;
 /// What the rounding of a tangent may add to a tolerance, as a share of the value.
 constexpr double kTangentRounding = 1e-12;
 
-std::string output_text(const ValueBlock& block) {
-  std::string text;
-  for (std::size_t e = 0; e < block.size(); ++e) {
-    text += (e == 0 ? "" : " ") + core::element_text(block, e);
-  }
-  return text;
-}
-
 bool is_within(const ValueBlock& one, const ValueBlock& other, double distance) {
   for (std::size_t e = 0; e < one.size(); ++e) {
     const double a = core::real(one, e);
@@ -81,6 +73,7 @@ Recording IdleRun::run() {
   if (suspension_) catch_up(tested_.steps());
   Recording recording = instance_.recording();
   recording.longest_promise = longest_promise_.count();
+  recording.longest_suspension = longest_suspension_.count();
   for (Row& row : rows_) recording.rows.push_back(std::move(row));
   return recording;
 }
@@ -151,6 +144,7 @@ void IdleRun::catch_up(std::size_t k) {
     const Recording before = instance_.recording();
     check_step(instance_.leap_to(k), before);
     if (time < suspension_->until) check_outputs(expected);
+    longest_suspension_ = std::max(longest_suspension_, time - suspension_->since);
   }
   suspension_.reset();
 }
@@ -172,10 +166,11 @@ void IdleRun::check_outputs(const std::vector<ValueBlock>& expected) {
   for (std::size_t i = 0; i < outputs_.size(); ++i) {
     const std::optional<double>& tolerance = output(i).tolerance;
     const bool holds = tolerance ? is_within(expected[i], seen[i], *tolerance)
-                                 : output_text(expected[i]) == output_text(seen[i]);
+                                 : core::elements_text(expected[i]) == core::elements_text(seen[i]);
     if (holds) continue;
-    fail(fmt::format("'{}' is {} at {} s instead of {}{}", output(i).name, output_text(seen[i]),
-                     core::to_text(instance_.now()), output_text(expected[i]),
+    fail(fmt::format("'{}' is {} at {} s instead of {}{}", output(i).name,
+                     core::elements_text(seen[i]), core::to_text(instance_.now()),
+                     core::elements_text(expected[i]),
                      tolerance ? fmt::format(" within {}", *tolerance) : ""));
   }
 }
@@ -189,7 +184,7 @@ std::vector<ValueBlock> IdleRun::read_outputs() {
 
 void IdleRun::record(std::size_t k, const std::vector<ValueBlock>& outputs) {
   Row row{tested_.point(k).time_since_epoch().count(), {}, false};
-  for (const ValueBlock& value : outputs) row.values.push_back(output_text(value));
+  for (const ValueBlock& value : outputs) row.values.push_back(core::elements_text(value));
   row.values.push_back(std::to_string(used_promises_));
   rows_.push_back(std::move(row));
 }

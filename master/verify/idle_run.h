@@ -60,7 +60,7 @@ class IdleRun {
   std::vector<std::size_t> outputs_;
   std::optional<Suspension> suspension_;
   std::size_t used_promises_ = 0;
-  Duration longest_promise_{};
+  Duration longest_promise_{}, longest_suspension_{};
   std::vector<Row> rows_;
 };
 

@@ -13,8 +13,11 @@ using core::ValueType;
 /// Of the deadband, to each side, so that rounding does not leave it.
 constexpr double kWander = 0.49;
 
-/// The point of Jump::Once.
-constexpr std::size_t kOnlyJump = 3;
+std::optional<std::size_t> only_jump(Jump jump, std::size_t steps) {
+  if (jump == Jump::Once) return 3;
+  if (jump == Jump::Late) return steps - steps / 10;
+  return std::nullopt;
+}
 
 /// One number out of two.
 std::uint64_t mixed(std::uint64_t one, std::uint64_t other) { return (one << 32) ^ other; }
@@ -26,18 +29,19 @@ IdleStimulus::IdleStimulus(const TestedUnit& tested, std::uint64_t seed, Wander 
       unit_(tested.description()),
       seed_(seed),
       wander_(wander),
-      jump_(jump) {}
+      jump_(jump),
+      only_jump_(only_jump(jump, tested.steps())) {}
 
-/// At one point in ten to one in a thousand, by the seed.
+/// At one point in ten to one in a thousand, by the seed, unless the run is quiet.
 bool IdleStimulus::ticks_at(std::size_t k) const {
-  if (is_quiet()) return false;
+  if (is_quiet()) return jump_ == Jump::Late && k == only_jump_;
   const double share = 0.1 * std::pow(10, -2 * uniform(seed_ + 1, 0));
   return k > 0 && uniform(seed_ + 1, k) < share;
 }
 
 /// Each input has a rhythm of its own, from some points to hundreds of them.
 std::size_t IdleStimulus::jumps_until(const Input& input, std::size_t k) const {
-  if (is_quiet()) return jump_ == Jump::Once && k >= kOnlyJump ? 1 : 0;
+  if (is_quiet()) return only_jump_ && k >= *only_jump_ ? 1 : 0;
   const double rhythm = 3 * std::pow(10, 2 * uniform(seed_ + 2, input.reference));
   return static_cast<std::size_t>(static_cast<double>(k) / rhythm);
 }

@@ -128,11 +128,12 @@ std::string to_text(const Recording& recording) {
   for (const Row& row : recording.rows) {
     rows.push_back({row.picoseconds, row.is_event, row.values});
   }
-  return Json{{"rows", std::move(rows)},
-              {"counts",
-               {recording.rejections, recording.early_returns, recording.events,
-                recording.first_early_return, recording.longest_promise}},
-              {"ended", recording.has_ended}}
+  return Json{
+      {"rows", std::move(rows)},
+      {"counts",
+       {recording.rejections, recording.early_returns, recording.events,
+        recording.first_early_return, recording.longest_promise, recording.longest_suspension}},
+      {"ended", recording.has_ended}}
       .dump(-1, ' ', true, Json::error_handler_t::replace);
 }
 
@@ -148,6 +149,7 @@ Recording recording_from_text(const std::string& text) {
   recording.events = json["counts"][2];
   recording.first_early_return = json["counts"][3];
   recording.longest_promise = json["counts"][4];
+  recording.longest_suspension = json["counts"][5];
   recording.has_ended = json["ended"];
   return recording;
 }

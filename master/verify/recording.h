@@ -18,6 +18,7 @@ struct Recording {
   std::size_t rejections = 0, early_returns = 0, events = 0;
   std::int64_t first_early_return = 0;  ///< [ps]
   std::int64_t longest_promise = 0;     ///< [ps]; of one without an end Duration::max()
+  std::int64_t longest_suspension = 0;  ///< [ps]
   bool has_ended = false;               ///< the unit wanted the simulation to end
 
   bool operator==(const Recording&) const = default;

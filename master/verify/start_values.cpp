@@ -20,10 +20,7 @@ using core::Variable;
 namespace {
 
 std::string text_of(const ValueBlock& block) {
-  std::string text;
-  for (std::size_t e = 0; e < block.size(); ++e) {
-    text += (e == 0 ? "" : " ") + core::element_text(block, e);
-  }
+  const std::string text = core::elements_text(block);
   return text.empty() ? "empty" : text;
 }
 

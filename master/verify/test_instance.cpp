@@ -36,14 +36,6 @@ bool carries_messages(const core::UnitDescription& unit, ValueReference clock) {
   });
 }
 
-std::string text_of(const ValueBlock& block, std::size_t first, std::size_t size) {
-  std::string text;
-  for (std::size_t e = 0; e < size; ++e) {
-    text += (e == 0 ? "" : " ") + core::element_text(block, first + e);
-  }
-  return text;
-}
-
 std::unique_ptr<core::Unit> instantiate(const TestedUnit& tested, importer::CallNote& note,
                                         const TestInstanceOptions& options) {
   note.write("the loading of its library");
@@ -142,7 +134,7 @@ std::vector<std::string> TestInstance::observe() {
     std::size_t first = 0;
     for (const std::size_t i : group.places) {
       const std::size_t size = tested_.description().variables[i].size;
-      texts.push_back(text_of(blocks_[g], first, size));
+      texts.push_back(core::elements_text(blocks_[g], first, size));
       first += size;
     }
   }
@@ -345,7 +337,7 @@ void TestInstance::record_ticks() {
                          });
     if (!is_read) continue;
     const ValueBlock value = get(variable);
-    row.values.push_back(variable.name + "=" + text_of(value, 0, value.size()));
+    row.values.push_back(variable.name + "=" + core::elements_text(value));
   }
   if (!row.values.empty()) recording_.rows.push_back(std::move(row));
 }

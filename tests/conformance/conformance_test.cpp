@@ -117,9 +117,7 @@ class Instance {
   std::string value(const core::Variable& variable) const {
     core::ValueBlock block(variable.type, variable.size);
     read(variable, block);
-    std::string text;
-    for (std::size_t i = 0; i < block.size(); ++i) text += core::element_text(block, i) + " ";
-    return text;
+    return core::elements_text(block);
   }
 
   template <class Get, class T>

@@ -4,27 +4,42 @@
 
 namespace ground_truth {
 
+void History::configure(Grain grain, stride::Duration length) {
+  // else what is joined would depend on what is forgotten already
+  grain_ = {grain.width, std::min(grain.time, length)};
+  length_ = length;
+}
+
 void History::note(stride::Time time, double value) {
-  auto& pieces = state_.pieces;
-  if (pieces.empty()) {
-    pieces.push_back({time, value, value});
-  } else if (!join(time, value)) {
-    pieces.push_back({state_.last, std::min(state_.value, value), std::max(state_.value, value)});
+  if (state_.pieces.empty()) {
+    state_.pieces.push_back({time, value, value});
+  } else if (value != state_.value) {
+    jump(time, value);
   }
   state_.last = time;
   state_.value = value;
   forget();
 }
 
-bool History::join(stride::Time time, double value) {
-  Piece& newest = state_.pieces.back();
+void History::jump(stride::Time time, double value) {
+  auto& pieces = state_.pieces;
+  Piece& newest = pieces.back();
   const double low = std::min(newest.low, value);
   const double high = std::max(newest.high, value);
-  const bool is_short = time > newest.from && time - newest.from <= grain_.time;
-  if (high - low > grain_.width && !is_short) return false;
-  newest.low = low;
-  newest.high = high;
-  return true;
+  if (high - low <= grain_.width) {
+    newest.low = low;
+    newest.high = high;
+    return;
+  }
+  if (pieces.size() > 1) {
+    Piece& before = *(pieces.end() - 2);
+    if (time - before.from <= grain_.time) {
+      before.low = std::min(before.low, newest.low);
+      before.high = std::max(before.high, newest.high);
+      pieces.pop_back();
+    }
+  }
+  pieces.push_back({time, value, value});
 }
 
 void History::forget() {
@@ -39,13 +54,9 @@ std::optional<History::Bounds> History::between(stride::Time from, stride::Time 
     return piece.from < time;
   };
   auto piece = std::lower_bound(pieces.begin(), pieces.end(), from, begins_before);
-  const bool is_within_one = piece == pieces.end() || piece->from > from;
-  if (is_within_one && piece != pieces.begin()) --piece;
+  if (piece != pieces.begin()) --piece;  // which lasts until `from` at least
   Bounds bounds{piece->low, piece->high, from >= pieces.front().from};
   for (++piece; piece != pieces.end() && piece->from <= to; ++piece) {
-    const auto next = piece + 1;
-    const bool is_jump = piece->from == (next != pieces.end() ? next->from : state_.last);
-    if (piece->from == to && !is_jump) break;
     bounds.low = std::min(bounds.low, piece->low);
     bounds.high = std::max(bounds.high, piece->high);
   }

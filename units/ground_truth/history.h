@@ -15,24 +15,24 @@ struct Grain {
   stride::Duration time{};  ///< >= 0
 };
 
-/// Remembers between which bounds a quantity was. Its values are noted at instants, any distance
-/// apart; between two of them the quantity counts as anywhere between both values.
+/// Remembers a quantity that is held between the instants at which it jumps, as inputs are between
+/// two communication points. So it does not matter how often it is noted in between.
 ///
-/// Neighbouring intervals are joined as long as their bounds together are no wider than the grain,
-/// or they together are no longer, so that neither a slow course nor a fast one takes much memory.
-/// What between() gives is therefore too wide by the grain at most, or holds for an interval that
-/// reaches further by the grain at most.
+/// Neighbouring intervals are joined as long as their values differ by no more than the grain, or,
+/// once they are over, they together are no longer, so that neither a slow course nor a fast one
+/// takes much memory. What between() gives is therefore too wide by the grain at most, or holds for
+/// an interval that reaches further by the grain at most.
 class History {
  public:
   struct Piece {
     stride::Time from;  ///< until the next one begins, or until the last instant
-    double low, high;
+    double low, high;   ///< of its values
   };
   /// All that a rollback has to bring back.
   struct State {
     std::deque<Piece> pieces;
-    stride::Time last;  ///< of the last value that was noted
-    double value = 0.0;
+    stride::Time last;   ///< of the last value that was noted
+    double value = 0.0;  ///< that one
   };
   struct Bounds {
     double low, high;
@@ -43,10 +43,10 @@ class History {
   /// What is older than `length` may be forgotten.
   History(Grain grain, stride::Duration length) { configure(grain, length); }
   /// From now on; what is remembered stays.
-  void configure(Grain grain, stride::Duration length) { grain_ = grain, length_ = length; }
+  void configure(Grain grain, stride::Duration length);
 
-  /// The value at an instant, which is not before the last one. At the same instant it is a jump:
-  /// then both values count.
+  /// The value from an instant on, which is not before the last one. If it is another one than
+  /// before, the quantity jumps there, and both values count at this instant.
   void note(stride::Time time, double value);
 
   /// Between which bounds the quantity was in an interval, both ends included, that ends at the
@@ -57,7 +57,7 @@ class History {
   const State& state() const { return state_; }
 
  private:
-  bool join(stride::Time time, double value);
+  void jump(stride::Time time, double value);
   void forget();
 
   Grain grain_;

@@ -55,8 +55,8 @@ struct Comparison {
 /// Its error is the least that an instant of the interval leaves, and it is right if that is not
 /// greater than the tolerance, which is a maximum permissible error (JCGM 200:2012, 4.26).
 ///
-/// Call note() at each instant at which the truth is known, and compare() after the note() of the
-/// same instant.
+/// Call note() at each instant at which the truth may be another one than before, and compare()
+/// after the note() of the same instant.
 class Judge {
  public:
   /// All that a rollback has to bring back, beside the history's own state.

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cstdlib>
+#include <iterator>
 
 #include <fmt/format.h>
 
@@ -15,6 +16,8 @@ namespace {
 /// Runs with inputs that stay between two jumps, and with those that move within their deadbands.
 constexpr std::uint64_t kStillRuns = 8;
 constexpr std::uint64_t kWanderingRuns = 4;
+/// Those in which a promise is held for long.
+constexpr Jump kLongRuns[] = {Jump::Never, Jump::Once, Jump::Late};
 /// A run that is longer than a promise may be this many times as long as the others.
 constexpr std::int64_t kMostLengths = 16;
 
@@ -83,10 +86,12 @@ std::size_t promises_in(const Recording& skipping) {
 struct Promises {
   std::size_t count = 0;
   Duration longest{};
+  Duration longest_suspension{};
 
   void add(const Promises& others) {
     count += others.count;
     longest = std::max(longest, others.longest);
+    longest_suspension = std::max(longest_suspension, others.longest_suspension);
   }
 };
 
@@ -96,7 +101,20 @@ Promises compare(const Trial& trial, Inputs inputs) {
   const Recording skipping = record(trial, inputs, true);
   const auto difference = idle_difference(trial.tested, full, skipping, inputs.wander);
   if (difference) throw Failure("with skipping of idle time " + *difference, false);
-  return {promises_in(skipping), Duration(skipping.longest_promise)};
+  return {promises_in(skipping), Duration(skipping.longest_promise),
+          Duration(skipping.longest_suspension)};
+}
+
+/// What of the promises was not tested, in runs of this length.
+std::vector<std::string> notes_on(const Promises& promises, Duration length) {
+  if (promises.longest <= length) return {};
+  const std::string promised = promises.longest == Duration::max()
+                                   ? "without an end"
+                                   : "for up to " + core::to_text(promises.longest) + " s";
+  return {
+      fmt::format("it promised to be idle {}, and was suspended for {} s at most; --stop makes "
+                  "longer runs",
+                  promised, core::to_text(promises.longest_suspension))};
 }
 
 }  // namespace
@@ -118,20 +136,13 @@ Finding check_idle(const Trial& trial) {
     return passed("skipping of idle time changes nothing", {"it promised nothing in these runs"});
   }
   const TestedUnit longer(over(trial.tested, promises.longest));
-  for (const Jump jump : {Jump::Never, Jump::Once}) {
+  for (const Jump jump : kLongRuns) {
     promises.add(compare({longer, trial.note}, {seed + 10 * rounds, Wander::Still, jump}));
   }
-  std::vector<std::string> notes;
   const Duration length = longer.step() * static_cast<std::int64_t>(longer.steps());
-  if (promises.longest > length && promises.longest < Duration::max()) {
-    notes.push_back(
-        fmt::format("it promised up to {} s, and the longest run was of {} s; --stop "
-                    "makes longer ones",
-                    core::to_text(promises.longest), core::to_text(length)));
-  }
   return passed(fmt::format("{} promises were kept, in {} runs with random inputs", promises.count,
-                            rounds + 2),
-                notes);
+                            rounds + std::size(kLongRuns)),
+                notes_on(promises, length));
 }
 
 }  // namespace stride::verify

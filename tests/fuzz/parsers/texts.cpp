@@ -48,11 +48,9 @@ void read_value(const std::string& bytes) {
   refusing<std::invalid_argument>("", [&] {
     const core::ValueBlock block = core::parse(variable, std::string(rest));
     ensure(block.size() == variable.size && block.type() == variable.type, "it fits the variable");
-    std::string text;
-    for (std::size_t i = 0; i < block.size(); ++i) {
-      text += (i == 0 ? "" : " ") + core::element_text(block, i);
-    }
-    if (!core::has_nan(block)) ensure(core::parse(variable, text) == block, "its text reads back");
+    const bool reads_back =
+        core::has_nan(block) || core::parse(variable, core::elements_text(block)) == block;
+    ensure(reads_back, "its text reads back");
   });
 }
 

@@ -57,6 +57,18 @@ TEST_CASE("whether the unit may reject a step is annotated at the end") {
   CHECK_THAT(describe(Sample(true)), Contains(R"(mayReject="true")"));
 }
 
+TEST_CASE("the maximum of a step is annotated, unless there is none") {
+  class Limited : public Sample {
+   public:
+    explicit Limited(Duration maximum) { describe("limited").maximum_step = maximum; }
+  };
+  CHECK_THAT(describe(Limited(std::chrono::milliseconds(250))), Contains(R"( maximumStep="0.25")"));
+  CHECK_THAT(describe(Limited(std::chrono::seconds(9'200'000))), Contains("maximumStep"));
+  CHECK_THAT(describe(Limited(std::chrono::seconds(9'200'001))), !Contains("maximumStep"));
+  CHECK_THAT(describe(Limited(Duration::max())), !Contains("maximumStep"));
+  CHECK_THAT(describe(Sample()), !Contains("maximumStep"));
+}
+
 TEST_CASE("the verdict and its text are annotated by their names") {
   class Judge : public Unit {
    public:

@@ -53,6 +53,9 @@ TEST_CASE("arrays are separated by blanks and keep their order") {
   CHECK(element_text(block, 0) == "1");
   CHECK(element_text(block, 1) == "-2");
   CHECK(element_text(block, 2) == "3");
+  CHECK(elements_text(block) == "1 -2 3");
+  CHECK(elements_text(block, 1, 2) == "-2 3");
+  CHECK(elements_text(block, 1, 0) == "");
 }
 
 TEST_CASE("an enumeration takes names and numbers") {

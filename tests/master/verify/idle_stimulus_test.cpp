@@ -71,6 +71,16 @@ TEST_CASE("a quiet stimulus jumps once or never, and nothing ticks") {
   for (std::size_t k = 0; k < kPoints; ++k) CHECK_FALSE(quiet.ticks_at(k));
 }
 
+TEST_CASE("a late stimulus jumps in the last tenth of the run, with an event") {
+  const TestedUnit tested = idler();
+  const IdleStimulus late(tested, 5, Wander::Still, Jump::Late);
+  const std::size_t point = tested.steps() - tested.steps() / 10;
+  const std::vector<double> values = course(late);
+  CHECK(count_beyond(values, 0) == 1);
+  CHECK(values[point] != values[point - 1]);
+  for (std::size_t k = 0; k < tested.steps(); ++k) CHECK(late.ticks_at(k) == (k == point));
+}
+
 TEST_CASE("a stimulus is a function of the seed and the point") {
   const TestedUnit tested = idler();
   const auto make = [&](std::uint64_t seed) {

@@ -18,6 +18,7 @@ enum class Promise : std::int64_t {
   LeavesItsTangent,
   LosesTime,  ///< a step that skips has its next report come late
   Ever,       ///< without an end, whatever comes
+  Forgets,    ///< a long step that skips does not count for its age
 };
 
 class Idler : public stride::Unit {
@@ -45,8 +46,14 @@ class Idler : public stride::Unit {
                 {"rejects", 3},
                 {"drifts", 4},
                 {"loses_time", 5},
-                {"ever", 6}});
-    state(start_, slope_, time_);
+                {"ever", 6},
+                {"forgets", 7}});
+    output("age", shown_age_)
+        .unit("s")
+        .discrete()
+        .depends_on({})
+        .description("when it was asked last, as it has counted since the start");
+    state(start_, slope_, time_, age_);
   }
 
   void initialize(stride::Time start) override {
@@ -54,6 +61,8 @@ class Idler : public stride::Unit {
     level_ = 0;
     reports_ = 0;
     steps_ = 0;
+    age_ = {};
+    shown_age_ = 0;
     slope_ = rate_ * (inflow_ - level_);
   }
 
@@ -79,6 +88,7 @@ class Idler : public stride::Unit {
   }
 
   void event(stride::Event& event) override {
+    if (ask_.ticked()) shown_age_ = stride::to_seconds(age_);
     if (ask_.ticked() || next_report() <= event.time()) {
       ++reports_;
       report_.tick();
@@ -102,6 +112,7 @@ class Idler : public stride::Unit {
 
  private:
   static constexpr stride::Duration kLongest = std::chrono::milliseconds(10);
+  static constexpr stride::Duration kMemory = std::chrono::seconds(1);
 
   static stride::Duration seconds(double count) { return stride::duration_from_seconds(count); }
 
@@ -113,6 +124,9 @@ class Idler : public stride::Unit {
     const double elapsed = stride::to_seconds(to - time_);
     level_ = inflow_ + (level_ - inflow_) * std::exp(-rate_ * elapsed);
     slope_ = rate_ * (inflow_ - level_);
+    const bool is_forgotten =
+        promise_ == Promise::Forgets && max_skip().has_value() && to - time_ > kMemory;
+    if (!is_forgotten) age_ += to - time_;
     time_ = to;
   }
 
@@ -130,6 +144,8 @@ class Idler : public stride::Unit {
   Promise promise_ = Promise::Honest;
   stride::Time start_{};
   stride::Time time_{};
+  stride::Duration age_{};
+  double shown_age_ = 0;  // [s]
 };
 
 }  // namespace
