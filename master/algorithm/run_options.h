@@ -107,6 +107,17 @@ struct IdleOptions {
   Duration least{};                       ///< a unit is not suspended for less
 };
 
+/// How often the states are saved that a rollback needs. Changes the speed of a run, not its
+/// results, if units repeat steps exactly.
+struct CheckpointOptions {
+  /// Components whose states are saved before each step.
+  std::vector<std::size_t> each_step{};
+  /// Of the others, between two saves.
+  std::size_t most_steps = 256;
+  /// For tests: always as many, without measuring what saves and steps cost.
+  bool always = false;
+};
+
 struct RunOptions {
   /// Idle skipping requires that outputs are used at communication points only, which excludes
   /// extrapolated inputs and error control.
@@ -125,7 +136,8 @@ struct RunOptions {
   Coupling coupling = Coupling::Jacobi;
   Extrapolation extrapolation = Extrapolation::Hold;
   ThreadOptions threads{};  ///< not with Gauss-Seidel, where units step one after another
-  IdleOptions idle{};       ///< as far as may_skip_idle_time()
+  CheckpointOptions checkpoints{};
+  IdleOptions idle{};                  ///< as far as may_skip_idle_time()
   std::vector<VariableId> recorded{};  ///< the default signals of observers, in order
   std::vector<VariableId> watched{};   ///< further signals that observers may request
   bool measure_time = true;            ///< wall-clock time per unit and phase (TimeSampling)

@@ -294,7 +294,8 @@ class Simulation::Run {
 
   /// The point that the step policy chooses, or the next event if that is earlier.
   Time next_target() {
-    const std::optional<Time> quiet_until = idle_ ? idle_->all_suspended_until() : std::nullopt;
+    const std::optional<Time> quiet_until =
+        idle_ ? idle_->all_suspended_until(time_) : std::nullopt;
     const Time target = quiet_until ? step_policy_->next_while_idle(time_, *quiet_until)
                                     : step_policy_->next(time_);
     return std::min(target, event_handler_.next_event().value_or(target));

@@ -23,14 +23,23 @@ struct HostStatistics {
   std::vector<std::string> missing_protections{};  ///< requested, but not available
 };
 
+/// A unit that was to repeat steps, and has come to another value.
+struct InexactRepetition {
+  Time time{};
+  std::string variable;       ///< empty if the steps ended otherwise
+  std::string first, second;  ///< its value
+};
+
 struct UnitStatistics {
-  std::uint64_t calls = 0;          ///< of its interface functions, where they are counted
-  std::uint64_t steps = 0;          ///< including repeated ones
-  std::uint64_t early_returns = 0;  ///< steps that returned before the target
-  std::uint64_t rejections = 0;     ///< steps that it rejected
-  std::uint64_t rollbacks = 0;      ///< steps of it that were undone, because another unit stopped
-  std::uint64_t saves = 0;          ///< of its state
-  std::uint64_t events = 0;         ///< super-dense instants handled in Event Mode
+  std::uint64_t calls = 0;           ///< of its interface functions, where they are counted
+  std::uint64_t steps = 0;           ///< including repeated ones
+  std::uint64_t early_returns = 0;   ///< steps that returned before the target
+  std::uint64_t rejections = 0;      ///< steps that it rejected
+  std::uint64_t rollbacks = 0;       ///< steps of it that were undone, because another unit stopped
+  std::uint64_t saves = 0;           ///< of its state
+  std::uint64_t repeated_steps = 0;  ///< made to get from a saved state to where it was taken back
+  std::optional<InexactRepetition> inexact_repetition{};  ///< the first one
+  std::uint64_t events = 0;              ///< super-dense instants handled in Event Mode
   std::uint64_t unannounced_events = 0;  ///< at the end of a step that it did not end early
   std::uint64_t suspensions = 0;  ///< times that it was suspended, because it promised to be idle
   Duration suspended_time{};      ///< the simulated time of all of them

@@ -40,6 +40,8 @@ struct StepInterval {
   Time from, to;
   double begin_seconds, end_seconds;
   double size_seconds;  ///< 0 if the ends are the same double
+  /// Whether the unit may be taken back to a state from before `from`.
+  bool may_go_back_before = false;
 };
 
 /// Variables of one type, read or written by one call, and the block that holds their values.

@@ -59,12 +59,13 @@ void Capture::open(const core::System& system, const std::string& system_name,
   files_.push_back({component, std::make_unique<StimuliFile>(request.file, origin)});
 }
 
-void Capture::wrap(std::vector<std::unique_ptr<core::Unit>>& units) {
+void Capture::wrap(std::vector<std::unique_ptr<core::Unit>>& units, core::RunOptions& options) {
   for (File& file : files_) {
     const core::UnitDescription& description = *system_.components()[file.component].description;
     auto captured = std::make_unique<CapturedUnit>(std::move(units[file.component]), description,
                                                    *file.file, index_);
     file.unit = captured.get();
+    options.checkpoints.each_step.push_back(file.component);
     units[file.component] = std::move(captured);
   }
 }

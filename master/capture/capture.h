@@ -32,8 +32,9 @@ class Capture final : public core::Observer {
           const core::RunOptions& options, std::span<const CaptureRequest> requests);
 
   bool is_empty() const { return files_.empty(); }
-  /// Puts a CapturedUnit around each unit that is to be captured; the others stay as they are.
-  void wrap(std::vector<std::unique_ptr<core::Unit>>& units);
+  /// Puts a CapturedUnit around each unit that is to be captured; the others stay as they are. The
+  /// run must save their states before each step: what is committed must not be repeated.
+  void wrap(std::vector<std::unique_ptr<core::Unit>>& units, core::RunOptions& options);
   /// The simulation that the units go into; it must outlive the run only.
   void follow(const core::Simulation& simulation);
 

@@ -165,6 +165,7 @@ void RecordedRun::run() {
   const core::RunEnd end = simulation_.statistics().end;
   progress_.end(name(end));
   warn_of_late_events();
+  warn_of_inexact_repetitions();
   collect_verdicts(end == core::RunEnd::EndedByUnit ||
                    (end == core::RunEnd::Completed && !is_cut_short()));
   as_run_failure([&] {
@@ -253,6 +254,28 @@ void RecordedRun::warn_of_late_events() const {
         "nothing but events ends a step here, so they may be late; <stride:Step maximum=\"…\"/> "
         "(--max-step) ends steps, or says with a long one that this is meant",
         system.components()[i].name, units[i].unannounced_events);
+  }
+}
+
+/// What follows from such a unit's rollback is not what it would be had its state been saved there.
+void RecordedRun::warn_of_inexact_repetitions() const {
+  const core::System& system = setup_.loaded.system();
+  const std::span<const core::UnitStatistics> units = simulation_.statistics().units;
+  for (std::size_t i = 0; i < units.size(); ++i) {
+    if (!units[i].inexact_repetition) continue;
+    const core::InexactRepetition& seen = *units[i].inexact_repetition;
+    const std::string& name = system.components()[i].name;
+    spdlog::warn(
+        "unit '{}' does not make the same step twice: when it was taken back, it repeated the "
+        "steps "
+        "since its state had been saved, and at {} s {}; its state was saved before each step from "
+        "then on; <stride:StateSaving components=\"{}\" eachStep=\"true\"/> does so from the "
+        "beginning",
+        name, core::to_text(seen.time),
+        seen.variable.empty() ? "a step ended otherwise"
+                              : fmt::format("'{}' became {} where it had been {}", seen.variable,
+                                            seen.second, seen.first),
+        name);
   }
 }
 

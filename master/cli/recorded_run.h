@@ -99,6 +99,7 @@ class RecordedRun {
   void require_end() const;
   void warn_of_verdicts() const;
   void warn_of_late_events() const;
+  void warn_of_inexact_repetitions() const;
   bool is_cut_short() const;
 
   const RunSetup setup_;

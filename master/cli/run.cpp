@@ -178,12 +178,12 @@ void run(const RunArguments& arguments, Records& records, CrashGuard& guard) {
   records.results = {folder, files};
   const std::vector<std::string> components = loaded.component_names();
   recorders::clean_unit_folders(folder, components);
-  const core::RunOptions options = run_options(arguments, loaded);
+  core::RunOptions options = run_options(arguments, loaded);
   capture::Capture capture(loaded.system(), loaded.scenario().name, options, captures(arguments));
   const recorders::UnitFolders unit_folders(folder, components);
   const EndOfUnits end{loaded.process()};
   auto units = loaded.instantiate(folder, &Interruption::flag());
-  capture.wrap(units);
+  capture.wrap(units, options);
   const RunDisplay display{progress_style(arguments), arguments.quiet, arguments.open};
   Recorders recorders(loaded.system(), *records.results);
   RecordedRun recorded(

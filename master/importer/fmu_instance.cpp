@@ -321,7 +321,8 @@ void FmuInstance::receive(Status status, const char* category, const char* messa
         }
       }
     }
-    if (options_.log) options_.log(name_, status, category != nullptr ? category : "", text);
+    if (is_repeating_ || !options_.log) return;
+    options_.log(name_, status, category != nullptr ? category : "", text);
   } catch (...) {  // nothing may cross the unit's C code
   }
 }
@@ -341,7 +342,7 @@ void FmuInstance::log_held() {
     const std::lock_guard lock(messages_mutex_);
     held = std::exchange(held_, {});
   }
-  if (!options_.log) return;
+  if (is_repeating_ || !options_.log) return;
   for (const HeldMessage& message : held) {
     options_.log(name_, Status::Error, message.category, message.text);
   }

@@ -308,6 +308,7 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics, public Call
   std::uint64_t calls_ = 0;
   PresentCall present_;
   bool was_restored_ = false;  ///< from a kept state, and no step has ended since
+  bool is_repeating_ = false;  ///< what it logs has been logged before
   bool is_in_sequence_ = false;
   bool is_fork_ = false;   ///< the present function has made this process, by fork()
   int watched_calls_ = 0;  ///< so many of the next ones are followed by restore_process()

@@ -156,6 +156,7 @@ void HostClient::finish() {
 
 void HostClient::take_lines() {
   log_.read([&](LogMessage&& message) {
+    if (is_repeating_) return;
     output_tail_.add_logged(message.text);
     log(message.status, message.category, message.text);
   });
@@ -164,6 +165,7 @@ void HostClient::take_lines() {
 }
 
 void HostClient::log_printed(std::string_view line) {
+  if (is_repeating_) return;
   output_tail_.add_printed(line);
   log(importer::Status::Ok, kPrinted, std::string(line));
 }

@@ -33,6 +33,8 @@ class HostClient {
   /// The reply, until the next packet is written.
   PacketReader read();
 
+  /// What the unit logs and prints while it repeats steps is not logged again.
+  void set_repeating(bool repeating) { is_repeating_ = repeating; }
   /// Logs something about the unit.
   void log(importer::Status status, const std::string& category,
            const std::string& text) const noexcept;
@@ -68,6 +70,7 @@ class HostClient {
   HostProcess process_;
   Waiter waiter_;
   std::uint32_t number_ = 0;  ///< of the latest request
+  bool is_repeating_ = false;
   LogReader log_;
   PrintedLines printed_;
   OutputTail output_tail_;

@@ -55,6 +55,7 @@ class UnitProxy final
   void save_state() override;
   void restore_state() override;
   void select_state(std::size_t slot) override;
+  void set_repeating(bool repeating) override { client_->set_repeating(repeating); }
   std::vector<std::uint8_t> serialize_state() override;
   void deserialize_state(std::span<const std::uint8_t> bytes) override;
   void reset() override;

@@ -45,6 +45,7 @@ void add(Json& entry, const core::UnitStatistics& unit) {
   entry["rejections"] = unit.rejections;
   entry["rollbacks"] = unit.rollbacks;
   entry["saves"] = unit.saves;
+  entry["repeated_steps"] = unit.repeated_steps;
   entry["events"] = unit.events;
   entry["messages_sent"] = unit.messages_sent;
   entry["messages_received"] = unit.messages_received;

@@ -142,6 +142,20 @@ void read_permission(const xml::Element& element, std::vector<PermissionRule>& r
   for (auto& pattern : read_components(element)) rules.push_back({pattern, allowed});
 }
 
+void read_state_saving(const xml::Element& element, ScenarioAnnotation& annotation) {
+  element.allow_attributes({"components", "allowed", "eachStep"});
+  element.allow_children({});
+  if (!element.attribute("eachStep")) element.required("allowed");
+  for (auto& pattern : read_components(element)) {
+    if (element.attribute("allowed")) {
+      annotation.state_saving.push_back({pattern, element.flag("allowed", true)});
+    }
+    if (element.attribute("eachStep")) {
+      annotation.repeated_steps.push_back({pattern, !element.flag("eachStep", false)});
+    }
+  }
+}
+
 void read_host(const xml::Element& element, HostRules& hosts) {
   element.allow_attributes(
       {"components", "process", "timeout", "memoryLimit", "sandbox", "snapshots"});
@@ -238,8 +252,7 @@ constexpr ScenarioElement kElements[] = {
     {"MainThread", true, read_main_thread},
     {"EarlyReturn", true,
      [](const auto& element, auto& to) { read_permission(element, to.early_return); }},
-    {"StateSaving", true,
-     [](const auto& element, auto& to) { read_permission(element, to.state_saving); }},
+    {"StateSaving", true, read_state_saving},
     {"Host", true, [](const auto& element, auto& to) { read_host(element, to.hosts); }},
     {"IdleSkip", true, [](const auto& element, auto& to) { read_idle_skip(element, to.idle); }},
     {"Deadband", true,

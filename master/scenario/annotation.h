@@ -45,6 +45,8 @@ struct ScenarioAnnotation {
   std::vector<ComponentPattern> main_thread;  ///< stepped on the simulation's own thread only
   std::vector<PermissionRule> early_return;   ///< from steps; without one: allowed
   std::vector<PermissionRule> state_saving;   ///< by their own functions; without one: allowed
+  /// To save the state before some steps only, and to repeat those in between; likewise.
+  std::vector<PermissionRule> repeated_steps;
   HostRules hosts;
   IdleSettings idle;
   std::vector<TerminalConnection> terminals;

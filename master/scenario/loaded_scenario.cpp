@@ -144,6 +144,7 @@ LoadedScenario::LoadedScenario(const ScenarioRequest& request)
   if (request.idle_twins) add_twins();
   choose_early_returns();
   choose_state_saving();
+  choose_checkpoints();
   system_.emplace(scenario_.system);
   for (const auto& warnings : {scenario_.warnings, system_->warnings()}) {
     for (const std::string& warning : warnings) spdlog::warn("{}", core::message_text(warning));
@@ -236,6 +237,13 @@ void LoadedScenario::choose_state_saving() {
     auto without = std::make_shared<core::UnitDescription>(*description);
     without->can_save_state = without->can_serialize_state = false;
     description = std::move(without);
+  }
+}
+
+void LoadedScenario::choose_checkpoints() {
+  const std::vector<bool> repeats = permissions(scenario_.annotation.repeated_steps);
+  for (std::size_t i = 0; i < repeats.size(); ++i) {
+    if (!repeats[i]) options_.checkpoints.each_step.push_back(i);
   }
 }
 

@@ -82,6 +82,7 @@ class LoadedScenario {
   std::vector<std::string> selection_names() const;
   void choose_early_returns();
   void choose_state_saving();
+  void choose_checkpoints();
   std::vector<bool> permissions(std::span<const PermissionRule> rules) const;
   void choose_times(const ScenarioRequest& request);
   void choose_steps(const StepSettings& request);

@@ -192,6 +192,8 @@ core::RunOptions fixed_steps(Duration step, Time stop) {
   options.step.size = step;
   options.stop = stop;
   options.measure_time = false;
+  // not by measured costs, so that two runs save and repeat alike
+  options.checkpoints = {.most_steps = 5, .always = true};
   return options;
 }
 
@@ -206,7 +208,7 @@ Results run(const Assembly& assembly, core::RunOptions options,
   ValueRecorder values(system, results);
   capture::Capture capture(system, "assembly", options, captures);
   auto units = assembly.instantiate();
-  capture.wrap(units);
+  capture.wrap(units, options);
   core::Simulation simulation(system, std::move(units), options);
   capture.follow(simulation);
   for (core::Observer* observer :

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <string>
 #include <utility>
 
@@ -22,6 +23,7 @@ IdleScheduler::IdleScheduler(RunContext& context)
   for (std::size_t i = 0; i < units_.size(); ++i) {
     if (const auto longest = options_.longest_suspension(system_, i)) add_candidate(i, *longest);
   }
+  find_sources();
 }
 
 void IdleScheduler::add_candidate(std::size_t component, Duration max_skip) {
@@ -44,6 +46,27 @@ void IdleScheduler::add_candidate(std::size_t component, Duration max_skip) {
   state.slopes.resize(elements);
 }
 
+/// Where all units are suspended, nothing but tangents moves their inputs.
+void IdleScheduler::find_sources() {
+  std::map<ValueSlice, const Tangent*> tangents;
+  for (const std::size_t i : candidates_) {
+    for (const Tangent& tangent : states_[i].tangents) tangents.emplace(tangent.element, &tangent);
+  }
+  std::map<ValueSlice, const ContinuousLink*> links;  // by target
+  const std::vector<ContinuousLink> all = exchange_.continuous_links();
+  for (const ContinuousLink& link : all) links.emplace(link.target, &link);
+  for (const std::size_t i : candidates_) {
+    for (WatchedInput& input : states_[i].inputs) {
+      const auto link = links.find(input.element);
+      if (link == links.end()) continue;
+      const auto tangent = tangents.find(link->second->source);
+      if (tangent == tangents.end()) continue;
+      input.source = tangent->second;
+      input.factor = link->second->conversion.factor;
+    }
+  }
+}
+
 void IdleScheduler::enable() {
   for (const std::size_t i : candidates_) {
     states_[i].promises->enable_idle_skipping(states_[i].max_skip);
@@ -55,14 +78,29 @@ void IdleScheduler::enable() {
   }
 }
 
-std::optional<Time> IdleScheduler::all_suspended_until() const {
+std::optional<Time> IdleScheduler::all_suspended_until(Time time) const {
   if (candidates_.size() != states_.size()) return std::nullopt;
   Time earliest = Time::max();
   for (const IdleState& state : states_) {
     if (!state.is_suspended) return std::nullopt;
     earliest = std::min(earliest, state.end);
+    for (const WatchedInput& input : state.inputs) {
+      if (input.source != nullptr) earliest = std::min(earliest, leaves_deadband(input, time));
+    }
   }
   return earliest;
+}
+
+/// The last instant at which the input is within its deadband, if its source goes on as it does.
+Time IdleScheduler::leaves_deadband(const WatchedInput& input, Time time) {
+  const double rate = input.factor * input.source->slope;
+  if (rate == 0) return Time::max();
+  const double deviation = real(input.element) - input.held;
+  const double room = input.deadband - (rate > 0 ? deviation : -deviation);
+  const double seconds = room / std::abs(rate);
+  if (!(seconds > 0)) return time;
+  return seconds < to_seconds(Time::max() - time) ? time + duration_from_seconds(seconds)
+                                                  : Time::max();
 }
 
 Duration IdleScheduler::suspended_time(Time time) const {

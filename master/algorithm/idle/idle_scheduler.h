@@ -37,8 +37,10 @@ class IdleScheduler {
   bool is_suspended(std::size_t component) const { return states_[component].is_suspended; }
   /// Whether the unit, which is suspended, can stay so up to this time.
   bool covers(std::size_t component, Time time) const { return time <= states_[component].end; }
-  /// Up to when no unit has to be called; nothing where a unit is not suspended.
-  std::optional<Time> all_suspended_until() const;
+  /// Up to when no unit has to be called: until a suspension ends, or the tangent of an output
+  /// takes an input out of its deadband. Nothing where a unit is not suspended. `time`: the current
+  /// communication point, with all values exchanged.
+  std::optional<Time> all_suspended_until(Time time) const;
 
   /// The simulated time of all suspensions up to `time`, the current communication point, including
   /// those that last.
@@ -68,15 +70,17 @@ class IdleScheduler {
   void report_unfinished(Time time);
 
  private:
-  struct WatchedInput {
-    ValueSlice element;
-    double deadband = 0;
-    double held = 0;  ///< its value when the unit was suspended
-  };
   struct Tangent {
     ValueSlice element;
     double value = 0;
     double slope = 0;
+  };
+  struct WatchedInput {
+    ValueSlice element;
+    double deadband = 0;
+    double held = 0;                  ///< its value when the unit was suspended
+    const Tangent* source = nullptr;  ///< of the output that feeds it, if that has one
+    double factor = 1;                ///< of the connection
   };
   struct IdleState {
     bool is_candidate = false;
@@ -94,6 +98,8 @@ class IdleScheduler {
   };
 
   void add_candidate(std::size_t component, Duration max_skip);
+  void find_sources();
+  static Time leaves_deadband(const WatchedInput& input, Time time);
   void suspend(std::size_t component, Time time, Time until, Time end);
   bool is_disturbed(const IdleState& state) const;
   void check_promise(std::size_t component, Time time, const StepResult& result) const;

@@ -40,7 +40,7 @@ Stepper::Stepper(RunContext& context, InputExtrapolator* inputs, IdleScheduler* 
       has_grid_(context.options.step.policy->has_grid),
       stop_(context.options.stop),
       minimum_(context.options.step.minimum),
-      order_(step_order(system_, *context.options.step.policy, context.options.coupling)),
+      order_(context.step_order),
       index_of_(unit_count_),
       times_(unit_count_),
       failures_(unit_count_),
@@ -197,7 +197,7 @@ inline Stepper::Outcome Stepper::attempt_timed(UnitStep& unit_step, const StepIn
 }
 
 inline Stepper::Outcome Stepper::attempt(UnitStep& unit_step, const StepInterval& interval) {
-  unit_step.saved = unit_step.rolled_back = false;
+  unit_step.rolled_back = false;
   if (unit_step.may_suspend && stays_suspended(unit_step, interval)) return Outcome::Idle;
   if (unit_step.communication_step != communication_step_) [[likely]] {
     unit_step.communication_step = communication_step_;
@@ -240,7 +240,6 @@ bool Stepper::stays_suspended(UnitStep& unit_step, const StepInterval& interval)
 void Stepper::save(UnitStep& unit_step) {
   exchange_.write_routed_inputs(unit_step.component, *unit_step.unit);
   unit_step.state->save_state();
-  unit_step.saved = true;
 }
 
 void Stepper::roll_back(UnitStep& unit_step, const StepInterval& interval) {
@@ -259,12 +258,9 @@ void Stepper::restore(UnitStep& unit_step, Time from) {
 /// Counts the outcome, and returns up to which time the other units may go.
 inline Time Stepper::record(UnitStep& unit_step, const StepInterval& interval) {
   if (unit_step.may_suspend) idle_->report_suspension(unit_step.component);
-  if (unit_step.saves_state) {
-    UnitStatistics& statistics = statistics_[unit_step.component];
-    statistics.saves += unit_step.saved;
-    statistics.rollbacks += unit_step.rolled_back;
-    if (unit_step.rolled_back)
-      report(unit_step, Activity::Kind::Undone, interval.from, unit_step.undone);
+  if (unit_step.rolled_back) {
+    ++statistics_[unit_step.component].rollbacks;
+    report(unit_step, Activity::Kind::Undone, interval.from, unit_step.undone);
   }
   if (step_clock_.measures()) record_time(unit_step);
   switch (unit_step.outcome) {

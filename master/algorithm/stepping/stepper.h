@@ -33,11 +33,9 @@ namespace stride::core {
 class Stepper {
  public:
   /// All must outlive this object. `inputs` sets the inputs before each step; null if they keep
-  /// their values. `idle`: optional idle scheduler. Throws Error as step_order() does.
+  /// their values. `idle`: optional idle scheduler.
   explicit Stepper(RunContext& context, InputExtrapolator* inputs = nullptr,
                    IdleScheduler* idle = nullptr);
-
-  const std::vector<StepOrderEntry>& order() const { return order_; }
 
   /// Takes all units from `from` to `target`, or to the earlier instant, returned, at which one of
   /// them stopped, and reads their outputs. Throws Error (Run) naming the unit: a step shorter
@@ -83,7 +81,6 @@ class Stepper {
     std::uint64_t communication_step = 0;  ///< the last one that it has begun
     std::uint64_t steps = 0;
     Outcome outcome = Outcome::Idle;  ///< of the present pass, as the flags behind it
-    bool saved = false;
     bool rolled_back = false;
     Time undone{};                 ///< the time that it had reached before
     std::uint32_t rejections = 0;  ///< in the present communication step
@@ -145,7 +142,7 @@ class Stepper {
   bool has_grid_;     ///< whether other units' regular steps have it, too
   Time stop_;         ///< of the run
   Duration minimum_;  ///< no shorter step is tried after a rejection
-  std::vector<StepOrderEntry> order_;
+  const std::vector<StepOrderEntry>& order_;
   std::vector<UnitStep> unit_steps_;             ///< in that order
   std::vector<std::span<UnitStep>> stages_;      ///< of them
   std::vector<std::size_t> index_of_;            ///< by component

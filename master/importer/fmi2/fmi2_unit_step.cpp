@@ -17,7 +17,7 @@ constexpr const char* kFmi2LastSuccessfulTime = "fmi2LastSuccessfulTime";
 Status Fmi2Unit::do_step(const core::StepInterval& interval, double size) {
   if (callbacks_.stepFinished != nullptr) asynchronous_.begin();
   // noSetFMUStatePriorToCurrentPoint
-  const fmi2Boolean never_goes_back = options_.may_go_back ? fmi2False : fmi2True;
+  const fmi2Boolean never_goes_back = !(options_.may_go_back || interval.may_go_back_before);
   const Status status =
       call_discardable("fmi2DoStep", fmi_.DoStep, interval.begin_seconds, size, never_goes_back);
   return status == Status::Pending ? wait_for_step() : status;

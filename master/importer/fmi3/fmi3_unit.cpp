@@ -245,7 +245,8 @@ core::StepResult Fmi3Unit::step(const core::StepInterval& interval,
   bool early = false;
   double last_successful = interval.end_seconds;
   step_point_ = interval.begin_seconds;
-  const fmi3Boolean never_goes_back = !options_.may_go_back;  // noSetFMUStatePriorToCurrentPoint
+  // noSetFMUStatePriorToCurrentPoint
+  const fmi3Boolean never_goes_back = !(options_.may_go_back || interval.may_go_back_before);
   const Status status =
       call_discardable("fmi3DoStep", fmi_.DoStep, interval.begin_seconds, size, never_goes_back,
                        &event_handling_needed, &terminate, &early, &last_successful);

@@ -56,6 +56,9 @@ struct Trace : Observer {
   }
 };
 
+/// Not by measured costs, so that two runs save and repeat alike.
+const CheckpointOptions kCheckpoints{.most_steps = 5, .always = true};
+
 /// y' = u - sin(y), in one explicit step: other steps and other inputs give other bits.
 void advance(ScriptedUnit& unit, Duration size) {
   unit.number(1) += to_seconds(size) * (unit.number(0) - std::sin(unit.number(1)) + 1);
@@ -129,6 +132,7 @@ std::vector<VariableId> all_outputs(const ScriptedSystem& system) {
 Trace run_random(unsigned seed, ThreadOptions threads) {
   ScriptedSystem system;
   make_random_system(system, seed);
+  system.options.checkpoints = kCheckpoints;
   system.options.extrapolation = kExtrapolations[seed % kExtrapolations.size()];
   system.options.threads = std::move(threads);
   Trace trace;
@@ -180,6 +184,7 @@ TEST_CASE("with Gauss-Seidel or an error-controlled step the bits are the same, 
     system.wire("c", "y", "a", "u");
     system.options.coupling = coupling;
     system.options.step.policy = &kErrorControlledSteps;
+    system.options.checkpoints = kCheckpoints;
     system.options.threads = std::move(threads);
     Trace trace;
     system.build(0.5, 1ms, all_outputs(system)).add_observer(trace);

@@ -55,8 +55,26 @@ TEST_CASE("run.json has what was run and how far the run came") {
   statistics.phases = {10ms, 200ms, 30ms, 5ms};
   statistics.phase_uncertainties.steps = 10ms;
   statistics.units = {
-      {71'000, 14'200, 5, 3, 8, 14'190, 2, 0, 4, 2500ms, 1000ms, 1, 0, 1ms, 2ms, 3ms, 500us},
-      {0, 14'201, 0, 0, 0, 0, 0, 0, 0, {}, {}, 0, 1, 0ms, 0ms, 0ms},
+      {71'000,
+       14'200,
+       5,
+       3,
+       8,
+       14'190,
+       12,
+       {},
+       2,
+       0,
+       4,
+       2500ms,
+       1000ms,
+       1,
+       0,
+       1ms,
+       2ms,
+       3ms,
+       500us},
+      {0, 14'201, 0, 0, 0, 0, 0, {}, 0, 0, 0, {}, {}, 0, 1, 0ms, 0ms, 0ms},
   };
   core::HostStatistics& host = statistics.units[1].host.emplace();
   host.most_memory = 4096;
@@ -128,6 +146,7 @@ TEST_CASE("run.json has what was run and how far the run came") {
       "rejections": 3,
       "rollbacks": 8,
       "saves": 14190,
+      "repeated_steps": 12,
       "events": 2,
       "messages_sent": 1,
       "messages_received": 0,
@@ -154,6 +173,7 @@ TEST_CASE("run.json has what was run and how far the run came") {
       "rejections": 0,
       "rollbacks": 0,
       "saves": 0,
+      "repeated_steps": 0,
       "events": 0,
       "messages_sent": 0,
       "messages_received": 1,

@@ -56,6 +56,7 @@ TEST_CASE("All elements and attributes of the annotation") {
                                    "<stride:EarlyReturn components='* x' allowed='false'/>"
                                    "<stride:EarlyReturn components='a' allowed='true'/>"
                                    "<stride:StateSaving components='a' allowed='false'/>"
+                                   "<stride:StateSaving components='b c' eachStep='true'/>"
                                    "<stride:Host components='a x.*' timeout='0.5'/>\n"
                                    "<stride:Host components='b' process='true' "
                                    "memoryLimit='512' sandbox='false' snapshots='false'/>"
@@ -112,6 +113,11 @@ TEST_CASE("All elements and attributes of the annotation") {
   CHECK(annotation.idle.deadbands.at(0).variable == "a.u");
   CHECK(annotation.idle.tolerances.at(0).value == 1e-3);
   CHECK(annotation.early_return[2].components.where.line == 5);
+  REQUIRE(annotation.state_saving.size() == 1);
+  CHECK_FALSE(annotation.state_saving[0].allowed);
+  REQUIRE(annotation.repeated_steps.size() == 2);
+  CHECK(annotation.repeated_steps[1].components.text == "c");
+  CHECK_FALSE(annotation.repeated_steps[1].allowed);
   CHECK(annotation.early_return[2].allowed);
   CHECK(annotation.results.signals == "s.csv");
   CHECK(annotation.results.events.empty());

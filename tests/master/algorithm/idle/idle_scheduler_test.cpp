@@ -239,6 +239,34 @@ TEST_CASE("when all units are suspended the run makes one step, to a point of th
   CHECK(points.times == std::vector<Time>{at(0), at(2), at(3), at(5), at(6), at(7), at(8), at(9)});
 }
 
+TEST_CASE("when all units are suspended no tangent takes an input out of its deadband unseen") {
+  const bool is_converted = GENERATE(false, true);
+  ScriptedSystem f;
+  const double deadband = is_converted ? 25.0 : 0.025;
+  auto feeds = Integrator::description();
+  auto follows = Integrator::description(deadband);
+  if (is_converted) {
+    feeds = Describe("feeds").input("u").output("y", "m").tolerance(1e-6).event_mode();
+    feeds.unit("m", {.exponents = {0, 1}, .factor = 1}).promises_idle();
+    follows = Describe("follows").input("u", "mm").deadband(deadband).output("y").tolerance(1e-6);
+    follows.unit("mm", {.exponents = {0, 1}, .factor = 1e-3}).event_mode().promises_idle();
+  }
+  Integrator a(f.add("a", feeds.done()));
+  Integrator b(f.add("b", follows.done()));
+  f.wire("a", "y", "b", "u");
+  f.options.idle.max_skip = {Duration::max(), Duration::max()};
+  a.unit->number(0) = -1;
+  const auto times = points(f, 0.1, 10ms);
+  REQUIRE(b.steps.size() >= 3);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double held = -0.03 * static_cast<double>(i);
+    CHECK(b.steps[i].from == at(0.03 * static_cast<double>(i)));
+    CHECK(b.steps[i].to == at(0.03 * static_cast<double>(i + 1)));
+    CHECK(b.steps[i].input == Approx(is_converted ? 1e3 * held : held).margin(1e-12));
+  }
+  CHECK(times.size() < 9);  // it still goes on to where the deadband ends
+}
+
 TEST_CASE("when all units are suspended no step is longer than the maximum") {
   IdleSystem f;
   f.integrator("a");

@@ -558,6 +558,17 @@ TEST_CASE("a warning is logged and the step is accepted") {
   CHECK(logged == std::vector<std::string>{"warning/1/logStatusWarning/it gets hot"});
 }
 
+TEST_CASE("what a unit logs in steps that it repeats is not logged again") {
+  int logged = 0;
+  Raw raw("warning", {.log = [&](auto&&...) { ++logged; }});
+  state(*raw.unit).set_repeating(true);
+  raw.unit->step({{}, Time(1ms)});
+  CHECK(logged == 0);
+  state(*raw.unit).set_repeating(false);
+  raw.unit->step({Time(1ms), Time(2ms)});
+  CHECK(logged == 1);
+}
+
 TEST_CASE("an exception of a log sink has no effect") {
   Raw raw("warning", {.log = [](auto&&...) { throw std::runtime_error("the disk is full"); }});
   CHECK_NOTHROW(raw.unit->step({{}, Time(1ms)}));

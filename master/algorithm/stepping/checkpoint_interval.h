@@ -1,0 +1,64 @@
+// How many steps a unit makes between two saves of its state.
+#ifndef STRIDE_MASTER_ALGORITHM_STEPPING_CHECKPOINT_INTERVAL_H
+#define STRIDE_MASTER_ALGORITHM_STEPPING_CHECKPOINT_INTERVAL_H
+
+#include <algorithm>
+#include <chrono>
+#include <cstddef>
+
+namespace stride::core {
+
+/// A rollback behind k steps since the last save repeats up to k - 1 of them, on average (k - 1)/2.
+/// With s the cost of a save, c that of a step and p the share of the steps that are rolled back,
+/// s/k + p c (k - 1)/2 per step is least at k = sqrt(2 s / (p c)), the first-order optimum of
+/// J. W. Young, "A first order approximation to the optimum checkpoint interval", 1974; for states
+/// that are saved periodically in optimistic simulation see Y.-B. Lin and E. D. Lazowska, 1990. The
+/// costs are wall-clock times of a sample, p is what has happened lately. A save that costs no more
+/// than to note what the unit is given is made before each step.
+class CheckpointInterval {
+ public:
+  using Cost = std::chrono::nanoseconds;
+
+  /// `most`: no interval is longer [steps]. `adapts`: begins with 1; otherwise it is always `most`.
+  CheckpointInterval(std::size_t most, bool adapts);
+
+  /// A save begins a stretch of at most as many steps as are returned.
+  std::size_t begin_stretch() {
+    is_measured_ = adapts_ && ++stretches_ % kMeasured == 0;
+    if (is_measured_) [[unlikely]]
+      choose();
+    return chosen_;
+  }
+  /// Whether that save, and the first step of the stretch, are to be measured.
+  bool is_measured() const { return is_measured_; }
+  void add_costs(Cost save, Cost step);
+
+  void count_step() { ++steps_; }
+  void count_rollback() { ++rollbacks_; }
+
+  /// No interval is longer from now on.
+  void limit(std::size_t most) {
+    most_ = std::clamp<std::size_t>(most, 1, most_);
+    chosen_ = std::min(chosen_, most_);
+  }
+  std::size_t most() const { return most_; }
+
+ private:
+  /// One stretch of so many is measured.
+  static constexpr std::size_t kMeasured = 16;
+
+  void choose();
+  double best() const;
+
+  std::size_t most_;
+  bool adapts_;
+  bool is_measured_ = false;
+  std::size_t chosen_;
+  std::size_t stretches_ = 0;
+  double save_cost_ = 0, step_cost_ = 0;   ///< moving averages [ns]; 0 = not measured yet
+  std::size_t steps_ = 0, rollbacks_ = 0;  ///< lately
+};
+
+}  // namespace stride::core
+
+#endif

@@ -1,0 +1,164 @@
+#include "master/algorithm/stepping/coasting_unit.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+#include "master/util/wall_clock.h"
+
+namespace stride::core {
+namespace {
+
+/// Of a unit's log.
+constexpr std::size_t kMostBytes = std::size_t{64} << 10;
+
+}  // namespace
+
+CoastingUnit::CoastingUnit(std::unique_ptr<Unit> unit, const UnitDescription& description,
+                           CheckpointInterval interval, UnitStatistics& statistics)
+    : ForwardingUnit(std::move(unit)),
+      state_(inner().require_capability<StateSaving>()),
+      description_(description),
+      statistics_(statistics),
+      interval_(interval) {}
+
+Capability* CoastingUnit::find_capability(CapabilityId id) {
+  return find_decorated<StateSaving>(*this, id);
+}
+
+void CoastingUnit::select_state(std::size_t) {
+  throw std::logic_error("this kind of unit keeps one state only");
+}
+
+// ---- What the unit is given ----
+
+void CoastingUnit::set(std::span<const ValueReference> references, const ValueBlock& values) {
+  inner().set(references, values);
+  is_continuous_ = is_continuous_ && !is_in_step_ && StepLog::can_add(values);
+  if (is_continuous_) log_.add_inputs(references, values);
+}
+
+bool CoastingUnit::can_log(const StepValues& values) const {
+  return is_continuous_ && std::ranges::all_of(values.inputs, [](const BoundValues& input) {
+           return StepLog::can_add(*input.block);
+         });
+}
+
+StepResult CoastingUnit::step(const StepInterval& interval, const StepValues& values) {
+  interval_.count_step();
+  if (!is_continuous_ && !is_measured_) [[likely]]
+    return inner().step(interval, values);
+  is_continuous_ = can_log(values);
+  if (!is_continuous_) return make_step(interval, values);
+  for (const BoundValues& input : values.inputs) log_.add_inputs(input.references, *input.block);
+  StepInterval noted = interval;
+  noted.may_go_back_before = log_.steps() > 0;
+  const StepResult result = make_step(noted, values);
+  if (result.rejected || !is_continuous_) return result;
+  log_.add_step(noted, values.outputs, result);
+  keep_outputs(values.outputs);
+  return result;
+}
+
+StepResult CoastingUnit::make_step(const StepInterval& interval, const StepValues& values) {
+  is_in_step_ = true;
+  const bool is_measured = std::exchange(is_measured_, false);
+  const auto began = is_measured ? WallClock::Source::now() : WallClock::Source::time_point();
+  const StepResult result = inner().step(interval, values);
+  if (is_measured) interval_.add_costs(save_cost_, WallClock::Source::now() - began);
+  is_in_step_ = false;
+  return result;
+}
+
+void CoastingUnit::enter_event_mode() {
+  is_continuous_ = false;
+  inner().enter_event_mode();
+}
+
+// ---- Its states ----
+
+void CoastingUnit::save_state() {
+  if (!is_continuous_ || log_.steps() >= stretch_) return begin_stretch();
+  if (log_.steps() > mark_.steps) std::swap(at_mark_, latest_);
+  mark_ = log_.mark();
+}
+
+void CoastingUnit::begin_stretch() {
+  if (!is_log_bounded_ && log_.steps() > 0) bound_log();
+  stretch_ = interval_.begin_stretch();
+  save_measured();
+  ++statistics_.saves;
+  if (!log_.is_empty()) log_.clear();
+  mark_ = {};
+  is_continuous_ = stretch_ > 1;
+}
+
+void CoastingUnit::save_measured() {
+  is_measured_ = interval_.is_measured();
+  if (!is_measured_) return state_.save_state();
+  const auto began = WallClock::Source::now();
+  state_.save_state();
+  save_cost_ = WallClock::Source::now() - began;
+}
+
+/// From the first steps in it follows what it can be: later ones allocate nothing.
+void CoastingUnit::bound_log() {
+  is_log_bounded_ = true;
+  interval_.limit(kMostBytes * log_.steps() / log_.size());
+  log_.reserve(interval_.most() / log_.steps() + 1);
+}
+
+/// Inputs that were set since the state was saved are a part of what is restored.
+void CoastingUnit::restore_state() {
+  interval_.count_rollback();
+  state_.restore_state();
+  log_.cut(mark_);
+  is_continuous_ = stretch_ > 1;
+  if (log_.steps() == 0) return log_.set_inputs(inner());
+  state_.set_repeating(true);
+  repeat();
+  state_.set_repeating(false);
+  begin_stretch();
+}
+
+void CoastingUnit::repeat() {
+  const bool is_same = log_.repeat(inner(), [&] { compare_outputs(); });
+  statistics_.repeated_steps += log_.steps();
+  if (!is_same && !statistics_.inexact_repetition) {
+    statistics_.inexact_repetition = {log_.end(), "", "", ""};
+  }
+  if (statistics_.inexact_repetition) interval_.limit(1);
+}
+
+void CoastingUnit::keep_outputs(std::span<const BoundValues> outputs) {
+  latest_.read = outputs;
+  latest_.values.resize(outputs.size(), ValueBlock(ValueType::Float64, 0));
+  for (std::size_t i = 0; i < outputs.size(); ++i) latest_.values[i] = *outputs[i].block;
+}
+
+void CoastingUnit::compare_outputs() {
+  for (std::size_t i = 0; i < at_mark_.read.size() && !statistics_.inexact_repetition; ++i) {
+    const ValueBlock& before = at_mark_.values[i];
+    if (before == *at_mark_.read[i].block) continue;
+    for (std::size_t k = 0; k < before.size(); ++k) {
+      if (is_same(before, k, *at_mark_.read[i].block, k)) continue;
+      note_difference(at_mark_.read[i], k, before);
+      break;
+    }
+  }
+}
+
+void CoastingUnit::note_difference(const BoundValues& output, std::size_t element,
+                                   const ValueBlock& before) {
+  std::size_t end = 0;
+  for (const ValueReference reference : output.references) {
+    const Variable& variable = description_.variables[*description_.find(reference)];
+    end += variable.size;
+    if (element >= end) continue;
+    statistics_.inexact_repetition = {log_.end(), variable.name, element_text(before, element),
+                                      element_text(*output.block, element)};
+    return;
+  }
+}
+
+}  // namespace stride::core

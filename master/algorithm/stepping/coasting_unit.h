@@ -1,0 +1,83 @@
+// A unit that goes back to where its state was not saved.
+#ifndef STRIDE_MASTER_ALGORITHM_STEPPING_COASTING_UNIT_H
+#define STRIDE_MASTER_ALGORITHM_STEPPING_COASTING_UNIT_H
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "master/algorithm/capabilities/state_saving.h"
+#include "master/algorithm/forwarding_unit.h"
+#include "master/algorithm/statistics.h"
+#include "master/algorithm/stepping/checkpoint_interval.h"
+#include "master/algorithm/stepping/step_log.h"
+
+namespace stride::core {
+
+/// Saves the state of its unit before some of the steps only, and notes in between what the unit is
+/// given. restore_state() restores the last state that was saved, and makes the unit repeat the
+/// steps up to the last save_state(): it coasts forward, as optimistic parallel simulation calls
+/// it. For units that do the same again where they are given the same.
+///
+/// Events end a stretch, as do messages, inputs of the types String and Binary and those that the
+/// unit requests within a step: the next save_state() then saves the state. So does the first one
+/// behind a rollback, since it may be followed by others.
+///
+/// If the unit does not repeat its outputs bit for bit, that is noted in the statistics, and its
+/// state is saved before each step from then on.
+class CoastingUnit : public ForwardingUnit, public StateSaving {
+ public:
+  /// `unit` has the capability StateSaving. The others must outlive this object.
+  CoastingUnit(std::unique_ptr<Unit> unit, const UnitDescription& description,
+               CheckpointInterval interval, UnitStatistics& statistics);
+
+  void set(std::span<const ValueReference> references, const ValueBlock& values) override;
+  StepResult step(const StepInterval& interval) override { return step(interval, StepValues{}); }
+  /// `values.outputs` must stay what and where they are until the next save of the state.
+  StepResult step(const StepInterval& interval, const StepValues& values) override;
+  void enter_event_mode() override;
+
+  void save_state() override;
+  void restore_state() override;
+  /// Throws std::logic_error: it has one.
+  void select_state(std::size_t slot) override;
+  void set_repeating(bool repeating) override { state_.set_repeating(repeating); }
+
+ private:
+  Capability* find_capability(CapabilityId id) override;
+
+  bool can_log(const StepValues& values) const;
+  StepResult make_step(const StepInterval& interval, const StepValues& values);
+  void begin_stretch();
+  void save_measured();
+  void bound_log();
+  void repeat();
+  void keep_outputs(std::span<const BoundValues> outputs);
+  void compare_outputs();
+  void note_difference(const BoundValues& output, std::size_t element, const ValueBlock& before);
+
+  /// The outputs that were read at the end of a step.
+  struct KeptOutputs {
+    std::span<const BoundValues> read;
+    std::vector<ValueBlock> values;
+  };
+
+  StateSaving& state_;
+  const UnitDescription& description_;
+  UnitStatistics& statistics_;
+  CheckpointInterval interval_;
+  CheckpointInterval::Cost save_cost_{};
+  std::size_t stretch_ = 0;     ///< its greatest number of steps
+  bool is_continuous_ = false;  ///< whether the log has all that happened since the save
+  bool is_measured_ = false;    ///< whether the next step is
+  bool is_in_step_ = false;
+  bool is_log_bounded_ = false;
+  StepLog log_;
+  StepLog::Mark mark_;  ///< of the last save_state()
+  KeptOutputs latest_, at_mark_;
+};
+
+}  // namespace stride::core
+
+#endif

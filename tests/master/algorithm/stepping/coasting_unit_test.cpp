@@ -1,0 +1,210 @@
+#include "master/algorithm/stepping/coasting_unit.h"
+
+#include <string>
+
+#include <catch2/catch.hpp>
+#include <fmt/format.h>
+
+#include "tests/at.h"
+#include "tests/master/algorithm/scripted_unit.h"
+
+using namespace stride;
+using namespace stride::core;
+using stride::tests::at;
+
+namespace {
+
+constexpr ValueReference kSummand = 0, kSum = 1, kLabel = 2;
+
+std::shared_ptr<const UnitDescription> summing() {
+  return Describe("summing")
+      .input("u")
+      .output("y")
+      .add("text", ValueType::String, Causality::Input)
+      .can_save_state()
+      .done();
+}
+
+/// A unit that adds its input to its output in each step, and notes what it is asked for.
+struct Coasting {
+  explicit Coasting(std::size_t interval = 4) {
+    auto scripted = std::make_unique<ScriptedUnit>(description);
+    unit = scripted.get();
+    unit->on_step = [this](ScriptedUnit& self, Time from, Time to) {
+      journal += fmt::format(
+          " {}", std::chrono::round<std::chrono::milliseconds>(to.time_since_epoch()).count());
+      self.number(kSum) += self.number(kSummand) + drift;
+      StepResult result;
+      result.reached = rejected_from && from >= *rejected_from ? from : to;
+      result.rejected = rejected_from && from >= *rejected_from;
+      return result;
+    };
+    unit->on_state = [this](bool save) { journal += save ? " save" : " restore"; };
+    coasting = std::make_unique<CoastingUnit>(std::move(scripted), *description,
+                                              CheckpointInterval(interval, false), statistics);
+  }
+
+  /// Saves, and makes a step with this input. The time is in ms.
+  StepResult step(int from, double input, int to = 0) {
+    coasting->save_state();
+    inputs.numbers<double>()[0] = input;
+    return coasting->step(StepInterval(at(1e-3 * from), at(1e-3 * (to == 0 ? from + 1 : to))),
+                          {{&bound_input, 1}, {&bound_output, 1}});
+  }
+  double output() const { return outputs.numbers<double>()[0]; }
+
+  std::shared_ptr<const UnitDescription> description = summing();
+  UnitStatistics statistics;
+  std::string journal;
+  double drift = 0;
+  std::optional<Time> rejected_from;
+  ScriptedUnit* unit = nullptr;
+  std::unique_ptr<CoastingUnit> coasting;
+  ValueBlock inputs{ValueType::Float64, 1}, outputs{ValueType::Float64, 1};
+  BoundValues bound_input{{&kSummand, 1}, inputs}, bound_output{{&kSum, 1}, outputs};
+};
+
+}  // namespace
+
+TEST_CASE("a state is saved before some of the steps only") {
+  Coasting f;
+  for (int i = 0; i < 9; ++i) f.step(i, 1);
+  CHECK(f.journal == " save 1 2 3 4 save 5 6 7 8 save 9");
+  CHECK(f.output() == 9);
+  CHECK(f.statistics.saves == 3);
+  CHECK(f.statistics.repeated_steps == 0);
+}
+
+TEST_CASE("what is taken back repeats the steps since the save, with their inputs") {
+  Coasting f;
+  f.step(0, 1);
+  f.step(1, 20);
+  f.step(2, 300);
+  f.coasting->restore_state();
+  CHECK(f.journal == " save 1 2 3 restore 1 2 save");
+  CHECK(f.unit->number(kSum) == 21);
+  CHECK(f.output() == 21);
+  CHECK(f.statistics.repeated_steps == 2);
+  CHECK_FALSE(f.statistics.inexact_repetition);
+  f.step(2, 4000);
+  CHECK(f.output() == 4021);
+}
+
+TEST_CASE("what is taken back twice repeats nothing the second time") {
+  Coasting f;
+  f.step(0, 1);
+  f.step(1, 2);
+  f.coasting->restore_state();
+  f.journal.clear();
+  f.inputs.numbers<double>()[0] = 5;
+  f.coasting->step(StepInterval(at(0.001), at(0.0015)),
+                   {{&f.bound_input, 1}, {&f.bound_output, 1}});
+  f.coasting->restore_state();
+  CHECK(f.journal == " 2 restore");
+  CHECK(f.unit->number(kSum) == 1);
+}
+
+TEST_CASE("inputs that are set between steps are set again") {
+  Coasting f;
+  f.step(0, 1);
+  ValueBlock between(ValueType::Float64, 1);
+  between.numbers<double>()[0] = 7;
+  f.coasting->set({&kSummand, 1}, between);
+  f.coasting->save_state();
+  f.coasting->step(StepInterval(at(0.001), at(0.002)), {{}, {&f.bound_output, 1}});
+  f.coasting->save_state();
+  f.coasting->set({&kSummand, 1}, ValueBlock(ValueType::Float64, 1));
+  f.coasting->restore_state();
+  CHECK(f.unit->number(kSum) == 8);
+  CHECK(f.unit->number(kSummand) == 7);
+  between.numbers<double>()[0] = 9;
+  f.coasting->set({&kSummand, 1}, between);
+  f.coasting->save_state();
+  f.coasting->set({&kSummand, 1}, ValueBlock(ValueType::Float64, 1));
+  f.coasting->restore_state();
+  CHECK(f.unit->number(kSummand) == 9);
+}
+
+TEST_CASE("an event, and an input that is no number, end a stretch") {
+  Coasting f;
+  f.step(0, 1);
+  const bool is_event = GENERATE(true, false);
+  if (is_event) {
+    f.coasting->enter_event_mode();
+    f.coasting->enter_step_mode();
+  } else {
+    f.coasting->set({&kLabel, 1}, ValueBlock(ValueType::String, 1));
+  }
+  f.step(1, 1);
+  f.step(2, 1);
+  CHECK(f.journal == " save 1 save 2 3");
+}
+
+TEST_CASE("a unit that sets inputs within its step is saved before each") {
+  Coasting f;
+  auto step = f.unit->on_step;
+  f.unit->on_step = [&](ScriptedUnit& self, Time from, Time to) {
+    f.coasting->set({&kSummand, 1}, f.inputs);
+    return step(self, from, to);
+  };
+  f.step(0, 1);
+  f.step(1, 1);
+  f.step(2, 1);
+  CHECK(f.journal == " save 1 save 2 save 3");
+}
+
+TEST_CASE("a step that was rejected is not repeated") {
+  Coasting f;
+  f.step(0, 1);
+  f.rejected_from = at(0.001);
+  CHECK(f.step(1, 1).rejected);
+  f.rejected_from.reset();
+  f.unit->number(kSum) = 1;  // it is as it was
+  f.coasting->step(StepInterval(at(0.001), at(0.0015)), {{}, {&f.bound_output, 1}});
+  f.coasting->save_state();
+  f.coasting->step(StepInterval(at(0.0015), at(0.002)), {{}, {&f.bound_output, 1}});
+  f.journal.clear();
+  f.coasting->restore_state();
+  CHECK(f.journal == " restore 1 2 save");
+  CHECK(f.unit->number(kSum) == 2);
+}
+
+TEST_CASE("a unit may be taken back beyond the beginning of a step but for the first one") {
+  Coasting f;
+  std::string seen;
+  struct Watching : ForwardingUnit {
+    Watching(std::unique_ptr<Unit> unit, std::string& text)
+        : ForwardingUnit(std::move(unit)), seen(text) {}
+    StepResult step(const StepInterval& interval, const StepValues& values) override {
+      seen += interval.may_go_back_before ? 'b' : '-';
+      return ForwardingUnit::step(interval, values);
+    }
+    std::string& seen;
+  };
+  UnitStatistics statistics;
+  CoastingUnit unit(std::make_unique<Watching>(std::make_unique<ScriptedUnit>(f.description), seen),
+                    *f.description, CheckpointInterval(3, false), statistics);
+  for (int i = 0; i < 5; ++i) {
+    unit.save_state();
+    unit.step(StepInterval(at(0.001 * i), at(0.001 * (i + 1))), {});
+  }
+  CHECK(seen == "-bb-b");
+}
+
+TEST_CASE("a unit that does not repeat what it did is found, and is saved before each step") {
+  Coasting f;
+  f.step(0, 1);
+  f.step(1, 1);
+  f.drift = 0.25;
+  f.coasting->restore_state();
+  REQUIRE(f.statistics.inexact_repetition);
+  CHECK(f.statistics.inexact_repetition->time == at(0.001));
+  CHECK(f.statistics.inexact_repetition->variable == "y");
+  CHECK(f.statistics.inexact_repetition->first == "1");
+  CHECK(f.statistics.inexact_repetition->second == "1.25");
+  f.journal.clear();
+  f.step(1, 1);
+  f.step(2, 1);
+  f.step(3, 1);
+  CHECK(f.journal == " save 2 save 3 save 4");
+}
