@@ -12,6 +12,9 @@ using core::ValueType;
 
 /// Of the deadband, to each side, so that rounding does not leave it.
 constexpr double kWander = 0.49;
+/// An input rests for so many points, and wanders over as many: a unit that promises only where its
+/// inputs rest is tried, too.
+constexpr std::size_t kRest = 8;
 
 std::optional<std::size_t> only_jump(Jump jump, std::size_t steps) {
   if (jump == Jump::Once) return 3;
@@ -70,11 +73,13 @@ ValueBlock IdleStimulus::value(const Input& input, std::size_t k) const {
   const std::size_t jump = jumps_until(input, k);
   ValueBlock block = input.start;
   if (block.type() != ValueType::Float64) {
+    if (is_quiet()) return jump == 0 ? input.start : input.other;
     return uniform(seed_ + 5, mixed(input.reference, jump)) < 0.5 ? input.start : input.other;
   }
   const core::Variable& variable = unit_.variables[input.variable];
   const auto [low, high] = range_of(variable);
-  const double shift = 2 * uniform(seed_ + 6, mixed(input.reference, k)) - 1;
+  const std::size_t moved = (k / kRest) % 2 == 0 ? k - k % kRest : k;
+  const double shift = 2 * uniform(seed_ + 6, mixed(input.reference, moved)) - 1;
   for (std::size_t e = 0; e < block.size(); ++e) {
     const double start = core::real(input.start, e);
     double value = jump == 0 ? start : element(input, start, core::real(input.other, e), jump);

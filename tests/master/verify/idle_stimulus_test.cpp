@@ -81,6 +81,29 @@ TEST_CASE("a late stimulus jumps in the last tenth of the run, with an event") {
   for (std::size_t k = 0; k < tested.steps(); ++k) CHECK(late.ticks_at(k) == (k == point));
 }
 
+TEST_CASE("each input jumps where there is one jump, whatever its type and the seed") {
+  const TestedUnit tested(VerifyRequest{.file = tests::test_fmu("types")});
+  for (std::uint64_t seed = 1; seed < 20; ++seed) {
+    const IdleStimulus late(tested, seed, Wander::Still, Jump::Late);
+    REQUIRE(late.inputs().size() > 3);
+    for (const auto& input : late.inputs()) {
+      INFO(tested.description().variables[input.variable].name << ", seed " << seed);
+      CHECK(late.value(input, 0) != late.value(input, tested.steps()));
+    }
+  }
+}
+
+TEST_CASE("an input within its deadband rests at times") {
+  const TestedUnit tested = idler();
+  const auto moving = course(IdleStimulus(tested, 1, Wander::WithinDeadbands, Jump::Near));
+  std::size_t longest = 0, rest = 0;
+  for (std::size_t k = 1; k < moving.size(); ++k) {
+    rest = moving[k] == moving[k - 1] ? rest + 1 : 0;
+    longest = std::max(longest, rest);
+  }
+  CHECK(longest >= 5);
+}
+
 TEST_CASE("a stimulus is a function of the seed and the point") {
   const TestedUnit tested = idler();
   const auto make = [&](std::uint64_t seed) {
