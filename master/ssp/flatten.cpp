@@ -204,7 +204,7 @@ class Flattener {
       start.transformation = last.segment.transformation;
       flat_.declaration.start_values.push_back(std::move(start));
     });
-    if (flat_.declaration.start_values.size() == before) warn_of_open(value, port);
+    if (flat_.declaration.start_values.size() == before) report_open(value, port);
   }
 
   void apply_backward(const ParameterValue& value, std::size_t port, const std::string& indices) {
@@ -223,7 +223,7 @@ class Flattener {
       via.push_back(
           {ports_[port].path_connector, core::PathSegment{segment.suppress_unit_conversion, {}}});
     }
-    if (!ports_[port].is_component()) return warn_of_open(value, port);
+    if (!ports_[port].is_component()) return report_open(value, port);
     core::StartDeclaration start =
         this->start(value, ports_[port].component, ports_[port].connector + indices);
     start.suppress_unit_conversion = via.back().segment.suppress_unit_conversion;
@@ -237,11 +237,14 @@ class Flattener {
     return core::to_text({.where = value.where}) + message;
   }
 
-  void warn_of_open(const ParameterValue& value, std::size_t port) {
-    if (!open_.count()) return;
-    open_.add(warning(value, fmt::format("the parameter '{}' is for the connector '{}', which "
-                                         "leads to no component",
-                                         value.name, ports_[port].path)));
+  void report_open(const ParameterValue& value, std::size_t port) {
+    const auto mistake = [&] {
+      return fmt::format(
+          "the parameter '{}' is for the connector '{}', which leads to no component", value.name,
+          ports_[port].path);
+    };
+    if (value.is_required) core::fail_input({value.where, {}, {}, {}}, mistake());
+    if (open_.count()) open_.add(warning(value, mistake()));
   }
 
   /// Where a name leads as long as it names systems, and what is left of it then.

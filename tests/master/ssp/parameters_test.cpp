@@ -133,6 +133,18 @@ TEST_CASE("A value of the command line is for somebody") {
                     Contains("--set c.x=1: there is no component 'd'"));
 }
 
+TEST_CASE("A value of the command line for a connector that leads nowhere is an error") {
+  const TemporaryFolder folder;
+  std::string text = system_with(inline_binding(""));
+  text.insert(text.find("<ssd:Elements>"),
+              "<ssd:Connectors><ssd:Connector name='lone' kind='input'/></ssd:Connectors>");
+  const auto file = folder.write("x.ssd", text);
+  const ParameterValue value{"lone", "1", {}, {"--set lone=1", 0}, {}, true};
+  CHECK_THROWS_WITH(read_scenario(file, {{}, {value}}),
+                    Contains("--set lone=1: the parameter 'lone' is for the connector 'lone', "
+                             "which leads to no component"));
+}
+
 namespace {
 
 std::string mapping(const std::string& entries) {
