@@ -10,7 +10,6 @@
 #include "master/algorithm/observer.h"
 #include "master/algorithm/run_options.h"
 #include "master/algorithm/statistics.h"
-#include "master/algorithm/stepping/step_order.h"
 #include "master/algorithm/unit.h"
 #include "master/model/system.h"
 #include "master/util/wall_clock.h"
@@ -20,21 +19,19 @@ namespace stride::core {
 /// Owned by the run and passed to each of its parts, which keep references to the members that they
 /// use. It must outlive them.
 struct RunContext {
-  /// `units` in the order of system.components(). The system must outlive the context. Throws Error
-  /// as step_order() does.
+  /// `units` in the order of system.components(). The system must outlive the context.
   RunContext(const System& system, std::vector<std::unique_ptr<Unit>> units, RunOptions options);
   RunContext(const RunContext&) = delete;
   RunContext& operator=(const RunContext&) = delete;
 
   const System& system;
+  const std::vector<std::unique_ptr<Unit>> units;
   const RunOptions options;
-  const std::vector<StepOrderEntry> step_order;
-  RunStatistics statistics;
-  const std::vector<std::unique_ptr<Unit>> units;  ///< as the algorithm calls them
   const std::vector<VariableId>
       observed;  ///< recorded and watched variables, sorted, without duplicates
   SystemOutputs outputs;
   Exchange exchange;
+  RunStatistics statistics;
   std::vector<Observer*> observers;
   Activities activities;
   WallClock clock;  ///< measures in some of the communication steps only (TimeSampling)

@@ -19,7 +19,9 @@
 #include "master/algorithm/loops/ordered_evaluation.h"
 #include "master/algorithm/run_context.h"
 #include "master/algorithm/step_policies/step_policy.h"
+#include "master/algorithm/stepping/coasting_unit.h"
 #include "master/algorithm/stepping/input_extrapolator.h"
+#include "master/algorithm/stepping/step_order.h"
 #include "master/algorithm/stepping/stepper.h"
 #include "master/algorithm/time_sampling.h"
 
@@ -34,12 +36,14 @@ constexpr std::uint32_t kStallLimit = 1000;
 class Simulation::Run {
  public:
   Run(const System& system, std::vector<std::unique_ptr<Unit>> units, RunOptions options)
-      : context_(system, std::move(units), std::move(options)),
+      : order_(step_order(system, *options.step.policy, options.coupling)),
+        context_{system, coasting(system, std::move(units), options),
+                 std::move(options)},  // in this order, hence the braces
         step_policy_(make_step_policy(system_, options_)),
         inputs_(make_input_extrapolator()),
         idle_(make_idle_scheduler()),
         event_handler_(context_, idle_.get()),
-        stepper_(context_, sets_inputs_in_steps() ? inputs_.get() : nullptr, idle_.get()) {
+        stepper_(context_, order_, sets_inputs_in_steps() ? inputs_.get() : nullptr, idle_.get()) {
     if (sets_inputs_in_steps()) connect_input_updates();
   }
 
@@ -100,6 +104,24 @@ class Simulation::Run {
   std::size_t count() const { return units_.size(); }
   bool sets_inputs_in_steps() const { return options_.sets_inputs_in_steps(); }
 
+  /// Those whose states are saved need not be saved before each step.
+  std::vector<std::unique_ptr<Unit>> coasting(const System& system,
+                                              std::vector<std::unique_ptr<Unit>> units,
+                                              const RunOptions& options) {
+    const auto& [each_step, most_steps, always] = options.checkpoints;
+    for (const StepOrderEntry& entry : order_) {
+      if (!entry.saves_state) continue;
+      const std::size_t i = entry.component;
+      const std::size_t most = std::ranges::count(each_step, i) > 0 ? 1 : most_steps;
+      auto unit =
+          std::make_unique<CoastingUnit>(std::move(units[i]), *system.components()[i].description,
+                                         CheckpointInterval(most, !always));
+      coasting_.emplace_back(i, unit.get());
+      units[i] = std::move(unit);
+    }
+    return units;
+  }
+
   void collect_unit_statistics() {
     for (std::size_t i = 0; i < count(); ++i) {
       auto* const diagnostics = units_[i]->capability<UnitDiagnostics>();
@@ -107,6 +129,12 @@ class Simulation::Run {
       if (diagnostics != nullptr) statistics_.units[i].calls = diagnostics->calls();
       if (process != nullptr) statistics_.units[i].host = process->host_statistics();
       statistics_.units[i].steps = stepper_.steps(i) + statistics_.units[i].suspensions;
+    }
+    for (const auto& [i, unit] : coasting_) {
+      const CoastingUnit::Counts& counts = unit->counts();
+      statistics_.units[i].saves = counts.saves;
+      statistics_.units[i].repeated_steps = counts.repeated_steps;
+      statistics_.units[i].inexact_repetition = counts.inexact_repetition;
     }
   }
 
@@ -318,6 +346,8 @@ class Simulation::Run {
                     kStallLimit, quoted(names)));
   }
 
+  const std::vector<StepOrderEntry> order_;
+  std::vector<std::pair<std::size_t, const CoastingUnit*>> coasting_;  ///< by component
   RunContext context_;
   const System& system_ = context_.system;
   std::span<const std::unique_ptr<Unit>> units_ = context_.units;

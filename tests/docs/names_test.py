@@ -28,14 +28,15 @@ PLACEHOLDER = "Class::function"
 # what only builds or reports an error.
 SHOWN = {
     "Run": "abandon note_requested_end add_observer statistics suspended_time verdicts count sets_inputs_in_steps "
-           "collect_unit_statistics finish_suspensions finish_observers "
+           "coasting collect_unit_statistics finish_suspensions finish_observers "
            "notify_observers start_observers make_input_extrapolator make_idle_scheduler "
            "connect_input_updates set should_continue",
-    "Stepper": "order result has_requests steps was_parallel make_timed_passes step_on_threads attempt_on_thread "
+    "Stepper": "result has_requests steps was_parallel make_timed_passes step_on_threads attempt_on_thread "
                "step_plainly attempt_timed report record_time index name rethrow_failure reason hint_for_final "
                "fail_final plan pool",
-    "IdleScheduler": "add_candidate all_suspended_until catch_up_and_report check_promise covers is_disturbed "
-                     "is_suspended is_trivial may_suspend report_suspension report_unfinished suspended_time",
+    "IdleScheduler": "add_candidate all_suspended_until catch_up_and_report check_promise covers find_sources "
+                     "is_disturbed is_suspended is_trivial leaves_deadband may_suspend report_suspension "
+                     "report_unfinished suspended_time",
     "OrderedEvaluation": "check_nan find_direct_inputs is_trivial plan report sweep takes_part value",
     "AlgebraicLoop": "collect fail has_converged have_held_values_converged hint inputs put sweep values_text",
     "InputExtrapolator": "sample set_targets signal_of undo_step within_step",

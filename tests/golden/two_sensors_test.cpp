@@ -100,7 +100,7 @@ TEST_CASE("each frame of both sensors is handed over at the picosecond at which 
   }
   CHECK_FALSE(unit_entry(run, "sensor_left").contains("host"));
   const auto snapshots = unit_entry(run, "sensor_right").at("host").at("snapshots");
-  CHECK(snapshots.at("made") > 1000);
+  CHECK(snapshots.at("made") > 10);
   CHECK(snapshots.at("most_kept") == 1);
 }
 

@@ -15,11 +15,10 @@ constexpr std::size_t kMostBytes = std::size_t{64} << 10;
 }  // namespace
 
 CoastingUnit::CoastingUnit(std::unique_ptr<Unit> unit, const UnitDescription& description,
-                           CheckpointInterval interval, UnitStatistics& statistics)
+                           CheckpointInterval interval)
     : ForwardingUnit(std::move(unit)),
       state_(inner().require_capability<StateSaving>()),
       description_(description),
-      statistics_(statistics),
       interval_(interval) {}
 
 Capability* CoastingUnit::find_capability(CapabilityId id) {
@@ -87,7 +86,7 @@ void CoastingUnit::begin_stretch() {
   if (!is_log_bounded_ && log_.steps() > 0) bound_log();
   stretch_ = interval_.begin_stretch();
   save_measured();
-  ++statistics_.saves;
+  ++counts_.saves;
   if (!log_.is_empty()) log_.clear();
   mark_ = {};
   is_continuous_ = stretch_ > 1;
@@ -123,11 +122,11 @@ void CoastingUnit::restore_state() {
 
 void CoastingUnit::repeat() {
   const bool is_same = log_.repeat(inner(), [&] { compare_outputs(); });
-  statistics_.repeated_steps += log_.steps();
-  if (!is_same && !statistics_.inexact_repetition) {
-    statistics_.inexact_repetition = {log_.end(), "", "", ""};
+  counts_.repeated_steps += log_.steps();
+  if (!is_same && !counts_.inexact_repetition) {
+    counts_.inexact_repetition = {log_.end(), "", "", ""};
   }
-  if (statistics_.inexact_repetition) interval_.limit(1);
+  if (counts_.inexact_repetition) interval_.limit(1);
 }
 
 void CoastingUnit::keep_outputs(std::span<const BoundValues> outputs) {
@@ -137,7 +136,7 @@ void CoastingUnit::keep_outputs(std::span<const BoundValues> outputs) {
 }
 
 void CoastingUnit::compare_outputs() {
-  for (std::size_t i = 0; i < at_mark_.read.size() && !statistics_.inexact_repetition; ++i) {
+  for (std::size_t i = 0; i < at_mark_.read.size() && !counts_.inexact_repetition; ++i) {
     const ValueBlock& before = at_mark_.values[i];
     if (before == *at_mark_.read[i].block) continue;
     for (std::size_t k = 0; k < before.size(); ++k) {
@@ -155,8 +154,8 @@ void CoastingUnit::note_difference(const BoundValues& output, std::size_t elemen
     const Variable& variable = description_.variables[*description_.find(reference)];
     end += variable.size;
     if (element >= end) continue;
-    statistics_.inexact_repetition = {log_.end(), variable.name, element_text(before, element),
-                                      element_text(*output.block, element)};
+    counts_.inexact_repetition = {log_.end(), variable.name, element_text(before, element),
+                                  element_text(*output.block, element)};
     return;
   }
 }

@@ -24,13 +24,21 @@ namespace stride::core {
 /// unit requests within a step: the next save_state() then saves the state. So does the first one
 /// behind a rollback, since it may be followed by others.
 ///
-/// If the unit does not repeat its outputs bit for bit, that is noted in the statistics, and its
-/// state is saved before each step from then on.
+/// If the unit does not repeat its outputs bit for bit, that is noted in the counts, and its state
+/// is saved before each step from then on.
 class CoastingUnit : public ForwardingUnit, public StateSaving {
  public:
-  /// `unit` has the capability StateSaving. The others must outlive this object.
+  struct Counts {
+    std::uint64_t saves = 0;
+    std::uint64_t repeated_steps = 0;
+    std::optional<InexactRepetition> inexact_repetition{};  ///< the first one
+  };
+
+  /// `unit` has the capability StateSaving. The description must outlive this object.
   CoastingUnit(std::unique_ptr<Unit> unit, const UnitDescription& description,
-               CheckpointInterval interval, UnitStatistics& statistics);
+               CheckpointInterval interval);
+
+  const Counts& counts() const { return counts_; }
 
   void set(std::span<const ValueReference> references, const ValueBlock& values) override;
   StepResult step(const StepInterval& interval) override { return step(interval, StepValues{}); }
@@ -65,8 +73,8 @@ class CoastingUnit : public ForwardingUnit, public StateSaving {
 
   StateSaving& state_;
   const UnitDescription& description_;
-  UnitStatistics& statistics_;
   CheckpointInterval interval_;
+  Counts counts_;
   CheckpointInterval::Cost save_cost_{};
   std::size_t stretch_ = 0;     ///< its greatest number of steps
   bool is_continuous_ = false;  ///< whether the log has all that happened since the save

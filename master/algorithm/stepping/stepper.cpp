@@ -26,7 +26,8 @@ Stepper::UnitStep::UnitStep(Unit& stepped, const StepOrderEntry& its_entry)
       can_vary_step(its_entry.can_vary_step),
       state(saves_state ? &stepped.require_capability<StateSaving>() : nullptr) {}
 
-Stepper::Stepper(RunContext& context, InputExtrapolator* inputs, IdleScheduler* idle)
+Stepper::Stepper(RunContext& context, const std::vector<StepOrderEntry>& order,
+                 InputExtrapolator* inputs, IdleScheduler* idle)
     : system_(context.system),
       unit_count_(context.units.size()),
       exchange_(context.exchange),
@@ -40,7 +41,7 @@ Stepper::Stepper(RunContext& context, InputExtrapolator* inputs, IdleScheduler* 
       has_grid_(context.options.step.policy->has_grid),
       stop_(context.options.stop),
       minimum_(context.options.step.minimum),
-      order_(context.step_order),
+      order_(order),
       index_of_(unit_count_),
       times_(unit_count_),
       failures_(unit_count_),

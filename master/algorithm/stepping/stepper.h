@@ -32,10 +32,10 @@ namespace stride::core {
 /// fail, the error of the first one is thrown, after all threads have finished.
 class Stepper {
  public:
-  /// All must outlive this object. `inputs` sets the inputs before each step; null if they keep
-  /// their values. `idle`: optional idle scheduler.
-  explicit Stepper(RunContext& context, InputExtrapolator* inputs = nullptr,
-                   IdleScheduler* idle = nullptr);
+  /// All must outlive this object. `order` is that of step_order(). `inputs` sets the inputs before
+  /// each step; null if they keep their values. `idle`: optional idle scheduler.
+  Stepper(RunContext& context, const std::vector<StepOrderEntry>& order, InputExtrapolator* inputs,
+          IdleScheduler* idle);
 
   /// Takes all units from `from` to `target`, or to the earlier instant, returned, at which one of
   /// them stopped, and reads their outputs. Throws Error (Run) naming the unit: a step shorter

@@ -41,7 +41,7 @@ struct Coasting {
     };
     unit->on_state = [this](bool save) { journal += save ? " save" : " restore"; };
     coasting = std::make_unique<CoastingUnit>(std::move(scripted), *description,
-                                              CheckpointInterval(interval, false), statistics);
+                                              CheckpointInterval(interval, false));
   }
 
   /// Saves, and makes a step with this input. The time is in ms.
@@ -54,7 +54,6 @@ struct Coasting {
   double output() const { return outputs.numbers<double>()[0]; }
 
   std::shared_ptr<const UnitDescription> description = summing();
-  UnitStatistics statistics;
   std::string journal;
   double drift = 0;
   std::optional<Time> rejected_from;
@@ -71,8 +70,8 @@ TEST_CASE("a state is saved before some of the steps only") {
   for (int i = 0; i < 9; ++i) f.step(i, 1);
   CHECK(f.journal == " save 1 2 3 4 save 5 6 7 8 save 9");
   CHECK(f.output() == 9);
-  CHECK(f.statistics.saves == 3);
-  CHECK(f.statistics.repeated_steps == 0);
+  CHECK(f.coasting->counts().saves == 3);
+  CHECK(f.coasting->counts().repeated_steps == 0);
 }
 
 TEST_CASE("what is taken back repeats the steps since the save, with their inputs") {
@@ -84,8 +83,8 @@ TEST_CASE("what is taken back repeats the steps since the save, with their input
   CHECK(f.journal == " save 1 2 3 restore 1 2 save");
   CHECK(f.unit->number(kSum) == 21);
   CHECK(f.output() == 21);
-  CHECK(f.statistics.repeated_steps == 2);
-  CHECK_FALSE(f.statistics.inexact_repetition);
+  CHECK(f.coasting->counts().repeated_steps == 2);
+  CHECK_FALSE(f.coasting->counts().inexact_repetition);
   f.step(2, 4000);
   CHECK(f.output() == 4021);
 }
@@ -181,9 +180,8 @@ TEST_CASE("a unit may be taken back beyond the beginning of a step but for the f
     }
     std::string& seen;
   };
-  UnitStatistics statistics;
   CoastingUnit unit(std::make_unique<Watching>(std::make_unique<ScriptedUnit>(f.description), seen),
-                    *f.description, CheckpointInterval(3, false), statistics);
+                    *f.description, CheckpointInterval(3, false));
   for (int i = 0; i < 5; ++i) {
     unit.save_state();
     unit.step(StepInterval(at(0.001 * i), at(0.001 * (i + 1))), {});
@@ -197,11 +195,11 @@ TEST_CASE("a unit that does not repeat what it did is found, and is saved before
   f.step(1, 1);
   f.drift = 0.25;
   f.coasting->restore_state();
-  REQUIRE(f.statistics.inexact_repetition);
-  CHECK(f.statistics.inexact_repetition->time == at(0.001));
-  CHECK(f.statistics.inexact_repetition->variable == "y");
-  CHECK(f.statistics.inexact_repetition->first == "1");
-  CHECK(f.statistics.inexact_repetition->second == "1.25");
+  REQUIRE(f.coasting->counts().inexact_repetition);
+  CHECK(f.coasting->counts().inexact_repetition->time == at(0.001));
+  CHECK(f.coasting->counts().inexact_repetition->variable == "y");
+  CHECK(f.coasting->counts().inexact_repetition->first == "1");
+  CHECK(f.coasting->counts().inexact_repetition->second == "1.25");
   f.journal.clear();
   f.step(1, 1);
   f.step(2, 1);

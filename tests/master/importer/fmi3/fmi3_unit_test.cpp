@@ -560,7 +560,7 @@ TEST_CASE("a warning is logged and the step is accepted") {
 
 TEST_CASE("what a unit logs in steps that it repeats is not logged again") {
   int logged = 0;
-  Raw raw("warning", {.log = [&](auto&&...) { ++logged; }});
+  Raw raw("warning", {.log = [&](auto&&...) { ++logged; }}, "raw", "canGetAndSetFMUState=\"true\"");
   state(*raw.unit).set_repeating(true);
   raw.unit->step({{}, Time(1ms)});
   CHECK(logged == 0);
