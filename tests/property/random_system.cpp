@@ -98,4 +98,15 @@ class Maker {
 
 Assembly random_system(unsigned seed, Wiring wiring) { return Maker(seed, wiring).make(); }
 
+Assembly with_rejecters(unsigned seed, Wiring wiring, const std::string& shortest,
+                        const std::string& longest) {
+  Assembly system = random_system(seed, wiring);
+  system.add("source", "linear");
+  for (const std::string name : {"r1", "r2"}) {
+    system.add(name, "rejecter", {{"shortest", shortest}, {"longest", longest}});
+    system.wire("source.x", name + ".u");
+  }
+  return system.set("r2.seed", "2");
+}
+
 }  // namespace stride::tests

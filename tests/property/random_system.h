@@ -15,6 +15,11 @@ enum class Wiring {
 /// its state.
 Assembly random_system(unsigned seed, Wiring wiring);
 
+/// Such a system, and beside it the units `source` and `r1` and `r2`, which it feeds. These two
+/// reject steps that are longer than a random limit between the two [s].
+Assembly with_rejecters(unsigned seed, Wiring wiring, const std::string& shortest,
+                        const std::string& longest);
+
 }  // namespace stride::tests
 
 #endif

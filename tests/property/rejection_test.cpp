@@ -22,18 +22,11 @@ namespace {
 const unsigned kRejectionSystems = kSanitized ? 5 : 50;
 constexpr Time kRejectionStop{100ms};
 
-/// A random system, and two units that hear of it but feed nothing. They reject steps longer than a
-/// random limit, or, for comparison, none.
+/// Two units that reject steps hear of a random system but feed nothing; for comparison they reject
+/// none.
 Assembly with_rejecters(unsigned seed, Wiring wiring, bool rejects) {
-  Assembly system = random_system(seed, wiring);
-  system.add("source", "linear");
-  const char* const shortest = rejects ? "0.00003" : "1";
-  const char* const longest = rejects ? "0.001" : "1";
-  for (const std::string name : {"r1", "r2"}) {
-    system.add(name, "rejecter", {{"shortest", shortest}, {"longest", longest}});
-    system.wire("source.x", name + ".u");
-  }
-  return system.set("r2.seed", "2");
+  return rejects ? stride::tests::with_rejecters(seed, wiring, "0.00003", "0.001")
+                 : stride::tests::with_rejecters(seed, wiring, "1", "1");
 }
 
 /// What depends on how often it is stepped.

@@ -13,16 +13,9 @@ namespace {
 const unsigned kRepetitionSystems = kSanitized ? 6 : 60;
 constexpr Time kRepetitionStop{100ms};
 
-/// A random system with two units that reject steps at random.
+/// A random system with two units that reject steps, one of which feeds it.
 Assembly restless(unsigned seed) {
-  Assembly system = random_system(seed, Wiring::Continuous);
-  system.add("source", "linear");
-  for (const std::string name : {"r1", "r2"}) {
-    system.add(name, "rejecter", {{"shortest", "0.0001"}, {"longest", "0.002"}});
-    system.wire("source.x", name + ".u");
-  }
-  system.wire("r1.y", "source.u");
-  return system.set("r2.seed", "2");
+  return with_rejecters(seed, Wiring::Continuous, "0.0001", "0.002").wire("r1.y", "source.u");
 }
 
 Results run_with(const Assembly& system, std::size_t most_steps,
