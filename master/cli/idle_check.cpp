@@ -282,8 +282,7 @@ std::string compare_with_full_run(const scenario::LoadedScenario& loaded,
     spdlog::warn(
         "--check-idle has tested nothing: no unit can be suspended in this run (idle skipping "
         "needs units that promise to be idle, fixed or event-driven steps, Jacobi and held inputs, "
-        "and "
-        "must not be switched off)");
+        "and must not be switched off)");
   }
   return fmt::format(
       "Idle skipping changes nothing but what tolerances allow: {} communication points and {} "

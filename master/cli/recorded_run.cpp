@@ -267,9 +267,9 @@ void RecordedRun::warn_of_inexact_repetitions() const {
     const std::string& name = system.components()[i].name;
     spdlog::warn(
         "unit '{}' does not make the same step twice: when it was taken back, it repeated the "
-        "steps "
-        "since its state had been saved, and at {} s {}; its state was saved before each step from "
-        "then on; <stride:StateSaving components=\"{}\" eachStep=\"true\"/> does so from the "
+        "steps since its state had been saved, and at {} s {}; its state was saved before each "
+        "step "
+        "from then on; <stride:StateSaving components=\"{}\" eachStep=\"true\"/> does so from the "
         "beginning",
         name, core::to_text(seen.time),
         seen.variable.empty() ? "a step ended otherwise"

@@ -84,7 +84,9 @@ std::optional<Time> IdleScheduler::all_suspended_until(Time time) const {
   for (const IdleState& state : states_) {
     if (!state.is_suspended) return std::nullopt;
     earliest = std::min(earliest, state.end);
-    for (const WatchedInput& input : state.inputs) {
+  }
+  for (const std::size_t i : candidates_) {
+    for (const WatchedInput& input : states_[i].inputs) {
       if (input.source != nullptr) earliest = std::min(earliest, leaves_deadband(input, time));
     }
   }
