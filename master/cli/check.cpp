@@ -86,15 +86,6 @@ std::string connection_table(const core::System& system) {
   return table.text();
 }
 
-/// "a, b, c, d and 3 more"
-std::string shortened(const std::vector<std::string>& names) {
-  const std::size_t shown = names.size() <= kMostNames + 1 ? names.size() : kMostNames;
-  std::string text = fmt::format(
-      "{}", fmt::join(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(shown), ", "));
-  if (shown < names.size()) text += fmt::format(" and {} more", names.size() - shown);
-  return text;
-}
-
 /// Empty if there are none.
 std::string unconnected_elements_text(const core::System& system) {
   std::string text;
@@ -105,7 +96,7 @@ std::string unconnected_elements_text(const core::System& system) {
         names.push_back(core::element_name(system.variable(input), free.first + i));
       }
     }
-    text += fmt::format("  {}: {}\n", system.full_name(input), shortened(names));
+    text += fmt::format("  {}: {}\n", system.full_name(input), core::shortened(names, kMostNames));
   }
   return text.empty() ? ""
                       : "\nElements without connection, which keep their start values\n" + text;
@@ -151,7 +142,7 @@ std::string solved_for(const core::System& system, const core::EvaluationBlock& 
       names.push_back(system.range_name(input));
     }
   }
-  return shortened(names);
+  return core::shortened(names, kMostNames);
 }
 
 std::string loop_text(const core::System& system, const core::EvaluationBlock& loop,
@@ -177,7 +168,7 @@ std::string initial_order_text(const core::System& system) {
       std::vector<std::string> outputs;
       for (const core::VariableId id : group.outputs) outputs.push_back(system.variable(id).name);
       table.add({std::to_string(i + 1), system.components()[group.component].name,
-                 shortened(outputs),
+                 core::shortened(outputs, kMostNames),
                  block.is_loop() ? "loop, solved for " + solved_for(system, block) : "once"});
     }
   }

@@ -92,11 +92,11 @@ core::Error error_in(const importer::UnitCall& call, const std::string& end) {
 
 std::string names_of(std::span<const importer::UnitCall> calls) {
   constexpr std::size_t kMost = 5;
-  std::string names;
-  for (const importer::UnitCall& call : calls.first(std::min(calls.size(), kMost))) {
-    names += fmt::format("{}{} of '{}'", names.empty() ? "" : ", ", call.function, call.unit);
+  std::vector<std::string> names;
+  for (const importer::UnitCall& call : calls) {
+    names.push_back(fmt::format("{} of '{}'", call.function, call.unit));
   }
-  return calls.size() <= kMost ? names : fmt::format("{} and {} more", names, calls.size() - kMost);
+  return core::shortened(names, kMost);
 }
 
 }  // namespace

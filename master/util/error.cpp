@@ -4,6 +4,7 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "master/util/message_text.h"
 #include "master/util/time_text.h"
@@ -63,6 +64,11 @@ std::string quoted(std::span<const std::string> names) {
     text += "'" + name_text(name) + "'";
   }
   return text;
+}
+
+std::string shortened(std::span<const std::string> names, std::size_t most) {
+  if (names.size() <= most + 1) return fmt::format("{}", fmt::join(names, ", "));
+  return fmt::format("{} and {} more", fmt::join(names.first(most), ", "), names.size() - most);
 }
 
 }  // namespace stride::core

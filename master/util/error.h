@@ -2,6 +2,7 @@
 #ifndef STRIDE_MASTER_UTIL_ERROR_H
 #define STRIDE_MASTER_UTIL_ERROR_H
 
+#include <cstddef>
 #include <optional>
 #include <span>
 #include <stdexcept>
@@ -70,6 +71,9 @@ std::string to_text(const Context& context);
 
 /// "'a', 'b'"
 std::string quoted(std::span<const std::string> names);
+
+/// "a, b and 3 more": the first `most` ones, and one more rather than "and 1 more".
+std::string shortened(std::span<const std::string> names, std::size_t most);
 
 }  // namespace stride::core
 

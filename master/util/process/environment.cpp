@@ -8,8 +8,9 @@
 #include <string_view>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <unistd.h>
+
+#include "master/util/error.h"
 
 namespace stride::core {
 namespace {
@@ -45,11 +46,8 @@ void add_variable(Variables& variables, std::string_view entry) {
 /// The first ones by name: a unit may have cleared them all.
 std::string described(const std::vector<std::string>& names) {
   constexpr std::size_t kMostNames = 4;
-  const std::span shown(names.data(), std::min(names.size(), kMostNames));
-  std::string text = fmt::format("the environment variable{} {}", names.size() > 1 ? "s" : "",
-                                 fmt::join(shown, ", "));
-  if (names.size() > kMostNames) text += fmt::format(" and {} more", names.size() - kMostNames);
-  return text;
+  return fmt::format("the environment variable{} {}", names.size() > 1 ? "s" : "",
+                     shortened(names, kMostNames));
 }
 
 }  // namespace

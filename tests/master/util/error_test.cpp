@@ -29,6 +29,14 @@ TEST_CASE("names in an error make no lines, and its length is limited") {
   CHECK(error.context().variable == long_name);
 }
 
+TEST_CASE("a list of names is shortened where that leaves out two or more") {
+  const std::vector<std::string> names{"a", "b", "c", "d"};
+  CHECK(shortened({}, 2).empty());
+  CHECK(shortened(names, 4) == "a, b, c, d");
+  CHECK(shortened(names, 3) == "a, b, c, d");
+  CHECK(shortened(names, 2) == "a, b and 2 more");
+}
+
 TEST_CASE("NUL does not end the text of an error") {
   const Error error(Error::Kind::Input, {}, std::string("found 'a\0b', which is wrong", 26));
   CHECK(std::string(error.what()) == "found 'a\\x00b', which is wron");
