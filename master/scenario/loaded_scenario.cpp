@@ -185,7 +185,9 @@ void LoadedScenario::load_units() {
   fmus_ = load_fmus(scenario_);
   std::set<std::string> known;
   for (std::size_t i = 0; i < fmus_.size(); ++i) {
-    scenario_.system.components[i].description = fmus_[i]->description();
+    core::ComponentDeclaration& component = scenario_.system.components[i];
+    component.description = fmus_[i]->description();
+    log_->add_unit(component.name, fmus_[i]->path().string());
     for (const std::string& warning : fmus_[i]->description()->warnings) {
       if (known.insert(warning).second) scenario_.warnings.push_back(warning);
     }
@@ -418,15 +420,12 @@ void LoadedScenario::warn_of_other_steps() const {
     if (unit.can_vary_step || !unit.default_step || *unit.default_step == options_.step.size) {
       continue;
     }
-    const core::ComponentDeclaration& component = scenario_.system.components[i];
-    const core::Context context{component.where, component.name, {}, {}};
     const std::string step = core::to_text(*unit.default_step);
-    spdlog::warn("{}",
-                 core::message_text(fmt::format(
-                     "{}the unit takes steps of one size only, and its DefaultExperiment has "
-                     "{} s, but its steps are of {} s; if its times or values are wrong then, "
-                     "use --step {}",
-                     core::to_text(context), step, core::to_text(options_.step.size), step)));
+    log_->write(scenario_.system.components[i].name, importer::Status::Warning, "stride",
+                fmt::format("it takes steps of one size only, and its DefaultExperiment has {} s, "
+                            "but its steps are of {} s; if its times or values are wrong then, use "
+                            "--step {}",
+                            step, core::to_text(options_.step.size), step));
   }
 }
 
@@ -436,25 +435,22 @@ void LoadedScenario::warn_of_internal_steps() const {
     if (!internal || *internal <= Duration{} || options_.step.size % *internal == Duration{}) {
       continue;
     }
-    spdlog::warn(
-        "unit '{}': its internal step of {} s is not part of the communication step of {} s, so it "
-        "is not always where the others are",
-        scenario_.system.components[i].name, core::to_text(*internal),
-        core::to_text(options_.step.size));
+    log_->write(scenario_.system.components[i].name, importer::Status::Warning, "stride",
+                fmt::format("its internal step of {} s is not part of the communication step of "
+                            "{} s, so it is not always where the others are",
+                            core::to_text(*internal), core::to_text(options_.step.size)));
   }
 }
 
 void LoadedScenario::warn_of_unlimited_steps() const {
   constexpr std::size_t kMostNames = 5;
-  std::vector<std::string> names = core::connections_without_events(*system_);
+  const std::vector<std::string> names = core::connections_without_events(*system_);
   if (names.empty()) return;
-  const std::size_t unnamed = names.size() - std::min(names.size(), kMostNames);
-  names.resize(names.size() - unnamed);
   spdlog::warn(
       "values travel at events only, since nothing else ends a step, so what these outputs do "
-      "meanwhile is missed: {}{}; <stride:Step maximum=\"…\"/> (--max-step) ends steps, or says "
+      "meanwhile is missed: {}; <stride:Step maximum=\"…\"/> (--max-step) ends steps, or says "
       "with a long one that this is meant",
-      fmt::join(names, ", "), unnamed == 0 ? "" : fmt::format(" and {} more", unnamed));
+      core::shortened(names, kMostNames));
 }
 
 importer::InstanceOptions LoadedScenario::instance_options(
