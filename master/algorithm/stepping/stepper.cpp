@@ -16,6 +16,12 @@ std::string times(std::uint64_t count) {
   return count == 1 ? "once" : fmt::format("{} times", count);
 }
 
+/// Whether the component must not step at the same time as some others.
+bool is_main_only(const RunOptions& options, std::size_t component) {
+  const auto& components = options.threads.main_only;
+  return std::ranges::find(components, component) != components.end();
+}
+
 }  // namespace
 
 Stepper::UnitStep::UnitStep(Unit& stepped, const StepOrderEntry& its_entry)
@@ -53,6 +59,7 @@ Stepper::Stepper(RunContext& context, const std::vector<StepOrderEntry>& order,
     unit_step.may_suspend = idle != nullptr && idle->may_suspend(entry.component);
     unit_step.is_plain =
         inputs == nullptr && !entry.saves_state && entry.can_vary_step && !unit_step.may_suspend;
+    if (is_main_only(context.options, entry.component)) unit_step.concurrent = nullptr;
     // inputs of a step that are not those of its beginning are no part of the state
     unit_step.can_save_with_step = unit_step.concurrent != nullptr && inputs == nullptr;
   }
@@ -89,12 +96,10 @@ LoadBalancer::Plan Stepper::plan(const RunOptions& options) {
     plan.threads = std::min<std::size_t>(plan.threads, std::thread::hardware_concurrency());
   }
   plan.threads = std::clamp<std::size_t>(plan.threads, 1, std::max<std::size_t>(1, unit_count_));
-  const auto& main_only = options.threads.main_only;
   for (std::size_t i = 0; i < order_.size(); ++i) {
     plan.stages.resize(order_[i].stage + 1);
     plan.stages.back().push_back(i);
-    plan.main_only.push_back(std::count(main_only.begin(), main_only.end(), order_[i].component) !=
-                             0);
+    plan.main_only.push_back(is_main_only(options, order_[i].component));
   }
   plan.hand_over = [this] { return pool().measure_hand_over(); };
   return plan;

@@ -199,6 +199,7 @@ class ScriptedUnit : public Unit,
   std::function<void(ScriptedUnit&)> on_begin_step = [](ScriptedUnit&) {};
   std::chrono::nanoseconds time_of_step{1};  ///< as it says then
   std::optional<StepInterval> begun;         ///< and not finished
+  bool saved_with_step = false;              ///< the last one
   Calls calls;
   int gets = 0;
 
@@ -236,7 +237,8 @@ class ScriptedUnit : public Unit,
                   const Extras& extras) override {
     if (begun) throw std::logic_error("a step has begun already");
     for (const BoundValues& input : values.inputs) set(input.references, *input.block);
-    if (extras.saves_state) save_state();
+    saved_with_step = extras.saves_state;
+    if (saved_with_step) save_state();
     begun = interval;
     outputs_ = values.outputs;
     on_begin_step(*this);

@@ -63,6 +63,15 @@ TEST_CASE("with Gauss-Seidel a unit begins when those that feed it are done") {
   CHECK(log == Log{"a", "a.", "b", "c", "b.", "c.", "d", "d."});
 }
 
+TEST_CASE("units that must not step at the same time step one after another") {
+  ScriptedSystem system;
+  Log log;
+  for (const char* name : {"a", "b", "c"}) add(system, name, true, log);
+  system.options.threads.main_only = {0, 1};
+  system.build(0.001, 1ms).run();
+  CHECK(log == Log{"c", "a.", "b.", "c."});
+}
+
 TEST_CASE("of several failures that of the first unit is reported, wherever they step") {
   for (unsigned concurrent = 0; concurrent < 8; ++concurrent) {
     CAPTURE(concurrent);
