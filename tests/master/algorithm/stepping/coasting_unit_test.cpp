@@ -181,8 +181,8 @@ TEST_CASE("a measured save and its step elsewhere are two requests") {
   int saves = 0, saves_in_step = 0;
   unit.on_state = [&](bool) { ++saves; };
   unit.on_begin_step = [&](ScriptedUnit& self) { saves_in_step += self.saved_with_step; };
-  UnitStatistics statistics;
-  CoastingUnit coasting(std::move(scripted), *summing(), CheckpointInterval(8, true), statistics);
+  const auto description = summing();
+  CoastingUnit coasting(std::move(scripted), *description, CheckpointInterval(8, true));
   for (int i = 0; i < 32; ++i) {
     coasting.begin_step(StepInterval(at(0.001 * i), at(0.001 * (i + 1))), {},
                         {.saves_state = true});
