@@ -20,6 +20,7 @@ enum class CapabilityId : unsigned {
   MessageText,
   UnitDiagnostics,
   HostDiagnostics,
+  ConcurrentSteps,
   End,  ///< no capability
 };
 

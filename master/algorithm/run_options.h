@@ -80,7 +80,8 @@ struct StepOptions {
 struct ThreadOptions {
   std::size_t count = 1;  ///< the thread that runs the simulation included
   /// Components, by index in System::components(), that step only on the thread that runs the
-  /// simulation, for units that must not run concurrently.
+  /// simulation, one after another, wherever they compute: for units that must not run
+  /// concurrently.
   std::vector<std::size_t> main_only{};
   /// For tests: use threads from the first step on, without measuring.
   bool always = false;

@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <type_traits>
 
+#include "master/algorithm/capabilities/concurrent_steps.h"
 #include "master/algorithm/capabilities/resetting.h"
 #include "master/algorithm/capabilities/state_serialization.h"
 
@@ -52,7 +53,9 @@ CapturedUnit::CapturedUnit(std::unique_ptr<core::Unit> unit,
 }
 
 core::Capability* CapturedUnit::find_capability(core::CapabilityId id) {
-  if (id == core::StateSerialization::kId || id == core::Resetting::kId) return nullptr;
+  const bool is_left_out = id == core::StateSerialization::kId || id == core::Resetting::kId ||
+                           id == core::ConcurrentSteps::kId;
+  if (is_left_out) return nullptr;
   return find_decorated<core::StateSaving, core::IdlePromises>(*this, id);
 }
 

@@ -46,8 +46,9 @@ class SuperDenseIndex {
 /// taken back; a rejected step has not been.
 ///
 /// One state is kept at a time. A reset and states from elsewhere cannot be taken back from the
-/// file, so StateSerialization and Resetting are not among the capabilities. Inputs within steps
-/// are not written; Capture refuses runs that have them.
+/// file, so StateSerialization and Resetting are not among the capabilities. Neither is
+/// ConcurrentSteps: each step is written down when it ends. Inputs within steps are not written;
+/// Capture refuses runs that have them.
 class CapturedUnit final : public core::ForwardingUnit,
                            public core::StateSaving,
                            public core::IdlePromises {

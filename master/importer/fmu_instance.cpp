@@ -87,6 +87,7 @@ bool FmuInstance::declares(core::CapabilityId id) const {
       return unit.provides_intermediate_update;
     case CapabilityId::MessageText:
     case CapabilityId::HostDiagnostics:
+    case CapabilityId::ConcurrentSteps:
     case CapabilityId::End:
       return false;
   }

@@ -12,7 +12,6 @@
 namespace stride::isolation {
 namespace {
 
-using Clock = std::chrono::steady_clock;
 using namespace std::chrono_literals;
 
 /// How often is looked whether the supervisor is still there.
@@ -47,8 +46,7 @@ HostClient::HostClient(const HostedUnitSpec& spec)
 
 // ---- To and fro ----
 
-ReplyCode HostClient::send(RequestCode request, const PacketWriter& packet,
-                           std::optional<Time> time) {
+void HostClient::post(RequestCode request, const PacketWriter& packet, std::optional<Time> time) {
   if (has_failed()) [[unlikely]]
     core::fail_run(context(time), "it cannot be called, because " + failure_);
   Turn& turn = link_.memory->request;
@@ -56,7 +54,12 @@ ReplyCode HostClient::send(RequestCode request, const PacketWriter& packet,
   turn.size.store(packet.size(), std::memory_order_relaxed);
   turn.number.store(++number_, std::memory_order_release);
   turn.doorbell.ring();
-  if (!waiter_.spin([&] { return has_reply(); })) await_reply(time);
+}
+
+ReplyCode HostClient::await(std::optional<Time> time,
+                            std::optional<std::chrono::milliseconds> limit) {
+  if (!waiter_.spin([&] { return has_reply(); })) await_reply(time, limit);
+  call_began_.reset();
   if (!log_.is_empty()) [[unlikely]]
     take_lines();
   return static_cast<ReplyCode>(link_.memory->reply.what.load(std::memory_order_relaxed));
@@ -73,9 +76,9 @@ bool HostClient::has_overwritten_number() const {
   return link_.memory->request.number != number_ || (reply != number_ && reply != number_ - 1);
 }
 
-void HostClient::await_reply(std::optional<Time> time) {
-  const auto begin = Clock::now();
-  const auto limit = spec_.host.call_limit;
+void HostClient::await_reply(std::optional<Time> time,
+                             std::optional<std::chrono::milliseconds> limit) {
+  const auto begin = begin_of_call();
   Doorbell& doorbell = link_.memory->reply.doorbell;
   for (;;) {
     const std::uint32_t rings = doorbell.rings();
@@ -102,6 +105,12 @@ void HostClient::await_reply(std::optional<Time> time) {
         rings, limit ? std::min<std::chrono::nanoseconds>(kProcessCheckInterval, *limit - waited)
                      : kProcessCheckInterval);
   }
+}
+
+/// A unit whose messages do not fit waits for this process, at the expense of its time.
+HostClient::Clock::time_point HostClient::begin_of_call() {
+  const auto now = Clock::now();
+  return link_.memory->logged.room() == 0 ? now : call_began_.value_or(now);
 }
 
 /// The end of the run waits a little for the call, whose results would be lost.

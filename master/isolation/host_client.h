@@ -29,7 +29,18 @@ class HostClient {
   PacketWriter write() { return PacketWriter(link_.packets); }
   /// Sends a request and waits for the reply. Throws core::Error of the kind Run, at
   /// `time`, if the process ends before, or is ended because its time is over.
-  ReplyCode send(RequestCode request, const PacketWriter& packet, std::optional<Time> time);
+  ReplyCode send(RequestCode request, const PacketWriter& packet, std::optional<Time> time) {
+    post(request, packet, time);
+    return await(time, spec_.host.call_limit);
+  }
+  /// The first half of it. Throws if the process has ended.
+  void post(RequestCode request, const PacketWriter& packet, std::optional<Time> time);
+  /// The second half. The time is over when the `limit` has passed since begin_call().
+  ReplyCode await(std::optional<Time> time, std::optional<std::chrono::milliseconds> limit);
+  /// The request that was just posted will be waited for later: its time counts from here.
+  void begin_call() {
+    if (spec_.host.call_limit) call_began_ = Clock::now();
+  }
   /// The reply, until the next packet is written.
   PacketReader read();
 
@@ -49,12 +60,15 @@ class HostClient {
   std::uint64_t calls() const { return link_.memory->calls.load(std::memory_order_relaxed); }
 
  private:
+  using Clock = std::chrono::steady_clock;
+
   bool has_reply() const {
     return link_.memory->reply.number.load(std::memory_order_acquire) == number_;
   }
   /// Only the master writes the number of a request; a reply has that of this one or the last.
   bool has_overwritten_number() const;
-  void await_reply(std::optional<Time> time);
+  void await_reply(std::optional<Time> time, std::optional<std::chrono::milliseconds> limit);
+  Clock::time_point begin_of_call();
   void take_lines();
   void take_last_line();
   void log_printed(std::string_view line);
@@ -75,8 +89,9 @@ class HostClient {
   PrintedLines printed_;
   OutputTail output_tail_;
   bool has_slow_call_warning_ = false;
-  std::optional<std::chrono::steady_clock::time_point> interrupted_at_;  ///< seen in a call
-  std::string failure_;  ///< why nothing can be sent any longer
+  std::optional<Clock::time_point> call_began_;      ///< of a call that is waited for later
+  std::optional<Clock::time_point> interrupted_at_;  ///< seen in a call
+  std::string failure_;                              ///< why nothing can be sent any longer
 };
 
 }  // namespace stride::isolation

@@ -28,7 +28,7 @@ enum class RequestCode : std::uint32_t {
   Get,
   Set,
   MakePlan,
-  Step,  ///< by such a plan
+  Step,  ///< by such a plan, with the state saved before if that is asked for
   SaveState,
   RestoreState,
   SelectState,

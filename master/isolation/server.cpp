@@ -1,6 +1,7 @@
 #include "master/isolation/server.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <iterator>
@@ -180,7 +181,8 @@ void Server::handle(RequestCode request, PacketReader& in, PacketWriter& out) {
     case RequestCode::Step:
       return step(in, out);
     case RequestCode::SaveState:
-      return save_state(in);
+      save_state(take_time(in));
+      return;
     case RequestCode::RestoreState:
       return restore_state(in);
     case RequestCode::SelectState:
@@ -330,11 +332,22 @@ StepBuffers& Server::plan(PacketReader& in) {
 void Server::step(PacketReader& in, PacketWriter& out) {
   StepBuffers& buffers = plan(in);
   const auto interval = in.take<core::StepInterval>();
+  const bool saves_state = in.take<bool>();
+  const bool is_timed = in.take<bool>();
   buffers.take_inputs(in);
   time_ = interval.from;
-  const core::StepResult result = unit_->step(interval, buffers.values());
+  core::StepValues values = buffers.values();
+  if (saves_state) {
+    for (const core::BoundValues& input : values.inputs) {
+      unit_->set(input.references, *input.block);
+    }
+    values.inputs = {};
+    if (save_state(interval.from)) return;
+  }
+  const core::StepResult result = unit_->step(interval, values);
   if (!result.rejected) time_ = result.reached;
   put_step(out, result);
+  if (is_timed) out.put(std::chrono::steady_clock::now());
   if (result.rejected) {
     out.put(diagnostics_->rejection_reason());
   } else {
@@ -361,12 +374,17 @@ void Server::request_inputs(double seconds_into_step) {
 
 // ---- States ----
 
-/// With snapshots it returns once more for each restored state, in the process that goes on then,
-/// and the request is one to restore.
-void Server::save_state(PacketReader& in) {
-  if (!snapshots_) return capability<core::StateSaving>().save_state();
+/// With snapshots it returns once more for each restored state, in the process that goes on then:
+/// true, and the request is one to restore.
+bool Server::save_state(std::optional<Time> time) {
+  if (!snapshots_) {
+    capability<core::StateSaving>().save_state();
+    return false;
+  }
   memory_.call_note.write("the snapshot of its process");
-  if (snapshots_->save(slot_, take_time(in))) undone_calls_ = memory_.calls - diagnostics_->calls();
+  if (!snapshots_->save(slot_, time)) return false;
+  undone_calls_ = memory_.calls - diagnostics_->calls();
+  return true;
 }
 
 void Server::restore_state(PacketReader& in) {

@@ -49,7 +49,7 @@ class Server {
   void set(PacketReader& in);
   void make_plan(PacketReader& in);
   void step(PacketReader& in, PacketWriter& out);
-  void save_state(PacketReader& in);
+  bool save_state(std::optional<Time> time);
   void restore_state(PacketReader& in);
   void select_state(std::size_t slot);
   void get_directional_derivative(PacketReader& in, PacketWriter& out);

@@ -1,11 +1,22 @@
 #include "master/isolation/unit_proxy.h"
 
+#include <algorithm>
 #include <system_error>
 #include <utility>
 
 #include <fmt/format.h>
 
 namespace stride::isolation {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// The end comes from the unit's process, where anything may be written.
+std::chrono::nanoseconds time_since(Clock::time_point began, Clock::time_point end) {
+  return std::clamp(end, began, std::max(began, Clock::now())) - began;
+}
+
+}  // namespace
 
 // ---- Life cycle ----
 
@@ -26,6 +37,7 @@ UnitProxy::UnitProxy(HostedUnitSpec spec) : spec_(std::move(spec)) {
         capabilities_ = take_capabilities(from);
       });
   capabilities_.set(static_cast<std::size_t>(core::HostDiagnostics::kId));
+  capabilities_.set(static_cast<std::size_t>(core::ConcurrentSteps::kId));
   if (spec_.has_snapshots()) {
     capabilities_.set(static_cast<std::size_t>(core::StateSaving::kId));
   }
@@ -47,12 +59,14 @@ UnitProxy::~UnitProxy() {
 }
 
 void UnitProxy::free() {
+  drop_step();
   if (std::exchange(is_freed_, true) || client_->has_failed()) return;
   call(RequestCode::Free);
   client_->finish();
 }
 
 void UnitProxy::terminate() {
+  drop_step();
   if (!client_->has_failed()) call(RequestCode::Terminate);
 }
 
@@ -67,16 +81,36 @@ core::HostStatistics UnitProxy::host_statistics() const {
 
 template <class Put, class Take>
 void UnitProxy::call(RequestCode request, Put&& put, Take&& take) {
-  try {
+  send(request, put);
+  receive(take);
+}
+
+template <class Put>
+void UnitProxy::send(RequestCode request, Put&& put) {
+  guard([&] {
     PacketWriter packet = client_->write();
     put(packet);
-    ReplyCode reply = client_->send(request, packet, time_);
+    client_->post(request, packet, time_);
+  });
+}
+
+template <class Take>
+void UnitProxy::receive(Take&& take) {
+  guard([&] {
+    ReplyCode reply = client_->await(time_, spec_.host.call_limit);
     if (reply != ReplyCode::Done) [[unlikely]] {
       reply = serve_input_requests(reply);
       if (reply != ReplyCode::Done) throw_reply(reply);
     }
     PacketReader answer = client_->read();
     take(answer);
+  });
+}
+
+template <class Action>
+void UnitProxy::guard(Action&& action) {
+  try {
+    action();
   } catch (const BadPacket&) {
     client_->fail_bad_packet(time_);
   } catch (const std::system_error& failure) {
@@ -192,26 +226,61 @@ core::StepResult UnitProxy::step(const core::StepInterval& interval) {
 
 core::StepResult UnitProxy::step(const core::StepInterval& interval,
                                  const core::StepValues& values) {
+  begin_step(interval, values, {});
+  return finish_step();
+}
+
+void UnitProxy::begin_step(const core::StepInterval& interval, const core::StepValues& values,
+                           const Extras& extras) {
   const std::uint32_t plan = plan_number(values);
   time_ = interval.from;
+  send(RequestCode::Step, [&](PacketWriter& to) {
+    to.put(plan);
+    to.put(interval);
+    to.put(extras.saves_state);
+    to.put(extras.is_timed);
+    for (const core::BoundValues& input : values.inputs) put_values(to, *input.block);
+  });
+  step_ = PresentStep{interval, values};
+  if (extras.is_timed) step_->began = Clock::now();
+  client_->begin_call();
+}
+
+core::StepResult UnitProxy::finish_step() {
+  const PresentStep step = *std::exchange(step_, std::nullopt);
   core::StepResult result;
-  call(
-      RequestCode::Step,
-      [&](PacketWriter& to) {
-        to.put(plan);
-        to.put(interval);
-        for (const core::BoundValues& input : values.inputs) put_values(to, *input.block);
-      },
-      [&](PacketReader& from) {
-        result = take_step(from, interval);
-        if (result.rejected) {
-          rejection_reason_ = from.take_text();
-        } else {
-          for (const core::BoundValues& output : values.outputs) take_values(from, *output.block);
-        }
-      });
+  receive([&](PacketReader& from) { result = take_result(from, step); });
   if (!result.rejected) time_ = result.reached;
   return result;
+}
+
+core::StepResult UnitProxy::take_result(PacketReader& from, const PresentStep& step) {
+  const core::StepResult result = take_step(from, step.interval);
+  if (step.began) step_time_ = time_since(*step.began, from.take<Clock::time_point>());
+  if (result.rejected) {
+    rejection_reason_ = from.take_text();
+  } else {
+    for (const core::BoundValues& output : step.values.outputs) take_values(from, *output.block);
+  }
+  return result;
+}
+
+/// Another unit has failed, and its error ends the run. A step that does not end is no reason to
+/// wait for ever.
+void UnitProxy::drop_step() noexcept {
+  if (!std::exchange(step_, std::nullopt)) return;
+  try {
+    const auto limit = spec_.host.call_limit.value_or(spec_.options.warn_after);
+    ReplyCode reply = client_->await(time_, limit);
+    while (reply == ReplyCode::RequestInputs) {
+      client_->post(RequestCode::InputsNotUpdated, client_->write(), time_);
+      reply = client_->await(time_, limit);
+    }
+  } catch (const std::exception& failure) {
+    client_->log(
+        importer::Status::Warning, "stride",
+        fmt::format("its step was dropped, since another unit had failed: {}", failure.what()));
+  }
 }
 
 std::uint32_t UnitProxy::plan_number(const core::StepValues& values) {

@@ -1,6 +1,7 @@
 #ifndef STRIDE_MASTER_ISOLATION_UNIT_PROXY_H
 #define STRIDE_MASTER_ISOLATION_UNIT_PROXY_H
 
+#include <chrono>
 #include <exception>
 #include <memory>
 #include <optional>
@@ -8,6 +9,7 @@
 #include <vector>
 
 #include "master/algorithm/capabilities/clock_intervals.h"
+#include "master/algorithm/capabilities/concurrent_steps.h"
 #include "master/algorithm/capabilities/configuration_mode.h"
 #include "master/algorithm/capabilities/directional_derivatives.h"
 #include "master/algorithm/capabilities/host_diagnostics.h"
@@ -28,13 +30,14 @@ namespace stride::isolation {
 
 /// Represents a unit in another process: each function is a request, and what the unit answers or
 /// throws is answered and thrown here. Its capabilities are those of the unit, besides
-/// HostDiagnostics, and StateSaving where states are snapshots of the process.
+/// HostDiagnostics and ConcurrentSteps, and StateSaving where states are snapshots of the process.
 class UnitProxy final
     : public core::Unit,
-      public core::Capabilities<
-          core::ConfigurationMode, core::StateSaving, core::StateSerialization, core::Resetting,
-          core::IdlePromises, core::DirectionalDerivatives, core::ClockIntervals,
-          core::InputsWithinStep, core::MessageText, core::UnitDiagnostics, core::HostDiagnostics> {
+      public core::Capabilities<core::ConfigurationMode, core::StateSaving,
+                                core::StateSerialization, core::Resetting, core::IdlePromises,
+                                core::DirectionalDerivatives, core::ClockIntervals,
+                                core::InputsWithinStep, core::MessageText, core::UnitDiagnostics,
+                                core::HostDiagnostics, core::ConcurrentSteps> {
  public:
   using References = std::span<const core::ValueReference>;
 
@@ -51,6 +54,10 @@ class UnitProxy final
   core::StepResult step(const core::StepInterval& interval) override;
   core::StepResult step(const core::StepInterval& interval,
                         const core::StepValues& values) override;
+  void begin_step(const core::StepInterval& interval, const core::StepValues& values,
+                  const Extras& extras) override;
+  core::StepResult finish_step() override;
+  std::chrono::nanoseconds step_time() const override { return step_time_; }
   std::string rejection_reason() const override { return rejection_reason_; }
   void save_state() override;
   void restore_state() override;
@@ -79,11 +86,26 @@ class UnitProxy final
   core::HostStatistics host_statistics() const override;
 
  private:
+  using Clock = std::chrono::steady_clock;
+
   core::Capability* find_capability(core::CapabilityId id) override;
+
+  struct PresentStep {
+    core::StepInterval interval;
+    core::StepValues values;
+    std::optional<Clock::time_point> began{};  ///< of one that is timed
+  };
 
   /// Sends put(PacketWriter&) and takes the answer with take(PacketReader&).
   template <class Put, class Take>
   void call(RequestCode request, Put&& put, Take&& take);
+  /// The two halves of it.
+  template <class Put>
+  void send(RequestCode request, Put&& put);
+  template <class Take>
+  void receive(Take&& take);
+  template <class Action>
+  void guard(Action&& action);
   template <class Put>
   void call(RequestCode request, Put&& put);
   void call(RequestCode request);
@@ -92,6 +114,8 @@ class UnitProxy final
   void throw_reply(ReplyCode reply);
   RequestCode update_inputs(double seconds_into_step) noexcept;
   std::uint32_t plan_number(const core::StepValues& values);
+  core::StepResult take_result(PacketReader& from, const PresentStep& step);
+  void drop_step() noexcept;
 
   HostedUnitSpec spec_;
   std::unique_ptr<HostClient> client_;
@@ -102,6 +126,8 @@ class UnitProxy final
   core::InputUpdate input_update_;
   std::exception_ptr callback_failure_;
   std::string rejection_reason_;
+  std::optional<PresentStep> step_;  ///< that was begun
+  std::chrono::nanoseconds step_time_{};
   bool is_freed_ = false;
 };
 

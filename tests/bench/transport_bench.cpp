@@ -1,8 +1,9 @@
 // What the way to a unit costs: nanoseconds per step of an integrator with one input and one
 // output, in this process, in a process of its own, there with a snapshot before each step, and
-// through the pipe of the unit `process`; and what a snapshot costs beside a bare fork of a process
-// of the same size. All in turn within each iteration, so that a machine that changes its speed
-// changes it for all. What counts are the ratios and the differences.
+// through the pipe of the unit `process`; what several units in processes of their own cost; and
+// what a snapshot costs beside a bare fork of a process of the same size. All in turn within each
+// iteration, so that a machine that changes its speed changes it for all. What counts are the
+// ratios and the differences.
 #include <algorithm>
 #include <cstdint>
 #include <cstdlib>
@@ -14,6 +15,7 @@
 #include <vector>
 
 #include <benchmark/benchmark.h>
+#include <fmt/format.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -78,6 +80,12 @@ class Stepped {
   Time now_{};
 };
 
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::ranges::nth_element(values, middle);
+  return *middle;
+}
+
 /// A unit that has no state of its own.
 std::shared_ptr<importer::Fmu> integrator() {
   static const auto fmu =
@@ -129,26 +137,43 @@ void transport(benchmark::State& state) {
   state.counters["pipe_ratio"] = 1e9 * pipe_seconds / few / near_ns;
 }
 
-/// Several units in processes of their own, stepped in turn as a communication step does it. With
-/// more of them than cores those that wait must not keep the others from working.
-void hosts(benchmark::State& state) {
-  const int steps = static_cast<int>(state.range(1));
-  std::vector<std::unique_ptr<Stepped>> others;
-  for (std::int64_t i = 0; i < state.range(0); ++i) others.emplace_back(new Stepped(hosted()));
-  Stepped near = in_process(integrator());
-  double near_seconds = 0, seconds = 0;
-  for (auto _ : state) {
-    near_seconds += near.steps(steps);
-    double mine = 0;
-    for (int i = 0; i < steps; ++i) {
-      for (const auto& other : others) mine += other->steps(1);
-    }
-    seconds += mine;
-    state.SetIterationTime(mine);
+/// Seconds of a run of a ring of workers, each in a process of its own.
+double run_workers(std::int64_t count, const std::string& rounds, int steps) {
+  static const auto fmu = importer::Fmu::load(tests::test_unit_folder() / "worker.fmu");
+  core::SystemDeclaration declaration;
+  std::vector<std::unique_ptr<core::Unit>> units;
+  for (std::int64_t i = 0; i < count; ++i) {
+    const std::string name = fmt::format("u{}", i);
+    declaration.components.push_back({name, fmu->description(), {}, {}});
+    declaration.connections.push_back(
+        {name, "y", fmt::format("u{}", (i + 1) % count), "u", false, {}});
+    declaration.start_values.push_back({name, "rounds", rounds, "", {}});
+    units.push_back(isolation::instantiate(fmu, name, {}, {}));
   }
-  const double all = static_cast<double>(state.iterations()) * steps;
-  const double each = 1e9 * seconds / (all * static_cast<double>(others.size()));
-  state.counters["hosted_more_ns"] = each - 1e9 * near_seconds / all;
+  const core::System system(declaration);
+  core::RunOptions options;
+  options.step.size = kStep;
+  options.stop = Time(kStep * steps);
+  options.measure_time = false;
+  core::Simulation simulation(system, std::move(units), options);
+  return time_steps(simulation);
+}
+
+/// Communication steps of several units in processes of their own, beside those of one: with as
+/// many cores the ratio would be 1. With more of them than cores those that wait must not keep the
+/// others from working.
+void hosts(benchmark::State& state) {
+  const int steps = static_cast<int>(state.range(0));
+  const std::string rounds = std::to_string(state.range(2));
+  std::vector<double> one, several;
+  for (auto _ : state) {
+    one.push_back(run_workers(1, rounds, steps));
+    several.push_back(run_workers(state.range(1), rounds, steps));
+    state.SetIterationTime(several.back());
+  }
+  state.counters["one_us"] = 1e6 * median(one) / steps;
+  state.counters["several_us"] = 1e6 * median(several) / steps;
+  state.counters["ratio"] = median(several) / median(one);
 }
 
 /// Seconds from the fork to the end of a child that does nothing.
@@ -186,10 +211,14 @@ void snapshot(benchmark::State& state) {
 
 BENCHMARK(transport)->Arg(100)->Arg(20'000)->UseManualTime()->Unit(benchmark::kMillisecond);
 BENCHMARK(hosts)
-    ->Args({1, 100})
-    ->Args({1, 20'000})
-    ->Args({2, 20'000})
-    ->Args({6, 20'000})
+    ->ArgNames({"", "hosts", "rounds"})
+    ->Args({100, 2, 0})
+    ->Args({2000, 1, 0})
+    ->Args({2000, 2, 0})
+    ->Args({2000, 4, 0})
+    ->Args({500, 2, 20'000})
+    ->Args({500, 4, 20'000})
+    ->Iterations(15)
     ->UseManualTime()
     ->Unit(benchmark::kMillisecond);
 BENCHMARK(snapshot)

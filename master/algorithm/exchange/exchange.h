@@ -8,8 +8,10 @@
 #include <functional>
 #include <span>
 #include <string>
+#include <type_traits>
 #include <vector>
 
+#include "master/algorithm/capabilities/concurrent_steps.h"
 #include "master/algorithm/observer.h"
 #include "master/algorithm/unit.h"
 #include "master/model/system.h"
@@ -61,11 +63,14 @@ class Exchange {
   /// A step of the unit with its inputs, as write_routed_inputs() writes them, and with its
   /// outputs.
   StepResult step(std::size_t component, Unit& unit, const StepInterval& interval) {
-    const StepValues& values = step_values_[component];
-    if (are_inputs_written_[component]) return unit.step(interval, {{}, values.outputs});
-    if (has_discrete_inputs_[component]) write_discrete_inputs(component, unit);
-    are_inputs_written_[component] = true;
-    return unit.step(interval, values);
+    return with_step_values(component, unit,
+                            [&](const StepValues& values) { return unit.step(interval, values); });
+  }
+  /// Begins such a step of a unit that makes it elsewhere. Its outputs are there when it is done.
+  void begin_step(std::size_t component, Unit& unit, ConcurrentSteps& steps,
+                  const StepInterval& interval, const ConcurrentSteps::Extras& extras) {
+    with_step_values(component, unit,
+                     [&](const StepValues& values) { steps.begin_step(interval, values, extras); });
   }
   /// An input was changed in its block by other means than route().
   void mark_changed(std::size_t component) { are_inputs_written_[component] = false; }
@@ -159,6 +164,16 @@ class Exchange {
     const Connection* connection;
   };
 
+  /// Calls step(values) with the values to go with a step, after writing those that do not.
+  template <class Step>
+  std::invoke_result_t<Step, const StepValues&> with_step_values(std::size_t component, Unit& unit,
+                                                                 Step&& step) {
+    const StepValues& values = step_values_[component];
+    if (are_inputs_written_[component]) return step(StepValues{{}, values.outputs});
+    if (has_discrete_inputs_[component]) write_discrete_inputs(component, unit);
+    are_inputs_written_[component] = true;
+    return step(values);
+  }
   std::vector<RealValue> elements(std::vector<Transfer>& transfers,
                                   const std::function<bool(const Transfer&)>& is_wanted) const;
   static bool is_of(const Transfer& transfer, std::span<const ValueReference> ticking);

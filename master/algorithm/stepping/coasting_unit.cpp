@@ -18,11 +18,12 @@ CoastingUnit::CoastingUnit(std::unique_ptr<Unit> unit, const UnitDescription& de
                            CheckpointInterval interval)
     : ForwardingUnit(std::move(unit)),
       state_(inner().require_capability<StateSaving>()),
+      concurrent_(inner().capability<ConcurrentSteps>()),
       description_(description),
       interval_(interval) {}
 
 Capability* CoastingUnit::find_capability(CapabilityId id) {
-  return find_decorated<StateSaving>(*this, id);
+  return find_decorated<StateSaving, ConcurrentSteps>(*this, id);
 }
 
 void CoastingUnit::select_state(std::size_t) {
@@ -37,35 +38,87 @@ void CoastingUnit::set(std::span<const ValueReference> references, const ValueBl
   if (is_continuous_) log_.add_inputs(references, values);
 }
 
-bool CoastingUnit::can_log(const StepValues& values) const {
-  return is_continuous_ && std::ranges::all_of(values.inputs, [](const BoundValues& input) {
+bool CoastingUnit::can_log(std::span<const BoundValues> inputs) const {
+  return is_continuous_ && std::ranges::all_of(inputs, [](const BoundValues& input) {
            return StepLog::can_add(*input.block);
          });
+}
+
+/// Returns the step as it is to be made with them.
+StepInterval CoastingUnit::log_inputs(const StepInterval& interval,
+                                      std::span<const BoundValues> inputs) {
+  StepInterval noted = interval;
+  is_continuous_ = can_log(inputs);
+  if (!is_continuous_) return noted;
+  for (const BoundValues& input : inputs) log_.add_inputs(input.references, *input.block);
+  noted.may_go_back_before = log_.steps() > 0;
+  return noted;
+}
+
+void CoastingUnit::log_step(const StepInterval& interval, std::span<const BoundValues> outputs,
+                            const StepResult& result) {
+  if (result.rejected || !is_continuous_) return;
+  log_.add_step(interval, outputs, result);
+  keep_outputs(outputs);
 }
 
 StepResult CoastingUnit::step(const StepInterval& interval, const StepValues& values) {
   interval_.count_step();
   if (!is_continuous_ && !is_measured_) [[likely]]
     return inner().step(interval, values);
-  is_continuous_ = can_log(values);
-  if (!is_continuous_) return make_step(interval, values);
-  for (const BoundValues& input : values.inputs) log_.add_inputs(input.references, *input.block);
-  StepInterval noted = interval;
-  noted.may_go_back_before = log_.steps() > 0;
-  const StepResult result = make_step(noted, values);
-  if (result.rejected || !is_continuous_) return result;
-  log_.add_step(noted, values.outputs, result);
-  keep_outputs(values.outputs);
-  return result;
-}
-
-StepResult CoastingUnit::make_step(const StepInterval& interval, const StepValues& values) {
+  const StepInterval noted = log_inputs(interval, values.inputs);
   is_in_step_ = true;
   const bool is_measured = std::exchange(is_measured_, false);
   const auto began = is_measured ? WallClock::Source::now() : WallClock::Source::time_point();
-  const StepResult result = inner().step(interval, values);
+  const StepResult result = inner().step(noted, values);
   if (is_measured) interval_.add_costs(save_cost_, WallClock::Source::now() - began);
   is_in_step_ = false;
+  log_step(noted, values.outputs, result);
+  return result;
+}
+
+// ---- A step elsewhere ----
+
+void CoastingUnit::begin_step(const StepInterval& interval, const StepValues& values,
+                              const Extras& extras) {
+  StepValues given = values;
+  const bool saves = extras.saves_state && save_with_step(given);
+  interval_.count_step();
+  // what goes with a save is logged, or a part of the state
+  const auto inputs = extras.saves_state ? std::span<const BoundValues>() : values.inputs;
+  step_ =
+      PresentStep{log_inputs(interval, inputs), values.outputs, std::exchange(is_measured_, false)};
+  is_in_step_ = true;
+  concurrent_->begin_step(
+      step_->interval, given,
+      {.saves_state = saves, .is_timed = extras.is_timed || step_->is_measured});
+}
+
+/// save_state(), as far as it is not left to the step. Returns whether the unit has to save its
+/// state there; the inputs that are still to be set remain in `values`.
+bool CoastingUnit::save_with_step(StepValues& values) {
+  is_continuous_ = can_log(values.inputs);
+  if (!is_save_due()) {
+    for (const BoundValues& input : values.inputs) log_.add_inputs(input.references, *input.block);
+    note_save();
+    return false;
+  }
+  choose_stretch();
+  if (is_measured_) {
+    for (const BoundValues& input : values.inputs) inner().set(input.references, *input.block);
+    values.inputs = {};
+    save_measured();
+  }
+  begin_log();
+  return !is_measured_;
+}
+
+StepResult CoastingUnit::finish_step() {
+  const StepResult result = concurrent_->finish_step();
+  is_in_step_ = false;
+  const PresentStep step = *std::exchange(step_, std::nullopt);
+  if (step.is_measured) interval_.add_costs(save_cost_, concurrent_->step_time());
+  log_step(step.interval, step.outputs, result);
   return result;
 }
 
@@ -77,15 +130,30 @@ void CoastingUnit::enter_event_mode() {
 // ---- Its states ----
 
 void CoastingUnit::save_state() {
-  if (!is_continuous_ || log_.steps() >= stretch_) return begin_stretch();
+  if (is_save_due()) return begin_stretch();
+  note_save();
+}
+
+/// Of a state that is not saved.
+void CoastingUnit::note_save() {
   if (log_.steps() > mark_.steps) std::swap(at_mark_, latest_);
   mark_ = log_.mark();
 }
 
 void CoastingUnit::begin_stretch() {
+  choose_stretch();
+  save_measured();
+  begin_log();
+}
+
+void CoastingUnit::choose_stretch() {
   if (!is_log_bounded_ && log_.steps() > 0) bound_log();
   stretch_ = interval_.begin_stretch();
-  save_measured();
+  is_measured_ = interval_.is_measured();
+}
+
+/// Behind a save.
+void CoastingUnit::begin_log() {
   ++counts_.saves;
   if (!log_.is_empty()) log_.clear();
   mark_ = {};
@@ -93,7 +161,6 @@ void CoastingUnit::begin_stretch() {
 }
 
 void CoastingUnit::save_measured() {
-  is_measured_ = interval_.is_measured();
   if (!is_measured_) return state_.save_state();
   const auto began = WallClock::Source::now();
   state_.save_state();

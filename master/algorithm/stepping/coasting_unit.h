@@ -2,11 +2,13 @@
 #ifndef STRIDE_MASTER_ALGORITHM_STEPPING_COASTING_UNIT_H
 #define STRIDE_MASTER_ALGORITHM_STEPPING_COASTING_UNIT_H
 
+#include <chrono>
 #include <memory>
 #include <optional>
 #include <span>
 #include <vector>
 
+#include "master/algorithm/capabilities/concurrent_steps.h"
 #include "master/algorithm/capabilities/state_saving.h"
 #include "master/algorithm/forwarding_unit.h"
 #include "master/algorithm/statistics.h"
@@ -24,9 +26,12 @@ namespace stride::core {
 /// unit requests within a step: the next save_state() then saves the state. So does the first one
 /// behind a rollback, since it may be followed by others.
 ///
+/// A unit that makes its steps elsewhere saves its state there, too, with the step's request, but
+/// for saves that are measured.
+///
 /// If the unit does not repeat its outputs bit for bit, that is noted in the counts, and its state
 /// is saved before each step from then on.
-class CoastingUnit : public ForwardingUnit, public StateSaving {
+class CoastingUnit : public ForwardingUnit, public StateSaving, public ConcurrentSteps {
  public:
   struct Counts {
     std::uint64_t saves = 0;
@@ -44,6 +49,10 @@ class CoastingUnit : public ForwardingUnit, public StateSaving {
   StepResult step(const StepInterval& interval) override { return step(interval, StepValues{}); }
   /// `values.outputs` must stay what and where they are until the next save of the state.
   StepResult step(const StepInterval& interval, const StepValues& values) override;
+  void begin_step(const StepInterval& interval, const StepValues& values,
+                  const Extras& extras) override;
+  StepResult finish_step() override;
+  std::chrono::nanoseconds step_time() const override { return concurrent_->step_time(); }
   void enter_event_mode() override;
 
   void save_state() override;
@@ -55,8 +64,15 @@ class CoastingUnit : public ForwardingUnit, public StateSaving {
  private:
   Capability* find_capability(CapabilityId id) override;
 
-  bool can_log(const StepValues& values) const;
-  StepResult make_step(const StepInterval& interval, const StepValues& values);
+  bool can_log(std::span<const BoundValues> inputs) const;
+  StepInterval log_inputs(const StepInterval& interval, std::span<const BoundValues> inputs);
+  void log_step(const StepInterval& interval, std::span<const BoundValues> outputs,
+                const StepResult& result);
+  bool save_with_step(StepValues& values);
+  bool is_save_due() const { return !is_continuous_ || log_.steps() >= stretch_; }
+  void note_save();
+  void choose_stretch();
+  void begin_log();
   void begin_stretch();
   void save_measured();
   void bound_log();
@@ -71,7 +87,15 @@ class CoastingUnit : public ForwardingUnit, public StateSaving {
     std::vector<ValueBlock> values;
   };
 
+  /// A step that was begun, and is logged when it is finished.
+  struct PresentStep {
+    StepInterval interval;
+    std::span<const BoundValues> outputs;
+    bool is_measured;
+  };
+
   StateSaving& state_;
+  ConcurrentSteps* concurrent_;  ///< of the unit; null if it steps here
   const UnitDescription& description_;
   CheckpointInterval interval_;
   Counts counts_;
@@ -81,6 +105,7 @@ class CoastingUnit : public ForwardingUnit, public StateSaving {
   bool is_measured_ = false;    ///< whether the next step is
   bool is_in_step_ = false;
   bool is_log_bounded_ = false;
+  std::optional<PresentStep> step_;  ///< of a unit that steps elsewhere
   StepLog log_;
   StepLog::Mark mark_;  ///< of the last save_state()
   KeptOutputs latest_, at_mark_;

@@ -152,6 +152,21 @@ void form_stages(const System& system, std::vector<StepOrderEntry>& order) {
   }
 }
 
+/// As large as the order allows.
+void form_batches(const System& system, std::vector<StepOrderEntry>& order) {
+  const auto fed = fed_components(system);
+  auto first = order.begin();  // of the batch
+  for (auto entry = order.begin(); entry != order.end(); ++entry) {
+    const bool is_same_stage = first->stage == entry->stage;
+    const bool is_wired = std::any_of(first, entry, [&](const StepOrderEntry& other) {
+      return fed[other.component].contains(entry->component) ||
+             fed[entry->component].contains(other.component);
+    });
+    if (is_same_stage) entry->batch = first->batch + (is_wired ? 1 : 0);
+    if (!is_same_stage || is_wired) first = entry;
+  }
+}
+
 }  // namespace
 
 std::vector<StepOrderEntry> step_order(const System& system, const StepPolicyType& policy,
@@ -180,6 +195,7 @@ std::vector<StepOrderEntry> step_order(const System& system, const StepPolicyTyp
   check_single(system, order);
   if (coupling == Coupling::GaussSeidel) sort_along_connections(system, order);
   form_stages(system, order);
+  if (coupling == Coupling::GaussSeidel) form_batches(system, order);
   return order;
 }
 

@@ -30,6 +30,10 @@ struct StepOrderEntry {
   /// Counted from 0. All units of a stage make the same step, possibly at the same time; a stage
   /// begins when the one before it has completed its step.
   std::size_t stage = 0;
+  /// Counted from 0 within the stage, the units of a batch side by side. With Gauss-Seidel none of
+  /// them feeds another one of them, and they may follow those of the batches before; otherwise a
+  /// stage is one batch.
+  std::size_t batch = 0;
 };
 
 /// Units that can be rolled back come first: if one of them stops, the others go back and follow.

@@ -16,6 +16,12 @@ std::string times(std::uint64_t count) {
   return count == 1 ? "once" : fmt::format("{} times", count);
 }
 
+/// Whether the component must not step at the same time as some others.
+bool is_main_only(const RunOptions& options, std::size_t component) {
+  const auto& components = options.threads.main_only;
+  return std::ranges::find(components, component) != components.end();
+}
+
 }  // namespace
 
 Stepper::UnitStep::UnitStep(Unit& stepped, const StepOrderEntry& its_entry)
@@ -24,7 +30,8 @@ Stepper::UnitStep::UnitStep(Unit& stepped, const StepOrderEntry& its_entry)
       component(static_cast<std::uint32_t>(its_entry.component)),
       saves_state(its_entry.saves_state),
       can_vary_step(its_entry.can_vary_step),
-      state(saves_state ? &stepped.require_capability<StateSaving>() : nullptr) {}
+      state(saves_state ? &stepped.require_capability<StateSaving>() : nullptr),
+      concurrent(stepped.capability<ConcurrentSteps>()) {}
 
 Stepper::Stepper(RunContext& context, const std::vector<StepOrderEntry>& order,
                  InputExtrapolator* inputs, IdleScheduler* idle)
@@ -52,12 +59,33 @@ Stepper::Stepper(RunContext& context, const std::vector<StepOrderEntry>& order,
     unit_step.may_suspend = idle != nullptr && idle->may_suspend(entry.component);
     unit_step.is_plain =
         inputs == nullptr && !entry.saves_state && entry.can_vary_step && !unit_step.may_suspend;
+    if (is_main_only(context.options, entry.component)) unit_step.concurrent = nullptr;
+    // inputs of a step that are not those of its beginning are no part of the state
+    unit_step.can_save_with_step = unit_step.concurrent != nullptr && inputs == nullptr;
   }
+  form_stages();
+}
+
+void Stepper::form_stages() {
   for (std::size_t first = 0, i = 0; i < order_.size(); ++i) {
     if (i + 1 < order_.size() && order_[i + 1].stage == order_[i].stage) continue;
-    stages_.push_back(std::span(unit_steps_).subspan(first, i + 1 - first));
+    const auto units = std::span(unit_steps_).subspan(first, i + 1 - first);
+    stages_.push_back({units, batches(units, first)});
     first = i + 1;
   }
+}
+
+/// `first`: the position of the first one of the units.
+std::vector<ThreadShare> Stepper::batches(std::span<const UnitStep> units, std::size_t first) {
+  std::vector<ThreadShare> batches;
+  if (std::ranges::all_of(units, [](const UnitStep& u) { return u.concurrent == nullptr; })) {
+    return batches;
+  }
+  for (std::size_t i = 0; i < units.size(); ++i) {
+    batches.resize(units[i].entry->batch + 1);
+    batches.back().push_back(first + i);
+  }
+  return batches;
 }
 
 LoadBalancer::Plan Stepper::plan(const RunOptions& options) {
@@ -68,12 +96,10 @@ LoadBalancer::Plan Stepper::plan(const RunOptions& options) {
     plan.threads = std::min<std::size_t>(plan.threads, std::thread::hardware_concurrency());
   }
   plan.threads = std::clamp<std::size_t>(plan.threads, 1, std::max<std::size_t>(1, unit_count_));
-  const auto& main_only = options.threads.main_only;
   for (std::size_t i = 0; i < order_.size(); ++i) {
     plan.stages.resize(order_[i].stage + 1);
     plan.stages.back().push_back(i);
-    plan.main_only.push_back(std::count(main_only.begin(), main_only.end(), order_[i].component) !=
-                             0);
+    plan.main_only.push_back(is_main_only(options, order_[i].component));
   }
   plan.hand_over = [this] { return pool().measure_hand_over(); };
   return plan;
@@ -135,16 +161,18 @@ inline Time Stepper::make_pass(const StepInterval& interval) {
 }
 
 inline Time Stepper::step_stage(std::size_t stage, const StepInterval& interval) {
+  const auto& [units, batches] = stages_[stage];
   const std::span<const ThreadShare> shares = balancer_.shares(stage);
-  if (!shares.empty()) step_on_threads(shares, interval);
+  const bool is_one_by_one = shares.empty() && batches.empty();
+  if (!is_one_by_one) step_together(shares, batches, interval);
   const bool may_be_plain =
-      shares.empty() && !step_clock_.measures() && interval.from != interval.to;
+      is_one_by_one && !step_clock_.measures() && interval.from != interval.to;
   Time reached = interval.to;
-  for (UnitStep& unit_step : stages_[stage]) {
+  for (UnitStep& unit_step : units) {
     const bool is_first = unit_step.communication_step != communication_step_;
     if (may_be_plain && unit_step.is_plain && is_first) [[likely]] {
       if (step_plainly(unit_step, interval)) continue;
-    } else if (shares.empty()) {
+    } else if (is_one_by_one) {
       unit_step.outcome = attempt_timed(unit_step, interval);
     }
     const Time allowed = record(unit_step, interval);
@@ -157,23 +185,56 @@ inline Time Stepper::step_stage(std::size_t stage, const StepInterval& interval)
   return reached;
 }
 
-void Stepper::step_on_threads(std::span<const ThreadShare> shares, const StepInterval& interval) {
-  pool().run(shares.size(), [&](std::size_t k) noexcept {
-    for (const std::size_t i : shares[k]) attempt_on_thread(unit_steps_[i], interval);
-  });
+void Stepper::step_together(std::span<const ThreadShare> shares,
+                            std::span<const ThreadShare> batches, const StepInterval& interval) {
+  if (!shares.empty()) {
+    pool().run(shares.size(), [&](std::size_t k) noexcept { step_share(shares[k], interval); });
+    return;
+  }
+  for (const ThreadShare& batch : batches) {
+    if (!step_share(batch, interval)) return;
+  }
 }
 
-/// May be called for different units at the same time.
-void Stepper::attempt_on_thread(UnitStep& unit_step, const StepInterval& interval) noexcept {
+/// Units that step elsewhere do so while the others step here. Returns whether no unit has failed;
+/// what comes behind one that has failed is of no interest. May be called for different units at
+/// the same time.
+bool Stepper::step_share(const ThreadShare& share, const StepInterval& interval) noexcept {
+  for (const std::size_t i : share) {
+    UnitStep& unit_step = unit_steps_[i];
+    if (unit_step.concurrent == nullptr) continue;
+    succeeds(unit_step, [&] { return begin_timed(unit_step, interval); });
+  }
+  for (const std::size_t i : share) {
+    UnitStep& unit_step = unit_steps_[i];
+    if (unit_step.concurrent != nullptr) continue;
+    if (!succeeds(unit_step, [&] { return attempt_timed(unit_step, interval); })) break;
+  }
+  for (const std::size_t i : share) {
+    UnitStep& unit_step = unit_steps_[i];
+    if (unit_step.outcome == Outcome::Failed && !failures_[i].is_consequence) return false;
+    if (unit_step.outcome != Outcome::Pending) continue;
+    if (!succeeds(unit_step, [&] { return finish(unit_step); })) return false;
+  }
+  return true;
+}
+
+/// Keeps a failure, for rethrow_failure(). Returns whether there is none but a consequence of
+/// another one.
+template <class Attempt>
+bool Stepper::succeeds(UnitStep& unit_step, Attempt&& attempt) noexcept {
+  bool is_consequence = false;
   try {
-    unit_step.outcome = attempt_timed(unit_step, interval);
-    return;
+    unit_step.outcome = attempt();
+    return true;
   } catch (const ConsequentError&) {
+    is_consequence = true;
     failures_[index(unit_step)] = {std::current_exception(), true};
   } catch (...) {
     failures_[index(unit_step)] = {std::current_exception(), false};
   }
   unit_step.outcome = Outcome::Failed;
+  return is_consequence;
 }
 
 /// The short form of attempt() for most units in most steps. Returns whether there is nothing to
@@ -198,13 +259,40 @@ inline Stepper::Outcome Stepper::attempt_timed(UnitStep& unit_step, const StepIn
 }
 
 inline Stepper::Outcome Stepper::attempt(UnitStep& unit_step, const StepInterval& interval) {
-  unit_step.rolled_back = false;
+  const Outcome outcome = prepare(unit_step, interval);
+  if (outcome != Outcome::Pending) return outcome;
+  return conclude(unit_step, exchange_.step(unit_step.component, *unit_step.unit, interval));
+}
+
+Stepper::Outcome Stepper::begin_timed(UnitStep& unit_step, const StepInterval& interval) {
+  return step_clock_.timed(times_[index(unit_step)], [&] { return begin(unit_step, interval); });
+}
+
+/// Of a unit that steps elsewhere.
+Stepper::Outcome Stepper::begin(UnitStep& unit_step, const StepInterval& interval) {
+  const Outcome outcome = prepare(unit_step, interval);
+  if (outcome != Outcome::Pending) return outcome;
+  exchange_.begin_step(
+      unit_step.component, *unit_step.unit, *unit_step.concurrent, interval,
+      {.saves_state = unit_step.saves_with_step, .is_timed = step_clock_.measures()});
+  return outcome;
+}
+
+Stepper::Outcome Stepper::finish(UnitStep& unit_step) {
+  const StepResult result = unit_step.concurrent->finish_step();
+  if (step_clock_.measures()) times_[index(unit_step)] += unit_step.concurrent->step_time();
+  return conclude(unit_step, result);
+}
+
+/// All that comes before a step: Pending if there is to be one.
+inline Stepper::Outcome Stepper::prepare(UnitStep& unit_step, const StepInterval& interval) {
+  unit_step.rolled_back = unit_step.saves_with_step = false;
   if (unit_step.may_suspend && stays_suspended(unit_step, interval)) return Outcome::Idle;
   if (unit_step.communication_step != communication_step_) [[likely]] {
     unit_step.communication_step = communication_step_;
     unit_step.result = {.reached = interval.from};
     unit_step.rejections = 0;
-    if (unit_step.saves_state) save(unit_step);
+    if (unit_step.saves_state) save(unit_step, interval);
   } else if (unit_step.result.reached > interval.to) {
     if (!unit_step.saves_state) return Outcome::TooFar;
     roll_back(unit_step, interval);
@@ -213,7 +301,10 @@ inline Stepper::Outcome Stepper::attempt(UnitStep& unit_step, const StepInterval
   if (!unit_step.can_vary_step && interval.to - interval.from != regular_)
     fail_size(unit_step, interval);
   if (inputs_ != nullptr) inputs_->before_step(unit_step.component, interval);
-  const StepResult result = exchange_.step(unit_step.component, *unit_step.unit, interval);
+  return Outcome::Pending;
+}
+
+inline Stepper::Outcome Stepper::conclude(UnitStep& unit_step, const StepResult& result) {
   if (result.rejected) {
     unit_step.possible = result.reached;
     return Outcome::Rejected;
@@ -238,7 +329,9 @@ bool Stepper::stays_suspended(UnitStep& unit_step, const StepInterval& interval)
 }
 
 /// The inputs are part of the state.
-void Stepper::save(UnitStep& unit_step) {
+void Stepper::save(UnitStep& unit_step, const StepInterval& interval) {
+  unit_step.saves_with_step = unit_step.can_save_with_step && interval.from != interval.to;
+  if (unit_step.saves_with_step) return;
   exchange_.write_routed_inputs(unit_step.component, *unit_step.unit);
   unit_step.state->save_state();
 }
@@ -282,6 +375,7 @@ inline Time Stepper::record(UnitStep& unit_step, const StepInterval& interval) {
       return retry_target(unit_step, interval);
     case Outcome::TooFar:
       fail_final(unit_step);
+    case Outcome::Pending:  // behind a unit that has failed
     case Outcome::Failed:
       break;
   }
@@ -302,7 +396,7 @@ void Stepper::record_time(const UnitStep& unit_step) {
 
 /// The first failure in the step order that is not a consequence of another one.
 void Stepper::rethrow_failure(const UnitStep& first) const {
-  for (const UnitStep& unit_step : stages_[first.entry->stage]) {
+  for (const UnitStep& unit_step : stages_[first.entry->stage].units) {
     const Failure& failure = failures_[index(unit_step)];
     if (unit_step.outcome == Outcome::Failed && !failure.is_consequence) {
       std::rethrow_exception(failure.cause);

@@ -12,6 +12,7 @@
 
 #include <stride/time.h>
 
+#include "master/algorithm/capabilities/concurrent_steps.h"
 #include "master/algorithm/capabilities/state_saving.h"
 #include "master/algorithm/idle/idle_scheduler.h"
 #include "master/algorithm/parallel/load_balancer.h"
@@ -27,9 +28,13 @@ namespace stride::core {
 /// target becomes the earliest time that such a unit reached or could have reached, or half the way
 /// if that is not known; units that have gone further are rolled back and follow.
 ///
+/// Units that compute elsewhere (ConcurrentSteps) step at the same time, and beside the others: all
+/// of a stage, or with Gauss-Seidel all of a batch, begin before the first of them is waited for.
+///
 /// The outcome of each unit's step is recorded in the step order, whichever thread made it, so
 /// results, statistics and errors do not depend on the threads. Where several units of a stage
-/// fail, the error of the first one is thrown, after all threads have finished.
+/// fail, the error of the first one is thrown, after all threads have finished. Concurrent steps of
+/// units behind it may still go on then.
 class Stepper {
  public:
   /// All must outlive this object. `order` is that of step_order(). `inputs` sets the inputs before
@@ -61,7 +66,7 @@ class Stepper {
   bool was_parallel() const { return was_parallel_; }
 
  private:
-  enum class Outcome : std::uint8_t { Idle, Stepped, Rejected, TooFar, Failed };
+  enum class Outcome : std::uint8_t { Idle, Pending, Stepped, Rejected, TooFar, Failed };
 
   /// The step of one unit in the present communication step. Written by the thread that steps the
   /// unit, and read after that has finished; it has a cache line of its own, so that threads do not
@@ -76,15 +81,18 @@ class Stepper {
     bool can_vary_step;
     bool may_suspend = false;
     bool is_plain = false;                 ///< it needs nothing but the step itself
+    bool can_save_with_step = false;       ///< of a concurrent one: its step includes that
     StepResult result{};                   ///< the time that it has reached, and how
     Time possible{};                       ///< that it could have reached in a rejected step
     std::uint64_t communication_step = 0;  ///< the last one that it has begun
     std::uint64_t steps = 0;
     Outcome outcome = Outcome::Idle;  ///< of the present pass, as the flags behind it
+    bool saves_with_step = false;
     bool rolled_back = false;
     Time undone{};                 ///< the time that it had reached before
     std::uint32_t rejections = 0;  ///< in the present communication step
     StateSaving* state = nullptr;  ///< where saves_state
+    ConcurrentSteps* concurrent;   ///< null if it steps here
   };
   /// The last unit that cut the present communication step short.
   struct EarlyStop {
@@ -96,18 +104,30 @@ class Stepper {
     std::exception_ptr cause;
     bool is_consequence = false;  ///< of another unit's failure
   };
+  struct Stage {
+    std::span<UnitStep> units;
+    std::vector<ThreadShare> batches;  ///< where units step elsewhere; none if all step here
+  };
 
   Time make_timed_passes(Time from, Time target);
   Time make_passes(Time from, Time target);
   Time make_pass(const StepInterval& interval);
   Time step_stage(std::size_t stage, const StepInterval& interval);
-  void step_on_threads(std::span<const ThreadShare> shares, const StepInterval& interval);
-  void attempt_on_thread(UnitStep& unit_step, const StepInterval& interval) noexcept;
+  void step_together(std::span<const ThreadShare> shares, std::span<const ThreadShare> batches,
+                     const StepInterval& interval);
+  bool step_share(const ThreadShare& share, const StepInterval& interval) noexcept;
+  template <class Attempt>
+  bool succeeds(UnitStep& unit_step, Attempt&& attempt) noexcept;
   bool step_plainly(UnitStep& unit_step, const StepInterval& interval);
   Outcome attempt_timed(UnitStep& unit_step, const StepInterval& interval);
   Outcome attempt(UnitStep& unit_step, const StepInterval& interval);
+  Outcome begin_timed(UnitStep& unit_step, const StepInterval& interval);
+  Outcome begin(UnitStep& unit_step, const StepInterval& interval);
+  Outcome finish(UnitStep& unit_step);
+  Outcome prepare(UnitStep& unit_step, const StepInterval& interval);
+  Outcome conclude(UnitStep& unit_step, const StepResult& result);
   bool stays_suspended(UnitStep& unit_step, const StepInterval& interval);
-  void save(UnitStep& unit_step);
+  void save(UnitStep& unit_step, const StepInterval& interval);
   void roll_back(UnitStep& unit_step, const StepInterval& interval);
   void restore(UnitStep& unit_step, Time from);
   Time record(UnitStep& unit_step, const StepInterval& interval);
@@ -126,6 +146,8 @@ class Stepper {
   [[noreturn]] void fail_size(const UnitStep& unit_step, const StepInterval& interval) const;
   std::string hint_for_final(const UnitStep& stopped) const;
   [[noreturn]] void fail_final(const UnitStep& ahead) const;
+  void form_stages();
+  static std::vector<ThreadShare> batches(std::span<const UnitStep> units, std::size_t first);
   LoadBalancer::Plan plan(const RunOptions& options);
   ThreadPool& pool();
 
@@ -144,7 +166,7 @@ class Stepper {
   Duration minimum_;  ///< no shorter step is tried after a rejection
   const std::vector<StepOrderEntry>& order_;
   std::vector<UnitStep> unit_steps_;             ///< in that order
-  std::vector<std::span<UnitStep>> stages_;      ///< of them
+  std::vector<Stage> stages_;                    ///< of them
   std::vector<std::size_t> index_of_;            ///< by component
   std::vector<std::chrono::nanoseconds> times_;  ///< by unit_step, of the present pass
   std::vector<Failure> failures_;                ///< likewise

@@ -30,7 +30,8 @@ class CompleteUnit final : public core::Unit,
                            public core::InputsWithinStep,
                            public core::MessageText,
                            public core::UnitDiagnostics,
-                           public core::HostDiagnostics {
+                           public core::HostDiagnostics,
+                           public core::ConcurrentSteps {
  public:
   using Calls = std::vector<std::string>;
   explicit CompleteUnit(Calls& calls) : called_(calls) {}
@@ -93,7 +94,13 @@ class CompleteUnit final : public core::Unit,
   core::HostStatistics host_statistics() const override {
     return note("host_statistics"), core::HostStatistics{.snapshots = 3};
   }
+  void begin_step(const core::StepInterval&, const core::StepValues&, const Extras&) override {
+    note("begin_step");
+  }
+  core::StepResult finish_step() override { return note("finish_step"), core::StepResult{}; }
+  std::chrono::nanoseconds step_time() const override { return note("step_time"), kStepTime; }
 
+  static constexpr std::chrono::nanoseconds kStepTime{7};
   static inline const core::Interval kShift = core::Interval::from_fraction(1, 3);
 
  private:
@@ -101,11 +108,12 @@ class CompleteUnit final : public core::Unit,
   struct Unknown final : core::Capability {};
 
   core::Capability* find_capability(core::CapabilityId id) override {
-    core::Capability* const known = core::select_capability<
-        core::ConfigurationMode, core::StateSaving, core::StateSerialization, core::Resetting,
-        core::IdlePromises, core::DirectionalDerivatives, core::ClockIntervals,
-        core::InputsWithinStep, core::MessageText, core::UnitDiagnostics, core::HostDiagnostics>(
-        *this, id);
+    core::Capability* const known =
+        core::select_capability<core::ConfigurationMode, core::StateSaving,
+                                core::StateSerialization, core::Resetting, core::IdlePromises,
+                                core::DirectionalDerivatives, core::ClockIntervals,
+                                core::InputsWithinStep, core::MessageText, core::UnitDiagnostics,
+                                core::HostDiagnostics, core::ConcurrentSteps>(*this, id);
     return known != nullptr ? known : &unknown_;
   }
   void note(const char* function) const { called_.emplace_back(function); }

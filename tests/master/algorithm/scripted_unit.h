@@ -2,17 +2,21 @@
 #ifndef STRIDE_TESTS_MASTER_ALGORITHM_SCRIPTED_UNIT_H
 #define STRIDE_TESTS_MASTER_ALGORITHM_SCRIPTED_UNIT_H
 
+#include <chrono>
 #include <functional>
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "master/algorithm/capabilities/clock_intervals.h"
+#include "master/algorithm/capabilities/concurrent_steps.h"
 #include "master/algorithm/capabilities/configuration_mode.h"
 #include "master/algorithm/capabilities/directional_derivatives.h"
 #include "master/algorithm/capabilities/host_diagnostics.h"
@@ -137,7 +141,8 @@ class Describe {
   }();
 };
 
-/// With all capabilities that the scripts can fill; HostDiagnostics where `host` is set.
+/// With all capabilities that the scripts can fill; HostDiagnostics where `host` is set,
+/// ConcurrentSteps where `is_concurrent` is.
 class ScriptedUnit : public Unit,
                      public ConfigurationMode,
                      public StateSaving,
@@ -145,7 +150,8 @@ class ScriptedUnit : public Unit,
                      public DirectionalDerivatives,
                      public ClockIntervals,
                      public MessageText,
-                     public HostDiagnostics {
+                     public HostDiagnostics,
+                     public ConcurrentSteps {
  public:
   using Calls = std::vector<std::string>;
 
@@ -188,6 +194,12 @@ class ScriptedUnit : public Unit,
   std::function<void(ScriptedUnit&)> on_free = [](ScriptedUnit&) {};
   std::function<void(bool save)> on_state = [](bool) {};
   std::optional<HostStatistics> host;  ///< about its process
+  /// It takes its inputs where a step begins, and makes it where it is waited for.
+  bool is_concurrent = false;
+  std::function<void(ScriptedUnit&)> on_begin_step = [](ScriptedUnit&) {};
+  std::chrono::nanoseconds time_of_step{1};  ///< as it says then
+  std::optional<StepInterval> begun;         ///< and not finished
+  bool saved_with_step = false;              ///< the last one
   Calls calls;
   int gets = 0;
 
@@ -221,6 +233,20 @@ class ScriptedUnit : public Unit,
   StepResult step(const StepInterval& interval) override {
     return on_step(*this, interval.from, interval.to);
   }
+  void begin_step(const StepInterval& interval, const StepValues& values,
+                  const Extras& extras) override {
+    if (begun) throw std::logic_error("a step has begun already");
+    for (const BoundValues& input : values.inputs) set(input.references, *input.block);
+    saved_with_step = extras.saves_state;
+    if (saved_with_step) save_state();
+    begun = interval;
+    outputs_ = values.outputs;
+    on_begin_step(*this);
+  }
+  StepResult finish_step() override {
+    return Unit::step(*std::exchange(begun, std::nullopt), {{}, outputs_});
+  }
+  std::chrono::nanoseconds step_time() const override { return time_of_step; }
   void save_state() override {
     saved_values_ = values_;
     on_state(true);
@@ -303,8 +329,10 @@ class ScriptedUnit : public Unit,
  private:
   Capability* find_capability(CapabilityId id) override {
     if (id == HostDiagnostics::kId && !host) return nullptr;
+    if (id == ConcurrentSteps::kId && !is_concurrent) return nullptr;
     return select_capability<ConfigurationMode, StateSaving, IdlePromises, DirectionalDerivatives,
-                             ClockIntervals, MessageText, HostDiagnostics>(*this, id);
+                             ClockIntervals, MessageText, HostDiagnostics, ConcurrentSteps>(*this,
+                                                                                            id);
   }
 
   template <class Block, class Move>
@@ -327,6 +355,7 @@ class ScriptedUnit : public Unit,
   std::shared_ptr<const UnitDescription> description_;
   std::map<ValueReference, ValueBlock> values_;
   std::optional<std::map<ValueReference, ValueBlock>> saved_values_;
+  std::span<const BoundValues> outputs_;  ///< of the step that has begun
   bool initializing_ = false;
   bool in_event_mode_ = false;
 };

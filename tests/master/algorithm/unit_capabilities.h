@@ -3,6 +3,7 @@
 #define STRIDE_TESTS_MASTER_ALGORITHM_UNIT_CAPABILITIES_H
 
 #include "master/algorithm/capabilities/clock_intervals.h"
+#include "master/algorithm/capabilities/concurrent_steps.h"
 #include "master/algorithm/capabilities/configuration_mode.h"
 #include "master/algorithm/capabilities/directional_derivatives.h"
 #include "master/algorithm/capabilities/host_diagnostics.h"

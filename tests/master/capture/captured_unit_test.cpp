@@ -256,7 +256,8 @@ TEST_CASE("nothing of the unit is hidden but what cannot be taken back from the 
   index.follow(iterations);
   CompleteUnit::Calls calls;
   CapturedUnit captured(std::make_unique<CompleteUnit>(calls), *description, file, index);
-  check_capabilities(captured, {core::StateSerialization::kId, core::Resetting::kId});
+  check_capabilities(
+      captured, {core::StateSerialization::kId, core::Resetting::kId, core::ConcurrentSteps::kId});
   check_idle_promises(captured, calls);
   check_functions(captured, calls);
   check_state_saving(captured, calls);

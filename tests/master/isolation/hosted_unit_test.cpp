@@ -168,13 +168,14 @@ TEST_CASE("a failure while inputs are set within a step is thrown as it is") {
   CHECK(unit.number("x_other") == 3);
 }
 
-TEST_CASE("a hosted unit has the capabilities that it has in this process, and host diagnostics") {
+TEST_CASE("a hosted unit has the capabilities that it has in this process, and those of a host") {
   std::set<std::size_t> seen;
   for (const char* name : {"types", "idler", "resizable", "clocks", "oscillator_mass"}) {
     CAPTURE(name);
     Fixture hosted(name), here(name, false);
     auto numbers = capability_numbers(*here);
     numbers.insert(static_cast<std::size_t>(core::HostDiagnostics::kId));
+    numbers.insert(static_cast<std::size_t>(core::ConcurrentSteps::kId));
     CHECK(capability_numbers(*hosted) == numbers);
     seen.merge(numbers);
   }

@@ -27,9 +27,10 @@ std::shared_ptr<const UnitDescription> summing() {
 
 /// A unit that adds its input to its output in each step, and notes what it is asked for.
 struct Coasting {
-  explicit Coasting(std::size_t interval = 4) {
+  explicit Coasting(std::size_t interval = 4, bool is_concurrent = false) {
     auto scripted = std::make_unique<ScriptedUnit>(description);
     unit = scripted.get();
+    unit->is_concurrent = is_concurrent;
     unit->on_step = [this](ScriptedUnit& self, Time from, Time to) {
       journal += fmt::format(
           " {}", std::chrono::round<std::chrono::milliseconds>(to.time_since_epoch()).count());
@@ -46,10 +47,16 @@ struct Coasting {
 
   /// Saves, and makes a step with this input. The time is in ms.
   StepResult step(int from, double input, int to = 0) {
-    coasting->save_state();
+    const StepInterval interval(at(1e-3 * from), at(1e-3 * (to == 0 ? from + 1 : to)));
+    const StepValues values{{&bound_input, 1}, {&bound_output, 1}};
     inputs.numbers<double>()[0] = input;
-    return coasting->step(StepInterval(at(1e-3 * from), at(1e-3 * (to == 0 ? from + 1 : to))),
-                          {{&bound_input, 1}, {&bound_output, 1}});
+    if (unit->is_concurrent) {
+      auto& steps = coasting->require_capability<ConcurrentSteps>();
+      steps.begin_step(interval, values, {.saves_state = true});
+      return steps.finish_step();
+    }
+    coasting->save_state();
+    return coasting->step(interval, values);
   }
   double output() const { return outputs.numbers<double>()[0]; }
 
@@ -66,7 +73,7 @@ struct Coasting {
 }  // namespace
 
 TEST_CASE("a state is saved before some of the steps only") {
-  Coasting f;
+  Coasting f(4, GENERATE(false, true));
   for (int i = 0; i < 9; ++i) f.step(i, 1);
   CHECK(f.journal == " save 1 2 3 4 save 5 6 7 8 save 9");
   CHECK(f.output() == 9);
@@ -75,7 +82,7 @@ TEST_CASE("a state is saved before some of the steps only") {
 }
 
 TEST_CASE("what is taken back repeats the steps since the save, with their inputs") {
-  Coasting f;
+  Coasting f(4, GENERATE(false, true));
   f.step(0, 1);
   f.step(1, 20);
   f.step(2, 300);
@@ -152,8 +159,41 @@ TEST_CASE("a unit that sets inputs within its step is saved before each") {
   CHECK(f.journal == " save 1 save 2 save 3");
 }
 
+TEST_CASE("inputs that come with a step elsewhere are a part of the state before it") {
+  Coasting f(4, true);
+  f.step(0, 7);
+  f.coasting->restore_state();
+  CHECK(f.unit->number(kSum) == 0);
+  CHECK(f.unit->number(kSummand) == 7);
+  f.step(0, 1);
+  f.step(1, 20);
+  f.coasting->restore_state();
+  CHECK(f.unit->number(kSum) == 1);
+  CHECK(f.unit->number(kSummand) == 20);
+  CHECK(f.journal == " save 1 restore 1 2 restore 1 save");
+}
+
+TEST_CASE("a measured save and its step elsewhere are two requests") {
+  auto scripted = std::make_unique<ScriptedUnit>(summing());
+  ScriptedUnit& unit = *scripted;
+  unit.is_concurrent = true;
+  unit.time_of_step = std::chrono::hours(1);
+  int saves = 0, saves_in_step = 0;
+  unit.on_state = [&](bool) { ++saves; };
+  unit.on_begin_step = [&](ScriptedUnit& self) { saves_in_step += self.saved_with_step; };
+  const auto description = summing();
+  CoastingUnit coasting(std::move(scripted), *description, CheckpointInterval(8, true));
+  for (int i = 0; i < 32; ++i) {
+    coasting.begin_step(StepInterval(at(0.001 * i), at(0.001 * (i + 1))), {},
+                        {.saves_state = true});
+    coasting.finish_step();
+  }
+  CHECK(saves == 32);  // each: a step of an hour is not repeated to spare a save
+  CHECK(saves_in_step == 30);
+}
+
 TEST_CASE("a step that was rejected is not repeated") {
-  Coasting f;
+  Coasting f(4, GENERATE(false, true));
   f.step(0, 1);
   f.rejected_from = at(0.001);
   CHECK(f.step(1, 1).rejected);
