@@ -96,7 +96,7 @@ std::string unconnected_elements_text(const core::System& system) {
         names.push_back(core::element_name(system.variable(input), free.first + i));
       }
     }
-    text += fmt::format("  {}: {}\n", system.full_name(input), core::shortened(names, kMostNames));
+    text += fmt::format("  {}: {}\n", system.full_name(input), core::abridged(names, kMostNames));
   }
   return text.empty() ? ""
                       : "\nElements without connection, which keep their start values\n" + text;
@@ -142,7 +142,7 @@ std::string solved_for(const core::System& system, const core::EvaluationBlock& 
       names.push_back(system.range_name(input));
     }
   }
-  return core::shortened(names, kMostNames);
+  return core::abridged(names, kMostNames);
 }
 
 std::string loop_text(const core::System& system, const core::EvaluationBlock& loop,
@@ -168,7 +168,7 @@ std::string initial_order_text(const core::System& system) {
       std::vector<std::string> outputs;
       for (const core::VariableId id : group.outputs) outputs.push_back(system.variable(id).name);
       table.add({std::to_string(i + 1), system.components()[group.component].name,
-                 core::shortened(outputs, kMostNames),
+                 core::abridged(outputs, kMostNames),
                  block.is_loop() ? "loop, solved for " + solved_for(system, block) : "once"});
     }
   }

@@ -96,7 +96,7 @@ std::string names_of(std::span<const importer::UnitCall> calls) {
   for (const importer::UnitCall& call : calls) {
     names.push_back(fmt::format("{} of '{}'", call.function, call.unit));
   }
-  return core::shortened(names, kMost);
+  return core::abridged(names, kMost);
 }
 
 }  // namespace

@@ -450,7 +450,7 @@ void LoadedScenario::warn_of_unlimited_steps() const {
       "values travel at events only, since nothing else ends a step, so what these outputs do "
       "meanwhile is missed: {}; <stride:Step maximum=\"…\"/> (--max-step) ends steps, or says "
       "with a long one that this is meant",
-      core::shortened(names, kMostNames));
+      core::abridged(names, kMostNames));
 }
 
 importer::InstanceOptions LoadedScenario::instance_options(

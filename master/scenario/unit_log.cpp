@@ -82,7 +82,7 @@ UnitLog::~UnitLog() {
         "unit '{}': {} other instance{} of its FMU ({}) logged the same but for numbers, \"{}\"; "
         "messages not shown: {}; --verbose shows them",
         kind.first_unit, others.size(), others.size() == 1 ? "" : "s",
-        core::shortened(others, kMostNames), beginning(kind.first_message), kind.hidden);
+        core::abridged(others, kMostNames), beginning(kind.first_message), kind.hidden);
   }
   for (const auto& [unit, count] : counts_) {
     if (count <= kMostShown) continue;

@@ -66,7 +66,7 @@ std::string quoted(std::span<const std::string> names) {
   return text;
 }
 
-std::string shortened(std::span<const std::string> names, std::size_t most) {
+std::string abridged(std::span<const std::string> names, std::size_t most) {
   if (names.size() <= most + 1) return fmt::format("{}", fmt::join(names, ", "));
   return fmt::format("{} and {} more", fmt::join(names.first(most), ", "), names.size() - most);
 }

@@ -73,7 +73,7 @@ std::string to_text(const Context& context);
 std::string quoted(std::span<const std::string> names);
 
 /// "a, b and 3 more": the first `most` ones, and one more rather than "and 1 more".
-std::string shortened(std::span<const std::string> names, std::size_t most);
+std::string abridged(std::span<const std::string> names, std::size_t most);
 
 }  // namespace stride::core
 

@@ -47,7 +47,7 @@ void add_variable(Variables& variables, std::string_view entry) {
 std::string described(const std::vector<std::string>& names) {
   constexpr std::size_t kMostNames = 4;
   return fmt::format("the environment variable{} {}", names.size() > 1 ? "s" : "",
-                     shortened(names, kMostNames));
+                     abridged(names, kMostNames));
 }
 
 }  // namespace

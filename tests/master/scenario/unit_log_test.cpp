@@ -96,7 +96,7 @@ TEST_CASE("a long message is named by its beginning") {
   REQUIRE(lines.size() == 2);
   CHECK(lines[1] ==
         "unit 'a0': 1 other instance of its FMU (a1) logged the same but for numbers, \"" + words +
-            "thirteen …\"; messages not shown: 1; --verbose shows them");
+            "thirteen fourteen …\"; messages not shown: 1; --verbose shows them");
 }
 
 TEST_CASE("where everything is shown nothing is counted") {

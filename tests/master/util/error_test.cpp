@@ -31,10 +31,10 @@ TEST_CASE("names in an error make no lines, and its length is limited") {
 
 TEST_CASE("a list of names is shortened where that leaves out two or more") {
   const std::vector<std::string> names{"a", "b", "c", "d"};
-  CHECK(shortened({}, 2).empty());
-  CHECK(shortened(names, 4) == "a, b, c, d");
-  CHECK(shortened(names, 3) == "a, b, c, d");
-  CHECK(shortened(names, 2) == "a, b and 2 more");
+  CHECK(abridged({}, 2).empty());
+  CHECK(abridged(names, 4) == "a, b, c, d");
+  CHECK(abridged(names, 3) == "a, b, c, d");
+  CHECK(abridged(names, 2) == "a, b and 2 more");
 }
 
 TEST_CASE("NUL does not end the text of an error") {
