@@ -162,7 +162,7 @@ void FmuInstance::fail_thrown(const char* function) {
     what = exception.what();
   } catch (...) {  // it has no text
   }
-  if (is_fork_ || !core::ForkMark::is_set()) leave_fork();
+  if (is_copy_of_process()) leave_fork();
   failed_in_ = function;
   check_mode(function);
   present_.end();

@@ -147,25 +147,34 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics, public Call
     present_.begin(name, time_);
   }
   [[gnu::always_inline]] void end_call() {
-    if (is_fork_ || !core::ForkMark::is_set()) [[unlikely]]
+    if (is_copy_of_process()) [[unlikely]]
       leave_fork();
     if (!is_in_sequence_) check_mode(present_.function());
     present_.end();
   }
-  /// Calls of one unit that nothing else runs between, so that it is enough to look at the end of
-  /// them whether the processor is in the mode that all units depend on.
+  /// Calls of one unit that nothing else runs between: what is the same for all of them is noted at
+  /// the beginning, and at the end it is looked whether the processor is in the mode that all units
+  /// depend on.
   class CallSequence {
    public:
-    /// `function` is named if it is not.
-    CallSequence(FmuInstance& unit, const char* function) : unit_(unit), function_(function) {
-      unit_.is_in_sequence_ = true;
-    }
-    ~CallSequence() {
-      unit_.is_in_sequence_ = false;
-      unit_.check_mode(function_);
-    }
+    /// From this time on, of a unit that has one. `function` is named if the mode is another one.
+    /// Throws if no function can be called.
+    CallSequence(FmuInstance& unit, const char* function, Time time);
+    ~CallSequence();
     CallSequence(const CallSequence&) = delete;
     CallSequence& operator=(const CallSequence&) = delete;
+
+    /// As those of FmuInstance.
+    template <class Function, class... Arguments>
+    void call(const char* name, Function* function, Arguments... arguments);
+    template <class Function, class... Arguments>
+    Status call_discardable(const char* name, Function* function, Arguments... arguments);
+
+    /// The simulated time of the next calls.
+    void set_time(Time time) {
+      *unit_.time_ = time;
+      unit_.present_.set_time(time);
+    }
 
    private:
     FmuInstance& unit_;
@@ -187,7 +196,7 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics, public Call
   [[noreturn]] void fail_thrown(const char* function);
   [[noreturn]] void fail(const std::string& message, const std::string& hint = "") const;
   /// Throws what a callback could not throw across the unit's C code.
-  void rethrow_callback_failure() {
+  [[gnu::always_inline]] void rethrow_callback_failure() {
     if (callback_failure_) [[unlikely]]
       std::rethrow_exception(std::exchange(callback_failure_, nullptr));
   }
@@ -275,7 +284,7 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics, public Call
   /// The size of a step as the unit gets it. One whose sum with the beginning is rounded to a time
   /// above the stop time of the unit is the difference of the ends.
   double size_of(const core::StepInterval& interval) {
-    present_step_ = interval;
+    present_step_ = {interval.from, interval.to};
     const double sum = interval.begin_seconds + interval.size_seconds;
     const bool is_beyond = sum > stop_seconds_ && interval.end_seconds <= stop_seconds_;
     return is_beyond ? interval.end_seconds - interval.begin_seconds : interval.size_seconds;
@@ -315,7 +324,9 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics, public Call
   const core::ProcessorMode mode_ = core::ProcessorMode::present();
   std::optional<Time> time_;
   double stop_seconds_ = std::numeric_limits<double>::infinity();
-  core::StepInterval present_step_{Time{}, Time{}};
+  struct {
+    Time from{}, to{};
+  } present_step_;
   const std::atomic<bool>& is_unusable_;  ///< the library
   std::atomic<bool> has_messages_ = false;
   std::exception_ptr callback_failure_;
@@ -328,6 +339,9 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics, public Call
  private:
   [[noreturn]] void fail_not_callable(const char* name) const;
   [[noreturn]] void fail_missing(const char* name, const char* capability) const;
+  [[gnu::always_inline]] bool is_copy_of_process() const {
+    return is_fork_ || !core::ForkMark::is_set();
+  }
   static void note_fork() noexcept;
   [[noreturn]] void leave_fork() const;
   std::string short_step_hint() const;

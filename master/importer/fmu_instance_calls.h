@@ -50,6 +50,53 @@ template <class Function, class... Arguments>
     restore_process(name);
 }
 
+// Forced inline: the hot loop is made of these.
+
+[[gnu::always_inline]] inline FmuInstance::CallSequence::CallSequence(FmuInstance& unit,
+                                                                      const char* function,
+                                                                      Time time)
+    : unit_(unit), function_(function) {
+  unit.check_callable(function);
+  unit.is_in_sequence_ = true;
+  *unit.time_ = time;
+  unit.present_.begin_sequence(time);
+  core::ForkMark::set();
+}
+
+[[gnu::always_inline]] inline FmuInstance::CallSequence::~CallSequence() {
+  unit_.is_in_sequence_ = false;
+  unit_.check_mode(function_);
+  unit_.present_.end();
+}
+
+template <class Function, class... Arguments>
+[[gnu::always_inline]] inline Status FmuInstance::CallSequence::call_discardable(
+    const char* name, Function* function, Arguments... arguments) {
+  unit_.require(name, function, "values of this type");
+  ++unit_.calls_;
+  unit_.present_.begin_next(name);
+  Status status{};
+  try {
+    status = static_cast<Status>(function(unit_.instance_, arguments...));
+  } catch (...) {
+    unit_.fail_thrown(name);
+  }
+  if (unit_.is_copy_of_process()) [[unlikely]]
+    unit_.leave_fork();
+  if (status == Status::Ok && !unit_.has_messages_.load(std::memory_order_relaxed)) [[likely]]
+    return status;
+  return unit_.check_status(name, status);
+}
+
+template <class Function, class... Arguments>
+[[gnu::always_inline]] inline void FmuInstance::CallSequence::call(const char* name,
+                                                                   Function* function,
+                                                                   Arguments... arguments) {
+  const Status status = call_discardable(name, function, arguments...);
+  if (status == Status::Discard || status == Status::Pending) [[unlikely]]
+    unit_.fail_call(name, status);
+}
+
 template <class Function, class... Arguments>
 void FmuInstance::call_and_watch(const char* name, Function* function, Arguments... arguments) {
   watched_calls_ = kMostWatched;

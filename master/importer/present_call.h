@@ -52,16 +52,28 @@ class PresentCall {
   /// `function` must outlive the call.
   [[gnu::always_inline]] void begin(const char* function,
                                     const std::optional<Time>& time) noexcept {
-    last_call_of_thread = this;
-    last_function_ = function;
-    thread_.store(&this_thread, std::memory_order_relaxed);
-    function_.store(function, std::memory_order_relaxed);
     left_->has_time = time.has_value();  // not as a whole, which would wait for its last change
-    left_->time = time.value_or(Time{});
-    left_->thread.store(&this_thread, std::memory_order_relaxed);
+    begin_sequence(time.value_or(Time{}));
+    begin_next(function);
+  }
+  /// Before calls that this thread makes one after the other: what is the same for all of them.
+  /// Behind a call with a time.
+  [[gnu::always_inline]] void begin_sequence(Time time) noexcept {
+    last_call_of_thread = this;
+    const char* const thread = &this_thread;
+    thread_.store(thread, std::memory_order_relaxed);
+    left_->thread.store(thread, std::memory_order_relaxed);
+    left_->time = time;
+  }
+  /// Another time than that of the sequence from here on.
+  [[gnu::always_inline]] void set_time(Time time) noexcept { left_->time = time; }
+  /// One of a sequence; no end() is needed between them.
+  [[gnu::always_inline]] void begin_next(const char* function) noexcept {
+    function_.store(function, std::memory_order_relaxed);
+    is_unfinished_.store(true, std::memory_order_relaxed);
     left_->function.store(function, std::memory_order_relaxed);
     if (note_ != nullptr) [[unlikely]]
-      note_->write(function, time.value_or(Time{}));
+      note_->write(function, left_->time);
   }
   /// The value of which variable is read; must outlive the call.
   void read_value_of(const core::ValueReference* variable) noexcept {
@@ -69,7 +81,7 @@ class PresentCall {
     if (note_ != nullptr) note_->write_variable(*variable);
   }
   [[gnu::always_inline]] void end() noexcept {
-    function_.store(nullptr, std::memory_order_relaxed);
+    is_unfinished_.store(false, std::memory_order_relaxed);
     left_->function.store(nullptr, std::memory_order_relaxed);
     if (note_ != nullptr) [[unlikely]]
       note_->clear();
@@ -82,14 +94,17 @@ class PresentCall {
   /// Which thread makes it, or has made the last one: its address of this_thread.
   const char* thread() const noexcept { return thread_.load(std::memory_order_relaxed); }
   /// Null if there is no call.
-  const char* function() const noexcept { return function_.load(std::memory_order_relaxed); }
+  const char* function() const noexcept {
+    const bool is_unfinished = is_unfinished_.load(std::memory_order_relaxed);
+    return is_unfinished ? function_.load(std::memory_order_relaxed) : nullptr;
+  }
   bool is_by_this_thread() const noexcept {
     return function() != nullptr && thread() == &this_thread;
   }
   /// The function of the last call of all that this thread has made; null if it is no call of this
   /// object.
   const char* last_function_of_thread() const noexcept {
-    return last_call_of_thread == this ? last_function_ : nullptr;
+    return last_call_of_thread == this ? function_.load(std::memory_order_relaxed) : nullptr;
   }
   /// Null if no value is being read.
   const core::ValueReference* variable() const noexcept {
@@ -97,9 +112,9 @@ class PresentCall {
   }
 
  private:
-  std::atomic<const char*> function_{nullptr};
+  std::atomic<const char*> function_{nullptr};  ///< of the last one
+  std::atomic<bool> is_unfinished_{false};
   std::atomic<const char*> thread_{nullptr};
-  const char* last_function_ = nullptr;  ///< of the thread that makes the calls
   core::Outliving<LeftCall> left_;
   CallNote* const note_;
   std::atomic<const core::ValueReference*> variable_{nullptr};

@@ -125,21 +125,20 @@ void Fmi1Unit::negate(References references, core::ValueBlock& values) const {
 
 core::StepResult Fmi1Unit::step(const core::StepInterval& interval,
                                 const core::StepValues& values) {
-  const CallSequence calls(*this, "fmiDoStep");
+  CallSequence calls(*this, "fmiDoStep", interval.from);
   for (const core::BoundValues& input : values.inputs) set(input.references, *input.block);
-  time_ = interval.from;
   const double size = size_of(interval);
   core::StepResult result{.reached = interval.to};
   if (size > 0) {  // else it is the same instant to the unit, whose time is a double
     const fmi1Boolean is_new = is_new_step_ ? fmi1True : fmi1False;
     const Status status =
-        call_discardable("fmiDoStep", fmi_.DoStep, interval.begin_seconds, size, is_new);
+        calls.call_discardable("fmiDoStep", fmi_.DoStep, interval.begin_seconds, size, is_new);
     if (status == Status::Pending) fail("fmiDoStep returned fmiPending, which is not supported");
     is_new_step_ = true;
     if (status == Status::Discard) result = handle_discard(interval);
     if (result.rejected) return result;
   }
-  time_ = result.reached;
+  calls.set_time(result.reached);
   for (const core::BoundValues& output : values.outputs) get(output.references, *output.block);
   return result;
 }

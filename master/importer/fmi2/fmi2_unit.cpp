@@ -89,16 +89,18 @@ void Fmi2Unit::on_log(fmi2ComponentEnvironment environment, fmi2String, fmi2Stat
 // ---- Values ----
 
 // Most values are of this type.
-inline void Fmi2Unit::get(const core::BoundValues& values) {
+[[gnu::always_inline]] inline void Fmi2Unit::get(CallSequence& calls,
+                                                 const core::BoundValues& values) {
   if (values.float64s.empty()) return get(values.references, *values.block);
-  call("fmi2GetReal", fmi_.GetReal, own(values.references), values.references.size(),
-       values.float64s.data());
+  calls.call("fmi2GetReal", fmi_.GetReal, own(values.references), values.references.size(),
+             values.float64s.data());
 }
 
-inline void Fmi2Unit::set(const core::BoundValues& values) {
+[[gnu::always_inline]] inline void Fmi2Unit::set(CallSequence& calls,
+                                                 const core::BoundValues& values) {
   if (values.float64s.empty()) return set(values.references, *values.block);
-  call("fmi2SetReal", fmi_.SetReal, own(values.references), values.references.size(),
-       std::as_const(*values.block).numbers<double>().data());
+  calls.call("fmi2SetReal", fmi_.SetReal, own(values.references), values.references.size(),
+             std::as_const(*values.block).numbers<double>().data());
 }
 
 void Fmi2Unit::set(References references, const core::ValueBlock& values) {
@@ -132,24 +134,23 @@ void Fmi2Unit::get_directional_derivative(References unknowns, References knowns
 
 core::StepResult Fmi2Unit::step(const core::StepInterval& interval,
                                 const core::StepValues& values) {
-  const CallSequence calls(*this, "fmi2DoStep");
-  for (const core::BoundValues& input : values.inputs) set(input);
-  time_ = interval.from;
+  CallSequence calls(*this, "fmi2DoStep", interval.from);
+  for (const core::BoundValues& input : values.inputs) set(calls, input);
   const double size = size_of(interval);
   if (!(size > 0)) {  // to the unit, whose time is a double, it is the same instant
-    time_ = interval.to;
+    calls.set_time(interval.to);
     return {.reached = interval.to};
   }
   if (input_update_) set_input_derivatives(size);
   if (saves_each_step_ && !is_as_saved_) save(before_step_);
   core::StepResult result{.reached = interval.to};
-  if (do_step(interval, size) == Status::Discard) [[unlikely]] {
+  if (do_step(calls, interval, size) == Status::Discard) [[unlikely]] {
     result = handle_discard(interval);
     if (result.rejected) return result;
   }
   is_as_saved_ = was_restored_ = false;
-  time_ = result.reached;
-  for (const core::BoundValues& output : values.outputs) get(output);
+  calls.set_time(result.reached);
+  for (const core::BoundValues& output : values.outputs) get(calls, output);
   return result;
 }
 

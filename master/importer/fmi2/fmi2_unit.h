@@ -103,8 +103,8 @@ class Fmi2Unit final
                      fmi2String category, fmi2String message, ...);
   static void on_step_finished(fmi2ComponentEnvironment environment, fmi2Status status);
 
-  void get(const core::BoundValues& values);
-  void set(const core::BoundValues& values);
+  void get(CallSequence& calls, const core::BoundValues& values);
+  void set(CallSequence& calls, const core::BoundValues& values);
   void keep(References references, const core::ValueBlock& values);
 
   void set_input_derivatives(double size);
@@ -112,7 +112,7 @@ class Fmi2Unit final
   void restore(const SavedState& saved);
   void free_state(SavedState& saved);
 
-  Status do_step(const core::StepInterval& interval, double size);
+  Status do_step(CallSequence& calls, const core::StepInterval& interval, double size);
   Status wait_for_step();
   [[noreturn]] void cancel_step();
   Status poll_step();

@@ -14,12 +14,12 @@ constexpr const char* kFmi2LastSuccessfulTime = "fmi2LastSuccessfulTime";
 
 }  // namespace
 
-Status Fmi2Unit::do_step(const core::StepInterval& interval, double size) {
+Status Fmi2Unit::do_step(CallSequence& calls, const core::StepInterval& interval, double size) {
   if (callbacks_.stepFinished != nullptr) asynchronous_.begin();
   // noSetFMUStatePriorToCurrentPoint
   const fmi2Boolean never_goes_back = !(options_.may_go_back || interval.may_go_back_before);
-  const Status status =
-      call_discardable("fmi2DoStep", fmi_.DoStep, interval.begin_seconds, size, never_goes_back);
+  const Status status = calls.call_discardable("fmi2DoStep", fmi_.DoStep, interval.begin_seconds,
+                                               size, never_goes_back);
   return status == Status::Pending ? wait_for_step() : status;
 }
 

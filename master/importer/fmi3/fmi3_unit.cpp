@@ -36,6 +36,12 @@ std::vector<core::ValueReference> intermediate_inputs(const core::UnitDescriptio
   return references;
 }
 
+/// Either of the two that a double may be after the step.
+bool is_exact_end(const core::StepInterval& interval, double seconds) {
+  const double sum = interval.begin_seconds + interval.size_seconds;
+  return seconds == interval.end_seconds || seconds == sum;
+}
+
 }  // namespace
 
 // ---- Life cycle ----
@@ -134,16 +140,18 @@ void Fmi3Unit::on_log(fmi3InstanceEnvironment environment, fmi3Status status, fm
 // ---- Values ----
 
 // Most values are of this type.
-inline void Fmi3Unit::get(const core::BoundValues& values) {
+[[gnu::always_inline]] inline void Fmi3Unit::get(CallSequence& calls,
+                                                 const core::BoundValues& values) {
   if (values.float64s.empty()) return get(values.references, *values.block);
-  call("fmi3GetFloat64", fmi_.GetFloat64, values.references.data(), values.references.size(),
-       values.float64s.data(), values.float64s.size());
+  calls.call("fmi3GetFloat64", fmi_.GetFloat64, values.references.data(), values.references.size(),
+             values.float64s.data(), values.float64s.size());
 }
 
-inline void Fmi3Unit::set(const core::BoundValues& values) {
+[[gnu::always_inline]] inline void Fmi3Unit::set(CallSequence& calls,
+                                                 const core::BoundValues& values) {
   if (values.float64s.empty()) return set(values.references, *values.block);
-  call("fmi3SetFloat64", fmi_.SetFloat64, values.references.data(), values.references.size(),
-       values.float64s.data(), values.float64s.size());
+  calls.call("fmi3SetFloat64", fmi_.SetFloat64, values.references.data(), values.references.size(),
+             values.float64s.data(), values.float64s.size());
 }
 
 void Fmi3Unit::get(References references, core::ValueBlock& values) {
@@ -232,12 +240,11 @@ void Fmi3Unit::get_directional_derivative(References unknowns, References knowns
 
 core::StepResult Fmi3Unit::step(const core::StepInterval& interval,
                                 const core::StepValues& values) {
-  const CallSequence calls(*this, "fmi3DoStep");
-  for (const core::BoundValues& input : values.inputs) set(input);
-  time_ = interval.from;
+  CallSequence calls(*this, "fmi3DoStep", interval.from);
+  for (const core::BoundValues& input : values.inputs) set(calls, input);
   const double size = size_of(interval);
   if (!(size > 0)) {  // to the unit, whose time is a double, it is the same instant
-    time_ = interval.to;
+    calls.set_time(interval.to);
     return {.reached = interval.to};
   }
   bool event_handling_needed = false;
@@ -247,9 +254,9 @@ core::StepResult Fmi3Unit::step(const core::StepInterval& interval,
   step_point_ = interval.begin_seconds;
   // noSetFMUStatePriorToCurrentPoint
   const fmi3Boolean never_goes_back = !(options_.may_go_back || interval.may_go_back_before);
-  const Status status =
-      call_discardable("fmi3DoStep", fmi_.DoStep, interval.begin_seconds, size, never_goes_back,
-                       &event_handling_needed, &terminate, &early, &last_successful);
+  const Status status = calls.call_discardable("fmi3DoStep", fmi_.DoStep, interval.begin_seconds,
+                                               size, never_goes_back, &event_handling_needed,
+                                               &terminate, &early, &last_successful);
   rethrow_callback_failure();
   if (status == Status::Discard) {
     take_rejection_reason("fmi3DoStep");
@@ -257,14 +264,15 @@ core::StepResult Fmi3Unit::step(const core::StepInterval& interval,
   }
   if (event_handling_needed && !parts_.description->has_event_mode) [[unlikely]]
     fail("fmi3DoStep returned eventHandlingNeeded, and the unit has no Event Mode (hasEventMode)");
-  if (!early && last_successful != interval.end_seconds) compare_times(interval, last_successful);
+  if (!early && !is_exact_end(interval, last_successful)) compare_times(interval, last_successful);
   was_restored_ = false;
-  time_ = early ? reached_early(interval, last_successful) : interval.to;
-  for (const core::BoundValues& output : values.outputs) get(output);
+  const Time reached = early ? reached_early(interval, last_successful) : interval.to;
+  calls.set_time(reached);
+  for (const core::BoundValues& output : values.outputs) get(calls, output);
   return {.early_return = early,
           .event_handling_needed = event_handling_needed,
           .terminate_simulation = terminate,
-          .reached = *time_};
+          .reached = reached};
 }
 
 // ---- Inputs within a step ----
@@ -308,9 +316,7 @@ void Fmi3Unit::compare_times(const core::StepInterval& interval, double last_suc
 }
 
 Time Fmi3Unit::reached_early(const core::StepInterval& interval, double last_successful) const {
-  const double sum = interval.begin_seconds + interval.size_seconds;
-  if (last_successful == interval.end_seconds || last_successful == sum)
-    return interval.to;  // a double cannot always distinguish it
+  if (is_exact_end(interval, last_successful)) return interval.to;
   if (!options_.early_return_allowed) {
     fail("fmi3DoStep returned early, which was not allowed at its instantiation");
   }

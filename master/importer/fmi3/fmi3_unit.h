@@ -101,8 +101,8 @@ class Fmi3Unit final
   static void on_log(fmi3InstanceEnvironment environment, fmi3Status status, fmi3String category,
                      fmi3String message);
 
-  void get(const core::BoundValues& values);
-  void set(const core::BoundValues& values);
+  void get(CallSequence& calls, const core::BoundValues& values);
+  void set(CallSequence& calls, const core::BoundValues& values);
   void get_strings(References references, std::span<std::string> values);
   void set_strings(References references, std::span<const std::string> values);
   void get_binaries(References references, std::span<core::Binary> values);

@@ -11,8 +11,10 @@ namespace stride::core {
 /// 4.14) copies have it, too. Setting and reading it cost one access to memory.
 class ForkMark {
  public:
-  static void set() noexcept { byte_.store(1, std::memory_order_relaxed); }
-  static bool is_set() noexcept { return byte_.load(std::memory_order_relaxed) != 0; }
+  [[gnu::always_inline]] static void set() noexcept { byte_.store(1, std::memory_order_relaxed); }
+  [[gnu::always_inline]] static bool is_set() noexcept {
+    return byte_.load(std::memory_order_relaxed) != 0;
+  }
 
  private:
   static std::atomic<char>& byte_;

@@ -15,7 +15,7 @@ namespace stride::core {
 class ProcessorMode {
  public:
   /// That of the calling thread.
-  static ProcessorMode present() noexcept {
+  [[gnu::always_inline]] static ProcessorMode present() noexcept {
     ProcessorMode mode;
 #if defined(__x86_64__)
     mode.sse_ = __builtin_ia32_stmxcsr() & ~kFlags;
@@ -30,7 +30,7 @@ class ProcessorMode {
   }
 
   /// Whether the calling thread has it: some nanoseconds.
-  bool is_present() const noexcept { return present() == *this; }
+  [[gnu::always_inline]] bool is_present() const noexcept { return present() == *this; }
   /// Gives it to the calling thread.
   void set() const noexcept;
   /// Empties the registers of the x87 unit, which are those of MMX, too: a function that returns
@@ -45,7 +45,13 @@ class ProcessorMode {
   /// What another mode does differently, in words: "rounding upward".
   std::string differences(const ProcessorMode& other) const;
 
+#if defined(__x86_64__)
+  [[gnu::always_inline]] bool operator==(const ProcessorMode& other) const {
+    return ((sse_ ^ other.sse_) | (x87_ ^ other.x87_) | (flags_ ^ other.flags_)) == 0;
+  }
+#else
   bool operator==(const ProcessorMode&) const = default;
+#endif
 
  private:
   int rounding() const noexcept;
