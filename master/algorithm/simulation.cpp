@@ -43,7 +43,8 @@ class Simulation::Run {
         inputs_(make_input_extrapolator()),
         idle_(make_idle_scheduler()),
         event_handler_(context_, idle_.get()),
-        stepper_(context_, order_, sets_inputs_in_steps() ? inputs_.get() : nullptr, idle_.get()) {
+        stepper_(context_, order_, coasting_, sets_inputs_in_steps() ? inputs_.get() : nullptr,
+                 idle_.get()) {
     if (sets_inputs_in_steps()) connect_input_updates();
   }
 
@@ -109,6 +110,7 @@ class Simulation::Run {
                                               std::vector<std::unique_ptr<Unit>> units,
                                               const RunOptions& options) {
     const auto& [each_step, most_steps, always] = options.checkpoints;
+    coasting_.resize(units.size());
     for (const StepOrderEntry& entry : order_) {
       if (!entry.saves_state) continue;
       const std::size_t i = entry.component;
@@ -116,7 +118,7 @@ class Simulation::Run {
       auto unit =
           std::make_unique<CoastingUnit>(std::move(units[i]), *system.components()[i].description,
                                          CheckpointInterval(most, !always));
-      coasting_.emplace_back(i, unit.get());
+      coasting_[i] = unit.get();
       units[i] = std::move(unit);
     }
     return units;
@@ -130,8 +132,9 @@ class Simulation::Run {
       if (process != nullptr) statistics_.units[i].host = process->host_statistics();
       statistics_.units[i].steps = stepper_.steps(i) + statistics_.units[i].suspensions;
     }
-    for (const auto& [i, unit] : coasting_) {
-      const CoastingUnit::Counts& counts = unit->counts();
+    for (std::size_t i = 0; i < count(); ++i) {
+      if (coasting_[i] == nullptr) continue;
+      const CoastingUnit::Counts& counts = coasting_[i]->counts();
       statistics_.units[i].saves = counts.saves;
       statistics_.units[i].repeated_steps = counts.repeated_steps;
       statistics_.units[i].inexact_repetition = counts.inexact_repetition;
@@ -347,7 +350,7 @@ class Simulation::Run {
   }
 
   const std::vector<StepOrderEntry> order_;
-  std::vector<std::pair<std::size_t, const CoastingUnit*>> coasting_;  ///< by component
+  std::vector<CoastingUnit*> coasting_;  ///< by component; null where no state is saved
   RunContext context_;
   const System& system_ = context_.system;
   std::span<const std::unique_ptr<Unit>> units_ = context_.units;

@@ -32,8 +32,8 @@ SHOWN = {
            "notify_observers start_observers make_input_extrapolator make_idle_scheduler "
            "connect_input_updates set should_continue",
     "Stepper": "result has_requests steps was_parallel make_timed_passes step_together step_share succeeds "
-               "form_stages batches step_plainly attempt_timed begin_timed finish prepare conclude report record_time "
-               "index name rethrow_failure reason hint_for_final fail_final plan pool",
+               "form_stages batches step_one_by_one step_plainly save_and_step reached_by attempt_timed begin_timed "
+               "finish prepare conclude report record_time index name rethrow_failure reason hint_for_final fail_final plan pool",
     "IdleScheduler": "add_candidate all_suspended_until catch_up_and_report check_promise covers find_sources "
                      "is_disturbed is_suspended is_trivial leaves_deadband may_suspend report_suspension "
                      "report_unfinished suspended_time",

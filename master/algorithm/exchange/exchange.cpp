@@ -72,8 +72,7 @@ void copy_mapped(void* to, const void* from, const Conversion& conversion) {
 
 }  // namespace
 
-Exchange::Exchange(const System& system, std::span<const VariableId> observed)
-    : system_(system), are_inputs_written_(system.components().size()) {
+Exchange::Exchange(const System& system, std::span<const VariableId> observed) : system_(system) {
   std::set<VariableId> outputs;
   std::set<VariableId> inputs;
   std::set<VariableId> jumps;  // fed by sampled values, which change by events
@@ -88,20 +87,16 @@ Exchange::Exchange(const System& system, std::span<const VariableId> observed)
   }
   plan(outputs_, sampled_outputs_, system, outputs, {});
   plan(inputs_, sampled_inputs_, system, inputs, jumps);
-  for (const auto& transfers : inputs_) {
-    has_discrete_inputs_.push_back(std::any_of(transfers.begin(), transfers.end(),
-                                               [](const Transfer& t) { return t.is_discrete(); }));
-  }
   for (const Connection& connection : system.connections()) {
     if (!system.is_signal(connection.from)) continue;
     add_copies(connection);
     has_other_types_ |= system.variable(connection.from).type != ValueType::Float64;
   }
-  bind_step_values();
+  make_ports();
 }
 
 /// They are adjacent, so that a communication step reads memory in one direction.
-void Exchange::bind_step_values() {
+void Exchange::make_ports() {
   struct Lengths {
     std::size_t inputs, outputs;
   };
@@ -118,8 +113,10 @@ void Exchange::bind_step_values() {
     lengths.push_back({inputs, outputs_[i].size()});
   }
   const BoundValues* next = bound_values_.data();
-  for (const auto& [inputs, outputs] : lengths) {
-    step_values_.push_back({{next, inputs}, {next + inputs, outputs}});
+  for (std::size_t i = 0; i < lengths.size(); ++i) {
+    const auto [inputs, outputs] = lengths[i];
+    const bool has_discrete_inputs = std::ranges::any_of(inputs_[i], &Transfer::is_discrete);
+    ports_.push_back({{{next, inputs}, {next + inputs, outputs}}, has_discrete_inputs});
     next += inputs + outputs;
   }
 }
@@ -228,7 +225,7 @@ void Exchange::add_number(const Connection& connection, ValueBlock& target, std:
 }
 
 void Exchange::read_outputs(std::size_t component, Unit& unit) {
-  for (const BoundValues& output : step_values_[component].outputs) {
+  for (const BoundValues& output : ports_[component].values.outputs) {
     unit.get(output.references, *output.block);
   }
 }
@@ -251,11 +248,11 @@ bool Exchange::any_discrete_change(std::size_t component) const {
 }
 
 void Exchange::write_inputs(std::size_t component, Unit& unit) {
-  are_inputs_written_[component] = true;
-  for (const BoundValues& input : step_values_[component].inputs) {
+  ports_[component].written_route = route_;
+  for (const BoundValues& input : ports_[component].values.inputs) {
     unit.set(input.references, *input.block);
   }
-  if (has_discrete_inputs_[component]) write_discrete_inputs(component, unit);
+  if (ports_[component].has_discrete_inputs) write_discrete_inputs(component, unit);
 }
 
 void Exchange::write_discrete_inputs(std::size_t component, Unit& unit) {
@@ -393,7 +390,7 @@ bool Exchange::RealLists<Real, Other>::route() const {
 }
 
 void Exchange::route(Time time) {
-  std::fill(are_inputs_written_.begin(), are_inputs_written_.end(), false);
+  ++route_;
   bool has_nan = doubles_.route();
   if (has_other_types_) {
     route_other_types(time);

@@ -51,17 +51,29 @@ class Exchange {
   /// Whether a discrete input of the unit has changed since it was written; FMI requires Event
   /// Mode then.
   bool has_discrete_change(std::size_t component) const {
-    return has_discrete_inputs_[component] && any_discrete_change(component);
+    return ports_[component].has_discrete_inputs && any_discrete_change(component);
   }
-  bool has_discrete_inputs(std::size_t component) const { return has_discrete_inputs_[component]; }
+  bool has_discrete_inputs(std::size_t component) const {
+    return ports_[component].has_discrete_inputs;
+  }
   /// Writes a unit's continuous inputs, and the discrete ones if they changed.
   void write_inputs(std::size_t component, Unit& unit);
   /// Likewise, if something was routed since the unit's inputs were written.
   void write_routed_inputs(std::size_t component, Unit& unit) {
-    if (!are_inputs_written_[component]) write_inputs(component, unit);
+    if (ports_[component].written_route != route_) write_inputs(component, unit);
   }
-  /// A step of the unit with its inputs, as write_routed_inputs() writes them, and with its
-  /// outputs.
+  /// Calls step(values) with the inputs to go with a step of the unit, as write_routed_inputs()
+  /// writes them, and with its outputs. Inputs that cannot go with it are written before.
+  template <class Step>
+  std::invoke_result_t<Step, const StepValues&> with_step_values(std::size_t component, Unit& unit,
+                                                                 Step&& step) {
+    Port& port = ports_[component];
+    if (port.written_route == route_) return step(StepValues{{}, port.values.outputs});
+    if (port.has_discrete_inputs) write_discrete_inputs(component, unit);
+    port.written_route = route_;
+    return step(port.values);
+  }
+  /// A step of the unit with them.
   StepResult step(std::size_t component, Unit& unit, const StepInterval& interval) {
     return with_step_values(component, unit,
                             [&](const StepValues& values) { return unit.step(interval, values); });
@@ -73,7 +85,7 @@ class Exchange {
                      [&](const StepValues& values) { steps.begin_step(interval, values, extras); });
   }
   /// An input was changed in its block by other means than route().
-  void mark_changed(std::size_t component) { are_inputs_written_[component] = false; }
+  void mark_changed(std::size_t component) { ports_[component].written_route = 0; }
 
   /// Writes those of a unit's continuous inputs that may change within a step.
   void write_inputs_within_step(std::size_t component, Unit& unit);
@@ -130,6 +142,13 @@ class Exchange {
   };
   using Transfers = std::vector<std::vector<Transfer>>;  // by component; final once it is planned
 
+  /// What a step of a unit needs.
+  struct Port {
+    StepValues values;  ///< the inputs are continuous ones
+    bool has_discrete_inputs;
+    std::uint64_t written_route = 0;  ///< since which the inputs are written
+  };
+
   template <class T>
   struct Copy {
     T* to;
@@ -164,16 +183,6 @@ class Exchange {
     const Connection* connection;
   };
 
-  /// Calls step(values) with the values to go with a step, after writing those that do not.
-  template <class Step>
-  std::invoke_result_t<Step, const StepValues&> with_step_values(std::size_t component, Unit& unit,
-                                                                 Step&& step) {
-    const StepValues& values = step_values_[component];
-    if (are_inputs_written_[component]) return step(StepValues{{}, values.outputs});
-    if (has_discrete_inputs_[component]) write_discrete_inputs(component, unit);
-    are_inputs_written_[component] = true;
-    return step(values);
-  }
   std::vector<RealValue> elements(std::vector<Transfer>& transfers,
                                   const std::function<bool(const Transfer&)>& is_wanted) const;
   static bool is_of(const Transfer& transfer, std::span<const ValueReference> ticking);
@@ -183,7 +192,7 @@ class Exchange {
   static void write(Transfer& transfer, Unit& unit);
   bool any_discrete_change(std::size_t component) const;
   void write_discrete_inputs(std::size_t component, Unit& unit);
-  void bind_step_values();
+  void make_ports();
   void route_other_types(Time time);
   void add_changes(const Transfer& transfer, const ValueBlock& before,
                    std::vector<VariableId>& changes) const;
@@ -212,10 +221,9 @@ class Exchange {
   Transfers inputs_;
   Transfers sampled_outputs_;  ///< what belongs to time-based clocks
   Transfers sampled_inputs_;
-  std::vector<StepValues> step_values_;    ///< by component; the inputs are continuous ones
-  std::vector<BoundValues> bound_values_;  ///< of them
-  std::vector<char> has_discrete_inputs_;  ///< by component
-  std::vector<char> are_inputs_written_;   ///< likewise
+  std::vector<Port> ports_;                              ///< by component
+  std::vector<BoundValues> bound_values_;                ///< of them
+  std::uint64_t route_ = 1;                              ///< counts the calls of route()
   std::array<std::vector<Copy<std::byte>>, 4> numbers_;  // of 1, 2, 4 and 8 bytes
   std::vector<Copy<std::string>> strings_;
   std::vector<Copy<Binary>> binaries_;

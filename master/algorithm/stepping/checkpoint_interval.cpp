@@ -11,7 +11,7 @@ constexpr std::size_t kWarmUp = 64;
 /// What happened so many steps ago counts half.
 constexpr std::size_t kMemory = 4096;
 /// Noting what a unit is given costs about as much [ns], where the caches have no room for it.
-constexpr double kNoteCost = 100;
+constexpr double kNoteCost = 50;
 
 /// A moving average over the last eight or so. An interruption of the machine counts as little more
 /// than the rest.

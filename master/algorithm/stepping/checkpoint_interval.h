@@ -24,7 +24,9 @@ class CheckpointInterval {
 
   /// A save begins a stretch of at most as many steps as are returned.
   std::size_t begin_stretch() {
-    is_measured_ = adapts_ && ++stretches_ % kMeasured == 0;
+    ++stretches_;
+    const std::size_t measured = stretches_ < kEarly ? kMeasuredEarly : kMeasured;
+    is_measured_ = adapts_ && stretches_ % measured == 0;
     if (is_measured_) [[unlikely]]
       choose();
     return chosen_;
@@ -44,8 +46,8 @@ class CheckpointInterval {
   std::size_t most() const { return most_; }
 
  private:
-  /// One stretch of so many is measured.
-  static constexpr std::size_t kMeasured = 16;
+  /// One stretch of so many is measured; of the first ones, more.
+  static constexpr std::size_t kMeasured = 128, kMeasuredEarly = 16, kEarly = 512;
 
   void choose();
   double best() const;

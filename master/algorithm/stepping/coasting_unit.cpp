@@ -38,20 +38,15 @@ void CoastingUnit::set(std::span<const ValueReference> references, const ValueBl
   if (is_continuous_) log_.add_inputs(references, values);
 }
 
-bool CoastingUnit::can_log(std::span<const BoundValues> inputs) const {
-  return is_continuous_ && std::ranges::all_of(inputs, [](const BoundValues& input) {
-           return StepLog::can_add(*input.block);
-         });
+void CoastingUnit::log_inputs(std::span<const BoundValues> inputs) {
+  is_continuous_ = is_continuous_ && StepLog::can_add(inputs);
+  if (is_continuous_) log_.add_inputs(inputs);
 }
 
-/// Returns the step as it is to be made with them.
-StepInterval CoastingUnit::log_inputs(const StepInterval& interval,
-                                      std::span<const BoundValues> inputs) {
+/// The step as it is to be made.
+StepInterval CoastingUnit::noted(const StepInterval& interval) const {
   StepInterval noted = interval;
-  is_continuous_ = can_log(inputs);
-  if (!is_continuous_) return noted;
-  for (const BoundValues& input : inputs) log_.add_inputs(input.references, *input.block);
-  noted.may_go_back_before = log_.steps() > 0;
+  noted.may_go_back_before = is_continuous_ && log_.steps() > 0;
   return noted;
 }
 
@@ -63,18 +58,51 @@ void CoastingUnit::log_step(const StepInterval& interval, std::span<const BoundV
 }
 
 StepResult CoastingUnit::step(const StepInterval& interval, const StepValues& values) {
+  log_inputs(values.inputs);
+  return make_step(interval, values);
+}
+
+StepResult CoastingUnit::save_and_step(const StepInterval& interval, const StepValues& values) {
+  StepValues given = values;
+  save_behind_inputs(given, false);
+  return make_step(interval, given);
+}
+
+/// Its inputs are logged, or a part of the state.
+inline StepResult CoastingUnit::make_step(const StepInterval& interval, const StepValues& values) {
   interval_.count_step();
   if (!is_continuous_ && !is_measured_) [[likely]]
     return inner().step(interval, values);
-  const StepInterval noted = log_inputs(interval, values.inputs);
+  const StepInterval step = noted(interval);
   is_in_step_ = true;
   const bool is_measured = std::exchange(is_measured_, false);
   const auto began = is_measured ? WallClock::Source::now() : WallClock::Source::time_point();
-  const StepResult result = inner().step(noted, values);
+  const StepResult result = inner().step(step, values);
   if (is_measured) interval_.add_costs(save_cost_, WallClock::Source::now() - began);
   is_in_step_ = false;
-  log_step(noted, values.outputs, result);
+  log_step(step, values.outputs, result);
   return result;
+}
+
+/// save_state() behind these inputs, as far as it is not left to the step of a unit that steps
+/// elsewhere. Returns whether it is; the inputs that are still to be set remain in `values`.
+bool CoastingUnit::save_behind_inputs(StepValues& values, bool may_save_elsewhere) {
+  const bool can_log = StepLog::can_add(values.inputs);
+  is_continuous_ = is_continuous_ && can_log;
+  bool is_left = false;
+  if (is_save_due()) {
+    choose_stretch();
+    is_left = may_save_elsewhere && !is_measured_;
+    if (!is_left && !can_log) {
+      for (const BoundValues& input : values.inputs) inner().set(input.references, *input.block);
+      values.inputs = {};
+    }
+    if (!is_left) save_measured();
+    begin_log();
+  }
+  if (can_log) log_.add_inputs(values.inputs);
+  note_save();
+  return is_left;
 }
 
 // ---- A step elsewhere ----
@@ -82,35 +110,14 @@ StepResult CoastingUnit::step(const StepInterval& interval, const StepValues& va
 void CoastingUnit::begin_step(const StepInterval& interval, const StepValues& values,
                               const Extras& extras) {
   StepValues given = values;
-  const bool saves = extras.saves_state && save_with_step(given);
+  const bool saves = extras.saves_state && save_behind_inputs(given, true);
+  if (!extras.saves_state) log_inputs(values.inputs);
   interval_.count_step();
-  // what goes with a save is logged, or a part of the state
-  const auto inputs = extras.saves_state ? std::span<const BoundValues>() : values.inputs;
-  step_ =
-      PresentStep{log_inputs(interval, inputs), values.outputs, std::exchange(is_measured_, false)};
+  step_ = PresentStep{noted(interval), values.outputs, std::exchange(is_measured_, false)};
   is_in_step_ = true;
   concurrent_->begin_step(
       step_->interval, given,
       {.saves_state = saves, .is_timed = extras.is_timed || step_->is_measured});
-}
-
-/// save_state(), as far as it is not left to the step. Returns whether the unit has to save its
-/// state there; the inputs that are still to be set remain in `values`.
-bool CoastingUnit::save_with_step(StepValues& values) {
-  is_continuous_ = can_log(values.inputs);
-  if (!is_save_due()) {
-    for (const BoundValues& input : values.inputs) log_.add_inputs(input.references, *input.block);
-    note_save();
-    return false;
-  }
-  choose_stretch();
-  if (is_measured_) {
-    for (const BoundValues& input : values.inputs) inner().set(input.references, *input.block);
-    values.inputs = {};
-    save_measured();
-  }
-  begin_log();
-  return !is_measured_;
 }
 
 StepResult CoastingUnit::finish_step() {
@@ -155,7 +162,7 @@ void CoastingUnit::choose_stretch() {
 /// Behind a save.
 void CoastingUnit::begin_log() {
   ++counts_.saves;
-  if (!log_.is_empty()) log_.clear();
+  log_.clear();
   mark_ = {};
   is_continuous_ = stretch_ > 1;
 }
@@ -197,9 +204,16 @@ void CoastingUnit::repeat() {
 }
 
 void CoastingUnit::keep_outputs(std::span<const BoundValues> outputs) {
+  const bool is_first = latest_.values.size() != outputs.size();
   latest_.read = outputs;
-  latest_.values.resize(outputs.size(), ValueBlock(ValueType::Float64, 0));
-  for (std::size_t i = 0; i < outputs.size(); ++i) latest_.values[i] = *outputs[i].block;
+  if (is_first) latest_.values.resize(outputs.size(), ValueBlock(ValueType::Float64, 0));
+  for (std::size_t i = 0; i < outputs.size(); ++i) {
+    if (is_first || outputs[i].float64s.empty()) {
+      latest_.values[i] = *outputs[i].block;
+    } else {  // as most are
+      std::ranges::copy(outputs[i].float64s, latest_.values[i].numbers<double>().begin());
+    }
+  }
 }
 
 void CoastingUnit::compare_outputs() {

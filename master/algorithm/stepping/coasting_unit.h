@@ -45,10 +45,14 @@ class CoastingUnit : public ForwardingUnit, public StateSaving, public Concurren
 
   const Counts& counts() const { return counts_; }
 
+  /// The references must stay where they are until the next save of the state.
   void set(std::span<const ValueReference> references, const ValueBlock& values) override;
   StepResult step(const StepInterval& interval) override { return step(interval, StepValues{}); }
   /// `values.outputs` must stay what and where they are until the next save of the state.
   StepResult step(const StepInterval& interval, const StepValues& values) override;
+  /// set() with the inputs, save_state() and step() in one; the inputs, too, must stay where they
+  /// are.
+  StepResult save_and_step(const StepInterval& interval, const StepValues& values);
   void begin_step(const StepInterval& interval, const StepValues& values,
                   const Extras& extras) override;
   StepResult finish_step() override;
@@ -64,11 +68,12 @@ class CoastingUnit : public ForwardingUnit, public StateSaving, public Concurren
  private:
   Capability* find_capability(CapabilityId id) override;
 
-  bool can_log(std::span<const BoundValues> inputs) const;
-  StepInterval log_inputs(const StepInterval& interval, std::span<const BoundValues> inputs);
+  void log_inputs(std::span<const BoundValues> inputs);
+  StepInterval noted(const StepInterval& interval) const;
+  StepResult make_step(const StepInterval& interval, const StepValues& values);
   void log_step(const StepInterval& interval, std::span<const BoundValues> outputs,
                 const StepResult& result);
-  bool save_with_step(StepValues& values);
+  bool save_behind_inputs(StepValues& values, bool may_save_elsewhere);
   bool is_save_due() const { return !is_continuous_ || log_.steps() >= stretch_; }
   void note_save();
   void choose_stretch();

@@ -2,47 +2,62 @@
 
 #include <algorithm>
 #include <cstring>
+#include <utility>
 
 namespace stride::core {
+namespace {
 
-void StepLog::cut(const Mark& mark) {
-  assignments_.resize(mark.assignments);
-  references_.resize(mark.references);
-  bytes_.resize(mark.bytes);
-  steps_.erase(steps_.begin() + static_cast<std::ptrdiff_t>(mark.steps), steps_.end());
+/// The first of `count` new elements; `used` are in use.
+template <class T>
+T* extend(std::vector<T>& list, std::size_t& used, std::size_t count = 1) {
+  const std::size_t first = std::exchange(used, used + count);
+  if (used > list.size()) [[unlikely]]
+    list.resize(2 * used);
+  return list.data() + first;
 }
 
-StepLog::Mark StepLog::mark() const {
-  return {assignments_.size(), references_.size(), bytes_.size(), steps_.size()};
-}
+}  // namespace
 
 void StepLog::reserve(std::size_t times) {
-  assignments_.reserve(assignments_.size() * times);
-  references_.reserve(references_.size() * times);
-  bytes_.reserve(bytes_.size() * times);
-  steps_.reserve(steps_.size() * times);
+  assignments_.resize(used_.assignments * times);
+  bytes_.resize(used_.bytes * times);
+  steps_.resize(used_.steps * times);
 }
 
 std::size_t StepLog::size() const {
-  return assignments_.size() * sizeof(Assignment) + references_.size() * sizeof(ValueReference) +
-         bytes_.size() + steps_.size() * sizeof(Step);
+  return used_.assignments * sizeof(Assignment) + used_.bytes + used_.steps * sizeof(Step);
 }
 
 void StepLog::add_inputs(std::span<const ValueReference> references, const ValueBlock& values) {
-  assignments_.push_back(
-      {references_.size(), references.size(), bytes_.size(), values.size(), values.type()});
-  references_.insert(references_.end(), references.begin(), references.end());
-  const std::byte* const first = values.bytes();
-  bytes_.insert(bytes_.end(), first, first + values.size() * element_size(values.type()));
+  add_assignment(references, values.type(), values.size(),
+                 {values.bytes(), values.size() * element_size(values.type())});
+}
+
+void StepLog::add_inputs(std::span<const BoundValues> inputs) {
+  for (const BoundValues& input : inputs) {
+    if (input.float64s.empty()) {
+      add_inputs(input.references, *input.block);
+    } else {  // as most are
+      add_assignment(input.references, ValueType::Float64, input.float64s.size(),
+                     std::as_bytes(input.float64s));
+    }
+  }
+}
+
+inline void StepLog::add_assignment(std::span<const ValueReference> references, ValueType type,
+                                    std::size_t size, std::span<const std::byte> bytes) {
+  *extend(assignments_, used_.assignments) = {references, used_.bytes, size, type};
+  std::memcpy(extend(bytes_, used_.bytes, bytes.size()), bytes.data(), bytes.size());
 }
 
 void StepLog::add_step(const StepInterval& interval, std::span<const BoundValues> outputs,
                        const StepResult& result) {
-  steps_.push_back({interval, outputs, result.reached, assignments_.size()});
+  *extend(steps_, used_.steps) = {interval, outputs, result.reached, used_.assignments};
 }
 
 void StepLog::set_inputs(Unit& unit) {
-  assign(unit, steps_.empty() ? 0 : steps_.back().assignments, assignments_.size());
+  const std::size_t in_steps = used_.steps == 0 ? 0 : steps_[used_.steps - 1].assignments;
+  assign(unit, in_steps, used_.assignments);
 }
 
 void StepLog::assign(Unit& unit, std::size_t first, std::size_t last) {
@@ -51,7 +66,7 @@ void StepLog::assign(Unit& unit, std::size_t first, std::size_t last) {
     ValueBlock& values = block(from.type, from.size);
     std::memcpy(values.bytes(), bytes_.data() + from.first_byte,
                 from.size * element_size(from.type));
-    unit.set(std::span(references_).subspan(from.first_reference, from.references), values);
+    unit.set(from.references, values);
   }
 }
 

@@ -2,6 +2,7 @@
 #ifndef STRIDE_MASTER_ALGORITHM_STEPPING_STEP_LOG_H
 #define STRIDE_MASTER_ALGORITHM_STEPPING_STEP_LOG_H
 
+#include <algorithm>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -17,15 +18,14 @@ namespace stride::core {
 class StepLog {
  public:
   struct Mark {
-    std::size_t assignments = 0, references = 0, bytes = 0, steps = 0;
+    std::size_t assignments = 0, bytes = 0, steps = 0;
   };
 
   void clear() { cut({}); }
   /// Drops what was added since.
-  void cut(const Mark& mark);
-  Mark mark() const;
-  std::size_t steps() const { return steps_.size(); }
-  bool is_empty() const { return steps_.empty() && assignments_.empty(); }
+  void cut(const Mark& mark) { used_ = mark; }
+  Mark mark() const { return used_; }
+  std::size_t steps() const { return used_.steps; }
 
   /// Has room for that many times what it holds, so that adding them allocates nothing.
   void reserve(std::size_t times);
@@ -34,12 +34,20 @@ class StepLog {
 
   /// Numbers only: other types are not logged.
   static bool can_add(const ValueBlock& values) { return element_size(values.type()) != 0; }
+  static bool can_add(std::span<const BoundValues> inputs) {
+    return std::ranges::all_of(inputs, [](const BoundValues& input) {
+      return !input.float64s.empty() || can_add(*input.block);
+    });
+  }
+  /// The references must outlive the log.
   void add_inputs(std::span<const ValueReference> references, const ValueBlock& values);
+  void add_inputs(std::span<const BoundValues> inputs);
   /// `outputs` were read after it; they must outlive the log.
   void add_step(const StepInterval& interval, std::span<const BoundValues> outputs,
                 const StepResult& result);
 
-  Time end() const { return steps_.back().reached; }
+  /// Of the last step, which is there.
+  Time end() const { return steps_[used_.steps - 1].reached; }
 
   /// Sets the inputs behind the last step.
   void set_inputs(Unit& unit);
@@ -51,22 +59,25 @@ class StepLog {
 
  private:
   struct Assignment {
-    std::size_t first_reference, references, first_byte, size;
-    ValueType type;
+    std::span<const ValueReference> references;
+    std::size_t first_byte = 0, size = 0;
+    ValueType type{};
   };
   struct Step {
-    StepInterval interval;
+    StepInterval interval{Time{}, Time{}};
     std::span<const BoundValues> outputs;
-    Time reached;
-    std::size_t assignments;  ///< made up to its end
+    Time reached{};
+    std::size_t assignments = 0;  ///< made up to its end
   };
 
+  void add_assignment(std::span<const ValueReference> references, ValueType type, std::size_t size,
+                      std::span<const std::byte> bytes);
   void assign(Unit& unit, std::size_t first, std::size_t last);
   ValueBlock& block(ValueType type, std::size_t size);
   static bool repeat(Unit& unit, const Step& step);
 
+  Mark used_;  ///< of what follows; the rest is room for more
   std::vector<Assignment> assignments_;
-  std::vector<ValueReference> references_;
   std::vector<std::byte> bytes_;
   std::vector<Step> steps_;
   std::vector<ValueBlock> blocks_;  ///< one of each type and size, to set inputs
@@ -76,7 +87,7 @@ template <class Action>
 bool StepLog::repeat(Unit& unit, Action&& after_last_step) {
   bool is_same = true;
   std::size_t assigned = 0;
-  for (const Step& step : steps_) {
+  for (const Step& step : std::span(steps_).first(used_.steps)) {
     assign(unit, assigned, step.assignments);
     assigned = step.assignments;
     is_same &= repeat(unit, step);

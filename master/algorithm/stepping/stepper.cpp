@@ -24,17 +24,18 @@ bool is_main_only(const RunOptions& options, std::size_t component) {
 
 }  // namespace
 
-Stepper::UnitStep::UnitStep(Unit& stepped, const StepOrderEntry& its_entry)
+Stepper::UnitStep::UnitStep(Unit& stepped, CoastingUnit* coasting, const StepOrderEntry& its_entry)
     : unit(&stepped),
       entry(&its_entry),
       component(static_cast<std::uint32_t>(its_entry.component)),
       saves_state(its_entry.saves_state),
       can_vary_step(its_entry.can_vary_step),
-      state(saves_state ? &stepped.require_capability<StateSaving>() : nullptr),
+      state(coasting),
       concurrent(stepped.capability<ConcurrentSteps>()) {}
 
 Stepper::Stepper(RunContext& context, const std::vector<StepOrderEntry>& order,
-                 InputExtrapolator* inputs, IdleScheduler* idle)
+                 const std::vector<CoastingUnit*>& coasting, InputExtrapolator* inputs,
+                 IdleScheduler* idle)
     : system_(context.system),
       unit_count_(context.units.size()),
       exchange_(context.exchange),
@@ -55,13 +56,13 @@ Stepper::Stepper(RunContext& context, const std::vector<StepOrderEntry>& order,
       balancer_(plan(context.options)) {
   for (const StepOrderEntry& entry : order_) {
     index_of_[entry.component] = unit_steps_.size();
-    UnitStep& unit_step = unit_steps_.emplace_back(*context.units[entry.component], entry);
+    UnitStep& unit_step =
+        unit_steps_.emplace_back(*context.units[entry.component], coasting[entry.component], entry);
     unit_step.may_suspend = idle != nullptr && idle->may_suspend(entry.component);
-    unit_step.is_plain =
-        inputs == nullptr && !entry.saves_state && entry.can_vary_step && !unit_step.may_suspend;
+    unit_step.is_plain = inputs == nullptr && entry.can_vary_step && !unit_step.may_suspend;
     if (is_main_only(context.options, entry.component)) unit_step.concurrent = nullptr;
     // inputs of a step that are not those of its beginning are no part of the state
-    unit_step.can_save_with_step = unit_step.concurrent != nullptr && inputs == nullptr;
+    unit_step.can_save_with_step = inputs == nullptr;
   }
   form_stages();
 }
@@ -70,7 +71,9 @@ void Stepper::form_stages() {
   for (std::size_t first = 0, i = 0; i < order_.size(); ++i) {
     if (i + 1 < order_.size() && order_[i + 1].stage == order_[i].stage) continue;
     const auto units = std::span(unit_steps_).subspan(first, i + 1 - first);
+    units.back().ends_stage = true;
     stages_.push_back({units, batches(units, first)});
+    has_concurrent_ |= !stages_.back().batches.empty();
     first = i + 1;
   }
 }
@@ -153,36 +156,54 @@ Time Stepper::make_passes(Time from, Time target) {
 
 /// Returns the target if all units have reached it, else the nearer one for the next pass.
 inline Time Stepper::make_pass(const StepInterval& interval) {
-  for (std::size_t stage = 0; stage < stages_.size(); ++stage) {
-    const Time reached = step_stage(stage, interval);
+  if (!balancer_.is_parallel() && !has_concurrent_) [[likely]]
+    return step_one_by_one(interval);
+  for (std::size_t i = 0; i < stages_.size(); ++i) {
+    const Time reached = step_stage(stages_[i], balancer_.shares(i), interval);
     if (reached != interval.to) return reached;
   }
   return interval.to;
 }
 
-inline Time Stepper::step_stage(std::size_t stage, const StepInterval& interval) {
-  const auto& [units, batches] = stages_[stage];
-  const std::span<const ThreadShare> shares = balancer_.shares(stage);
-  const bool is_one_by_one = shares.empty() && batches.empty();
-  if (!is_one_by_one) step_together(shares, batches, interval);
-  const bool may_be_plain =
-      is_one_by_one && !step_clock_.measures() && interval.from != interval.to;
+/// To the end of the stage in which one of the units stopped.
+inline Time Stepper::step_one_by_one(const StepInterval& interval) {
+  const bool may_be_plain = !step_clock_.measures() && interval.from != interval.to;
   Time reached = interval.to;
-  for (UnitStep& unit_step : units) {
+  for (UnitStep& unit_step : unit_steps_) {
     const bool is_first = unit_step.communication_step != communication_step_;
-    if (may_be_plain && unit_step.is_plain && is_first) [[likely]] {
-      if (step_plainly(unit_step, interval)) continue;
-    } else if (is_one_by_one) {
-      unit_step.outcome = attempt_timed(unit_step, interval);
+    const bool is_plain = may_be_plain & is_first & unit_step.is_plain;
+    if (is_plain && step_plainly(unit_step, interval)) [[likely]] {
+      if (reached == interval.to) [[likely]]
+        continue;
+    } else {
+      if (!is_plain) unit_step.outcome = attempt_timed(unit_step, interval);
+      reached = reached_by(unit_step, interval, reached);
     }
-    const Time allowed = record(unit_step, interval);
-    if (allowed >= reached) [[likely]]
-      continue;
-    reached = allowed;
-    early_stop_ = {&unit_step, unit_step.result.reached, unit_step.outcome == Outcome::Rejected};
+    if (unit_step.ends_stage && reached != interval.to) break;
   }
   if (reached != interval.to) check_minimum(interval, reached);
   return reached;
+}
+
+Time Stepper::step_stage(const Stage& stage, std::span<const ThreadShare> shares,
+                         const StepInterval& interval) {
+  const bool is_one_by_one = shares.empty() && stage.batches.empty();
+  if (!is_one_by_one) step_together(shares, stage.batches, interval);
+  Time reached = interval.to;
+  for (UnitStep& unit_step : stage.units) {
+    if (is_one_by_one) unit_step.outcome = attempt_timed(unit_step, interval);
+    reached = reached_by(unit_step, interval, reached);
+  }
+  if (reached != interval.to) check_minimum(interval, reached);
+  return reached;
+}
+
+/// The time that all units have reached with this one, whose outcome is recorded.
+inline Time Stepper::reached_by(UnitStep& unit_step, const StepInterval& interval, Time reached) {
+  const Time allowed = record(unit_step, interval);
+  if (allowed >= reached) return reached;
+  early_stop_ = {&unit_step, unit_step.result.reached, unit_step.outcome == Outcome::Rejected};
+  return allowed;
 }
 
 void Stepper::step_together(std::span<const ThreadShare> shares,
@@ -237,15 +258,24 @@ bool Stepper::succeeds(UnitStep& unit_step, Attempt&& attempt) noexcept {
   return is_consequence;
 }
 
+inline StepResult Stepper::save_and_step(UnitStep& unit_step, const StepInterval& interval) {
+  return exchange_.with_step_values(
+      unit_step.component, *unit_step.unit,
+      [&](const StepValues& values) { return unit_step.state->save_and_step(interval, values); });
+}
+
 /// The short form of attempt() for most units in most steps. Returns whether there is nothing to
 /// record.
 inline bool Stepper::step_plainly(UnitStep& unit_step, const StepInterval& interval) {
   unit_step.communication_step = communication_step_;
   unit_step.rejections = 0;
-  unit_step.result = exchange_.step(unit_step.component, *unit_step.unit, interval);
+  unit_step.result = unit_step.saves_state
+                         ? save_and_step(unit_step, interval)
+                         : exchange_.step(unit_step.component, *unit_step.unit, interval);
   unit_step.steps += !unit_step.result.rejected;
   if (unit_step.result.reached_without_request(interval.to)) [[likely]]
     return true;
+  unit_step.rolled_back = false;
   unit_step.outcome = unit_step.result.rejected ? Outcome::Rejected : Outcome::Stepped;
   if (unit_step.result.rejected) {
     unit_step.possible = unit_step.result.reached;
@@ -261,7 +291,9 @@ inline Stepper::Outcome Stepper::attempt_timed(UnitStep& unit_step, const StepIn
 inline Stepper::Outcome Stepper::attempt(UnitStep& unit_step, const StepInterval& interval) {
   const Outcome outcome = prepare(unit_step, interval);
   if (outcome != Outcome::Pending) return outcome;
-  return conclude(unit_step, exchange_.step(unit_step.component, *unit_step.unit, interval));
+  return conclude(unit_step, unit_step.saves_with_step
+                                 ? save_and_step(unit_step, interval)
+                                 : exchange_.step(unit_step.component, *unit_step.unit, interval));
 }
 
 Stepper::Outcome Stepper::begin_timed(UnitStep& unit_step, const StepInterval& interval) {

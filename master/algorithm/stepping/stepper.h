@@ -13,10 +13,10 @@
 #include <stride/time.h>
 
 #include "master/algorithm/capabilities/concurrent_steps.h"
-#include "master/algorithm/capabilities/state_saving.h"
 #include "master/algorithm/idle/idle_scheduler.h"
 #include "master/algorithm/parallel/load_balancer.h"
 #include "master/algorithm/run_context.h"
+#include "master/algorithm/stepping/coasting_unit.h"
 #include "master/algorithm/stepping/input_extrapolator.h"
 #include "master/algorithm/stepping/step_order.h"
 #include "master/util/thread_pool.h"
@@ -37,9 +37,11 @@ namespace stride::core {
 /// units behind it may still go on then.
 class Stepper {
  public:
-  /// All must outlive this object. `order` is that of step_order(). `inputs` sets the inputs before
-  /// each step; null if they keep their values. `idle`: optional idle scheduler.
-  Stepper(RunContext& context, const std::vector<StepOrderEntry>& order, InputExtrapolator* inputs,
+  /// All must outlive this object. `order` is that of step_order(), `coasting`, by component, has
+  /// the units whose states it saves. `inputs` sets the inputs before each step; null if they keep
+  /// their values. `idle`: optional idle scheduler.
+  Stepper(RunContext& context, const std::vector<StepOrderEntry>& order,
+          const std::vector<CoastingUnit*>& coasting, InputExtrapolator* inputs,
           IdleScheduler* idle);
 
   /// Takes all units from `from` to `target`, or to the earlier instant, returned, at which one of
@@ -72,7 +74,7 @@ class Stepper {
   /// unit, and read after that has finished; it has a cache line of its own, so that threads do not
   /// share one.
   struct alignas(64) UnitStep {
-    UnitStep(Unit& stepped, const StepOrderEntry& its_entry);
+    UnitStep(Unit& stepped, CoastingUnit* coasting, const StepOrderEntry& its_entry);
 
     Unit* unit;
     const StepOrderEntry* entry;
@@ -80,8 +82,9 @@ class Stepper {
     bool saves_state;
     bool can_vary_step;
     bool may_suspend = false;
-    bool is_plain = false;                 ///< it needs nothing but the step itself
-    bool can_save_with_step = false;       ///< of a concurrent one: its step includes that
+    bool is_plain = false;  ///< it needs nothing but the step itself
+    bool ends_stage = false;
+    bool can_save_with_step = false;
     StepResult result{};                   ///< the time that it has reached, and how
     Time possible{};                       ///< that it could have reached in a rejected step
     std::uint64_t communication_step = 0;  ///< the last one that it has begun
@@ -89,10 +92,10 @@ class Stepper {
     Outcome outcome = Outcome::Idle;  ///< of the present pass, as the flags behind it
     bool saves_with_step = false;
     bool rolled_back = false;
-    Time undone{};                 ///< the time that it had reached before
-    std::uint32_t rejections = 0;  ///< in the present communication step
-    StateSaving* state = nullptr;  ///< where saves_state
-    ConcurrentSteps* concurrent;   ///< null if it steps here
+    Time undone{};                  ///< the time that it had reached before
+    std::uint32_t rejections = 0;   ///< in the present communication step
+    CoastingUnit* state = nullptr;  ///< where saves_state
+    ConcurrentSteps* concurrent;    ///< null if it steps here
   };
   /// The last unit that cut the present communication step short.
   struct EarlyStop {
@@ -112,12 +115,15 @@ class Stepper {
   Time make_timed_passes(Time from, Time target);
   Time make_passes(Time from, Time target);
   Time make_pass(const StepInterval& interval);
-  Time step_stage(std::size_t stage, const StepInterval& interval);
+  Time step_one_by_one(const StepInterval& interval);
+  Time step_stage(const Stage& stage, std::span<const ThreadShare> shares,
+                  const StepInterval& interval);
   void step_together(std::span<const ThreadShare> shares, std::span<const ThreadShare> batches,
                      const StepInterval& interval);
   bool step_share(const ThreadShare& share, const StepInterval& interval) noexcept;
   template <class Attempt>
   bool succeeds(UnitStep& unit_step, Attempt&& attempt) noexcept;
+  StepResult save_and_step(UnitStep& unit_step, const StepInterval& interval);
   bool step_plainly(UnitStep& unit_step, const StepInterval& interval);
   Outcome attempt_timed(UnitStep& unit_step, const StepInterval& interval);
   Outcome attempt(UnitStep& unit_step, const StepInterval& interval);
@@ -130,6 +136,7 @@ class Stepper {
   void save(UnitStep& unit_step, const StepInterval& interval);
   void roll_back(UnitStep& unit_step, const StepInterval& interval);
   void restore(UnitStep& unit_step, Time from);
+  Time reached_by(UnitStep& unit_step, const StepInterval& interval, Time reached);
   Time record(UnitStep& unit_step, const StepInterval& interval);
   void report(const UnitStep& unit_step, Activity::Kind kind, Time from, Time until) const {
     activities_.report({unit_step.component, kind, from, until});
@@ -167,6 +174,7 @@ class Stepper {
   const std::vector<StepOrderEntry>& order_;
   std::vector<UnitStep> unit_steps_;             ///< in that order
   std::vector<Stage> stages_;                    ///< of them
+  bool has_concurrent_ = false;                  ///< whether units step elsewhere
   std::vector<std::size_t> index_of_;            ///< by component
   std::vector<std::chrono::nanoseconds> times_;  ///< by unit_step, of the present pass
   std::vector<Failure> failures_;                ///< likewise

@@ -48,7 +48,7 @@ TEST_CASE("a save that costs much less than the steps that it spares stays befor
 }
 
 TEST_CASE("a save that costs no more than to note a step stays before each step") {
-  CHECK(interval_after(1000, 90ns, 1ns) == 1);
+  CHECK(interval_after(1000, 45ns, 1ns) == 1);
   CHECK(interval_after(1000, 200ns, 1ns) > 1);
 }
 
