@@ -127,13 +127,13 @@ RecordedRun::RecordedRun(const RunSetup& setup, std::vector<std::unique_ptr<core
     : setup_(setup),
       simulation_(setup_.loaded.system(), std::move(units), setup_.options),
       checks_(setup_.loaded.checks()),
-      summary_(setup_.loaded.system()),
+      summary_(setup_.loaded.system(), setup_.loaded.options().recorded),
       progress_(setup_.display.progress, setup_.options.start, setup_.options.stop, simulation_) {
   setup_.capture.follow(simulation_);
   setup_.recorders.add_to(simulation_);
   if (!checks_.is_empty()) simulation_.add_observer(checks_, checks_.signals());
   if (!setup_.capture.is_empty()) simulation_.add_observer(setup_.capture);
-  if (!setup_.display.quiet) simulation_.add_observer(summary_);
+  if (!setup_.display.quiet) simulation_.add_observer(summary_, summary_.signals());
   simulation_.add_observer(progress_);
   announce();
 }

@@ -24,6 +24,7 @@
 #include "master/cli/recorded_run.h"
 #include "master/cli/report_page.h"
 #include "master/cli/scenario_options.h"
+#include "master/cli/summary.h"
 #include "master/cli/test_report.h"
 #include "master/isolation/process/child.h"
 #include "master/recorders/results_folder.h"
@@ -106,9 +107,16 @@ recorders::ResultFiles chosen_files(const RunArguments& arguments,
   return files;
 }
 
-core::RunOptions run_options(const RunArguments& arguments,
-                             const scenario::LoadedScenario& loaded) {
+/// Values that nothing records or shows are not read from the units.
+core::RunOptions run_options(const RunArguments& arguments, const scenario::LoadedScenario& loaded,
+                             const recorders::ResultFiles& files) {
   core::RunOptions options = loaded.options();
+  if (files.signals.empty() && files.trace.empty()) options.recorded.clear();
+  if (!arguments.quiet) {
+    const Summary summary(loaded.system(), loaded.options().recorded);
+    options.watched.insert(options.watched.end(), summary.signals().begin(),
+                           summary.signals().end());
+  }
   options.threads.count = arguments.threads;
   options.interrupted = &Interruption::flag();
   return options;
@@ -178,7 +186,7 @@ void run(const RunArguments& arguments, Records& records, CrashGuard& guard) {
   records.results = {folder, files};
   const std::vector<std::string> components = loaded.component_names();
   recorders::clean_unit_folders(folder, components);
-  core::RunOptions options = run_options(arguments, loaded);
+  core::RunOptions options = run_options(arguments, loaded, files);
   capture::Capture capture(loaded.system(), loaded.scenario().name, options, captures(arguments));
   const recorders::UnitFolders unit_folders(folder, components);
   const EndOfUnits end{loaded.process()};

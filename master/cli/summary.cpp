@@ -35,11 +35,22 @@ std::string wall_text(std::chrono::nanoseconds time, std::chrono::nanoseconds un
 
 }  // namespace
 
+Summary::Summary(const core::System& system, std::span<const core::VariableId> recorded)
+    : system_(system) {
+  for (const core::VariableId id : recorded) {
+    const core::Variable& variable = system_.variable(id);
+    if (variable.type != core::ValueType::Float64 || variable.size != 1) continue;
+    if (signals_.size() < kMostSignals) {
+      signals_.push_back(id);
+    } else {
+      ++other_signals_;
+    }
+  }
+}
+
 void Summary::on_start(std::span<const core::Signal> signals) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   for (const core::Signal& signal : signals) {
-    const core::Variable& variable = system_.variable(signal.id);
-    if (variable.type != core::ValueType::Float64 || variable.size != 1) continue;
     ranges_.push_back(
         {signal.id, &signal.block->numbers<double>()[signal.first], kInfinity, -kInfinity});
   }
@@ -117,16 +128,13 @@ std::string Summary::signal_table() const {
                {"most", Table::Align::Right},
                {"last", Table::Align::Right},
                {"unit"}});
-  for (std::size_t i = 0; i < std::min(ranges_.size(), kMostSignals); ++i) {
-    const Range& range = ranges_[i];
+  for (const Range& range : ranges_) {
     table.add({system_.full_name(range.id), fmt::format("{:.5g}", range.least),
                fmt::format("{:.5g}", range.most), fmt::format("{:.5g}", *range.value),
                system_.variable(range.id).unit});
   }
   std::string text = table.text();
-  if (ranges_.size() > kMostSignals) {
-    text += fmt::format("  … and {} more\n", ranges_.size() - kMostSignals);
-  }
+  if (other_signals_ > 0) text += fmt::format("  … and {} more\n", other_signals_);
   return text;
 }
 

@@ -1,6 +1,7 @@
 #ifndef STRIDE_MASTER_CLI_SUMMARY_H
 #define STRIDE_MASTER_CLI_SUMMARY_H
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -10,11 +11,14 @@
 
 namespace stride::cli {
 
-/// The summary of a run: its messages in order, the range of each recorded number, and the activity
-/// and cost of each unit.
+/// The summary of a run: its messages in order, the ranges of the first recorded numbers, and the
+/// activity and cost of each unit.
 class Summary : public core::Observer {
  public:
-  explicit Summary(const core::System& system) : system_(system) {}
+  Summary(const core::System& system, std::span<const core::VariableId> recorded);
+
+  /// The numbers, to be requested of the simulation.
+  const std::vector<core::VariableId>& signals() const { return signals_; }
 
   void on_start(std::span<const core::Signal> signals) override;
   bool wants_content() const override;
@@ -44,6 +48,8 @@ class Summary : public core::Observer {
   std::string unit_table(const core::RunStatistics& statistics) const;
 
   const core::System& system_;
+  std::vector<core::VariableId> signals_;
+  std::size_t other_signals_ = 0;  ///< recorded numbers without a range
   std::vector<Range> ranges_;
   std::vector<Sent> messages_;
   std::size_t message_count_ = 0;

@@ -17,7 +17,8 @@ constexpr const char* kRawOutputs =
 
 /// One unit without a kit; its name says how it misbehaves (tests/test_units/raw/unit.c).
 struct RawUnit : Workspace {
-  RawUnit(const std::string& name, bool has_values) : Workspace(Parts{component(name, "raw")}) {
+  RawUnit(const std::string& name, bool has_values, const std::string& annotation = "")
+      : Workspace(Parts{component(name, "raw"), "", annotation}) {
     make_raw_fmu(scratch(), "raw");
     if (has_values) declare_values();
   }
@@ -79,6 +80,15 @@ TEST_CASE("no text where there has to be one is an empty one, with a warning") {
   CHECK(outcome.err ==
         "stride: warning: unit 'mute': fmi3GetString gave no text (NULL) for 'text', which FMI "
         "forbids; it is taken as an empty one, here and later\n");
+}
+
+TEST_CASE("a value is read where it is recorded or shown, and nowhere else") {
+  const RawUnit unread("mute", true,
+                       "<stride:Results signals=\"none\" trace=\"none\" report=\"none\"/>");
+  CHECK(unread.run({"--quiet"}).err.empty());
+  CHECK(unread.run({"--progress", "none"}).err.empty());
+  const RawUnit traced("mute", true, "<stride:Results signals=\"none\" report=\"none\"/>");
+  CHECK_THAT(traced.run({"--quiet"}).err, Contains("fmi3GetBinary gave 3 bytes"));
 }
 
 TEST_CASE("a message with a status that FMI does not have is an error of the unit, hosted or not") {
