@@ -1,6 +1,7 @@
-// by_hand LIBRARY TOKEN INPUT OUTPUT UNITS STEPS SIZE: the loop that a user of FMI 3.0 would write
-// for a ring of units, each fed by its neighbour: fmi3DoStep of all, fmi3GetFloat64 of all,
-// fmi3SetFloat64 of all. Prints the nanoseconds of a unit step.
+// by_hand LIBRARY TOKEN INPUT OUTPUT UNITS STEPS SIZE [PARAMETER=VALUE]: the loop that a user of
+// FMI 3.0 would write for a ring of units, each fed by its neighbour: fmi3DoStep of all,
+// fmi3GetFloat64 of all, fmi3SetFloat64 of all, unless INPUT is "none". Prints the nanoseconds of a
+// unit step.
 #include <chrono>
 #include <cstdint>
 #include <cstdio>
@@ -29,16 +30,26 @@ Function* symbol(void* library, const char* name) {
   return reinterpret_cast<Function*>(found);
 }
 
+/// "REFERENCE=VALUE"
+void set_parameter(fmi3SetFloat64TYPE* set, fmi3Instance unit, const std::string& text) {
+  const std::size_t sign = text.find('=');
+  require(sign != std::string::npos, "reading a parameter");
+  const auto reference = static_cast<fmi3ValueReference>(std::stoul(text.substr(0, sign)));
+  const double value = std::stod(text.substr(sign + 1));
+  require(set(unit, &reference, 1, &value, 1) == fmi3OK, "fmi3SetFloat64 of a parameter");
+}
+
 void ignore(fmi3InstanceEnvironment, fmi3Status, fmi3String, fmi3String) {}
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  require(argc == 8, "reading the arguments");
+  require(argc == 8 || argc == 9, "reading the arguments");
   void* const library = ::dlopen(argv[1], RTLD_NOW | RTLD_LOCAL);
   require(library != nullptr, "loading the library");
   const char* const token = argv[2];
-  const auto input = static_cast<fmi3ValueReference>(std::stoul(argv[3]));
+  const bool has_input = std::string(argv[3]) != "none";
+  const auto input = static_cast<fmi3ValueReference>(has_input ? std::stoul(argv[3]) : 0);
   const auto output = static_cast<fmi3ValueReference>(std::stoul(argv[4]));
   const std::size_t count = std::stoul(argv[5]);
   const std::uint64_t steps = std::stoull(argv[6]);
@@ -59,6 +70,7 @@ int main(int argc, char** argv) {
     units.push_back(instantiate("unit", token, nullptr, false, false, false, false, nullptr, 0,
                                 nullptr, &ignore, nullptr));
     require(units.back() != nullptr, "fmi3InstantiateCoSimulation");
+    if (argc == 9) set_parameter(set, units.back(), argv[8]);
     require(enter(units.back(), false, 0, 0, false, 0) == fmi3OK, "fmi3EnterInitializationMode");
     require(exit(units.back()) == fmi3OK, "fmi3ExitInitializationMode");
   }
@@ -75,7 +87,7 @@ int main(int argc, char** argv) {
     for (std::size_t i = 0; i < count; ++i) {
       is_good &= get(units[i], &output, 1, &outputs[i], 1) == fmi3OK;
     }
-    for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t i = 0; has_input && i < count; ++i) {
       is_good &= set(units[i + 1 == count ? 0 : i + 1], &input, 1, &outputs[i], 1) == fmi3OK;
     }
   }

@@ -3,12 +3,13 @@
 
 Usage: run_bench.py PROGRAM BY_HAND UNITS [--short]
 
-PROGRAM is stride, BY_HAND the loop of by_hand.cpp, UNITS the folder with `relay.fmu` and `relay_with_state.fmu`. Each
-ring of units, in which each feeds the next one, runs at two lengths without files of results; the difference of the wall
-times, divided by that of the unit steps, leaves out what happens once. Both programs take turns, so that a machine
-that changes its speed changes it for both; the medians of the ratios and of the times are printed. What counts is the
-ratio. The Reference-FMUs for FMI 3.0 are measured, too, if the environment variable STRIDE_REFERENCE_FMUS names their
-folder. `--short` makes a few steps only, and tests that all of this runs.
+PROGRAM is stride, BY_HAND the loop of by_hand.cpp, UNITS the folder with `relay.fmu`, `relay_with_state.fmu` and
+`kit_relay.fmu`. Each ring of units, in which each feeds the next one, runs at two lengths without files of results; the
+difference of the wall times, divided by that of the unit steps, leaves out what happens once. Both programs take turns,
+so that a machine that changes its speed changes it for both; the medians of the ratios and of the times are printed.
+What counts is the ratio. The Reference-FMUs for FMI 3.0 are measured, too, if STRIDE_REFERENCE_FMUS names their
+folder. A second table compares by hand a unit in C to the same one made with the unit kit. `--short` makes a few steps
+only, and tests that all of this runs.
 """
 
 import argparse
@@ -49,9 +50,9 @@ SYSTEM = """<?xml version="1.0" encoding="UTF-8"?>
 
 
 class Unit:
-    """An FMU with one input and one output of type Float64 that are wired to a ring."""
+    """An FMU with an output and, for a ring, an input of type Float64. `parameter`: (name, value)."""
 
-    def __init__(self, fmu, input_name, output_name, folder):
+    def __init__(self, fmu, input_name, output_name, folder, parameter=None):
         self.fmu, self.input, self.output = fmu.resolve(), input_name, output_name
         self.name = fmu.stem
         target = folder / self.name
@@ -62,7 +63,9 @@ class Unit:
         self.token = description.get("instantiationToken")
         self.library = target / "binaries" / f"{platform.machine()}-linux" / f"{identifier}.so"
         references = {v.get("name"): v.get("valueReference") for v in description.find("ModelVariables")}
-        self.references = [references.get(input_name, "0"), references[output_name]]
+        self.references = [references.get(input_name, "none"), references[output_name]]
+        self.parameter = [] if parameter is None else [f"{references[parameter[0]]}={parameter[1]}"]
+        self.settings = [] if parameter is None else [f"--set=u0.{parameter[0]}={parameter[1]}"]
 
     def write_ring(self, file, size):
         components = "".join(f'      <ssd:Component name="u{i}" source="{self.fmu.as_uri()}"/>\n' for i in range(size))
@@ -72,10 +75,17 @@ class Unit:
         file.write_text(SYSTEM.format(components=components, connections=connections, step=STEP))
 
 
-def wall_time(program, system, steps, folder):
+def time_by_hand(by_hand, unit, size, steps):
+    """[ns] a unit step"""
+    arguments = [unit.library, unit.token, *unit.references, str(size), str(steps), str(STEP), *unit.parameter]
+    return float(subprocess.run([by_hand, *arguments], check=True, capture_output=True, text=True).stdout)
+
+
+def wall_time(program, system, steps, folder, settings=()):
     stop = f"{steps * STEP:.1f}"
     began = time.perf_counter()
-    subprocess.run([program, "run", system, "--stop", stop, "--out", folder / "results", "--quiet"], check=True)
+    subprocess.run([program, "run", system, "--stop", stop, "--out", folder / "results", "--quiet", *settings],
+                   check=True)
     return time.perf_counter() - began
 
 
@@ -86,14 +96,24 @@ def measure(program, by_hand, unit, size, unit_steps, rounds, folder):
     many = few + max(1, unit_steps // size)
     pairs = []
     for _ in range(rounds):
-        difference = wall_time(program, system, many, folder) - wall_time(program, system, few, folder)
+        difference = (wall_time(program, system, many, folder, unit.settings) -
+                      wall_time(program, system, few, folder, unit.settings))
         stride = 1e9 * difference / ((many - few) * size)
-        hand = subprocess.run([by_hand, unit.library, unit.token, *unit.references, str(size), str(many), str(STEP)],
-                              check=True, capture_output=True, text=True).stdout
-        pairs.append((stride, float(hand)))
+        pairs.append((stride, time_by_hand(by_hand, unit, size, many)))
     ratio = statistics.median(stride / hand for stride, hand in pairs)
     stride, hand = (statistics.median(times) for times in zip(*pairs))
     print(f"| {unit.name} | {size} | {hand:.1f} | {stride:.1f} | {ratio:.2f} |", flush=True)
+
+
+def measure_kit(by_hand, units, unit_steps, rounds, folder):
+    """What the unit kit adds to the three calls of a unit in C, without stride."""
+    bare, kit = (Unit(units / f"{name}.fmu", "u", "y", folder) for name in ("relay", "kit_relay"))
+    for size in (1, 100):
+        steps = max(1, unit_steps // size)
+        pairs = [(time_by_hand(by_hand, bare, size, steps), time_by_hand(by_hand, kit, size, steps))
+                 for _ in range(rounds)]
+        in_c, with_kit = (statistics.median(times) for times in zip(*pairs))
+        print(f"| {size} | {in_c:.1f} | {with_kit:.1f} |", flush=True)
 
 
 def units_of(folder, unpacked):
@@ -102,6 +122,7 @@ def units_of(folder, unpacked):
     reference = os.environ.get("STRIDE_REFERENCE_FMUS")
     if reference is None:
         return
+    yield Unit(Path(reference) / "3.0" / "Dahlquist.fmu", None, "x", unpacked, ("k", 0)), SIZES[:1]
     yield Unit(Path(reference) / "3.0" / "Feedthrough.fmu", "Float64_continuous_input", "Float64_continuous_output",
                unpacked), SIZES[1:]
 
@@ -120,6 +141,8 @@ def main():
         for unit, sizes in units_of(request.units, folder):
             for size in sizes[:2] if request.short else sizes:
                 measure(request.program.resolve(), request.by_hand.resolve(), unit, size, unit_steps, rounds, folder)
+        print("\n| units in the ring | by hand, relay in C [ns] | with the unit kit [ns] |\n|---|---|---|")
+        measure_kit(request.by_hand.resolve(), request.units, unit_steps, rounds, folder)
 
 
 if __name__ == "__main__":
