@@ -67,12 +67,13 @@ class Unit:
         self.parameter = [] if parameter is None else [f"{references[parameter[0]]}={parameter[1]}"]
         self.settings = [] if parameter is None else [f"--set=u0.{parameter[0]}={parameter[1]}"]
 
-    def write_ring(self, file, size):
-        components = "".join(f'      <ssd:Component name="u{i}" source="{self.fmu.as_uri()}"/>\n' for i in range(size))
-        connections = "" if self.input is None else "".join(
-            f'      <ssd:Connection startElement="u{i}" startConnector="{self.output}" '
-            f'endElement="u{(i + 1) % size}" endConnector="{self.input}"/>\n' for i in range(size))
-        file.write_text(SYSTEM.format(components=components, connections=connections, step=STEP))
+
+def write_ring(unit, file, size):
+    components = "".join(f'      <ssd:Component name="u{i}" source="{unit.fmu.as_uri()}"/>\n' for i in range(size))
+    connections = "" if unit.input is None else "".join(
+        f'      <ssd:Connection startElement="u{i}" startConnector="{unit.output}" '
+        f'endElement="u{(i + 1) % size}" endConnector="{unit.input}"/>\n' for i in range(size))
+    file.write_text(SYSTEM.format(components=components, connections=connections, step=STEP))
 
 
 def time_by_hand(by_hand, unit, size, steps):
@@ -91,7 +92,7 @@ def wall_time(program, system, steps, folder, settings=()):
 
 def measure(program, by_hand, unit, size, unit_steps, rounds, folder):
     system = folder / f"{unit.name}_{size}.ssd"
-    unit.write_ring(system, size)
+    write_ring(unit, system, size)
     few = max(1, unit_steps // size // 10)
     many = few + max(1, unit_steps // size)
     pairs = []
