@@ -14,6 +14,7 @@
 
 #include <stride/time.h>
 
+#include "master/algorithm/intervention.h"
 #include "master/model/variable_id.h"
 
 namespace stride::core {
@@ -138,6 +139,7 @@ struct RunOptions {
   Extrapolation extrapolation = Extrapolation::Hold;
   ThreadOptions threads{};  ///< not with Gauss-Seidel, where units step one after another
   CheckpointOptions checkpoints{};
+  std::vector<Intervention> interventions{};
   IdleOptions idle{};                  ///< as far as may_skip_idle_time()
   std::vector<VariableId> recorded{};  ///< the default signals of observers, in order
   std::vector<VariableId> watched{};   ///< further signals that observers may request

@@ -15,6 +15,7 @@
 #include "master/algorithm/capabilities/inputs_within_step.h"
 #include "master/algorithm/capabilities/unit_diagnostics.h"
 #include "master/algorithm/events/event_handler.h"
+#include "master/algorithm/events/interventions.h"
 #include "master/algorithm/idle/idle_scheduler.h"
 #include "master/algorithm/loops/ordered_evaluation.h"
 #include "master/algorithm/run_context.h"
@@ -43,6 +44,7 @@ class Simulation::Run {
         inputs_(make_input_extrapolator()),
         idle_(make_idle_scheduler()),
         event_handler_(context_, idle_.get()),
+        interventions_(context_, event_handler_, idle_.get()),
         stepper_(context_, order_, coasting_, sets_inputs_in_steps() ? inputs_.get() : nullptr,
                  idle_.get()) {
     if (sets_inputs_in_steps()) connect_input_updates();
@@ -329,11 +331,14 @@ class Simulation::Run {
         idle_ ? idle_->all_suspended_until(time_) : std::nullopt;
     const Time target = quiet_until ? step_policy_->next_while_idle(time_, *quiet_until)
                                     : step_policy_->next(time_);
-    return std::min(target, event_handler_.next_event().value_or(target));
+    return std::min({target, event_handler_.next_event().value_or(target),
+                     interventions_.next().value_or(target)});
   }
 
   void handle_events() {
-    event_handler_.handle_events(time_);
+    event_handler_.begin_instant(time_);
+    interventions_.make(time_);
+    event_handler_.handle_events();
     if (inputs_) inputs_->accept(time_, event_handler_.had_event());
   }
 
@@ -364,6 +369,7 @@ class Simulation::Run {
   std::unique_ptr<InputExtrapolator> inputs_;  ///< nothing where inputs are held
   std::unique_ptr<IdleScheduler> idle_;        ///< nothing where no unit may be suspended
   EventHandler event_handler_;
+  Interventions interventions_;
   Stepper stepper_;
 
   std::vector<std::vector<VariableId>> wanted_;  ///< the signals of each observer

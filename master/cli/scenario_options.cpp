@@ -109,6 +109,19 @@ void add_scenario_options(CLI::App& command, scenario::ScenarioRequest& request)
       ->type_name("COMPONENT.VARIABLE=VALUE")
       ->allow_extra_args(false);
   command
+      .add_option(
+          "--set-at", request.set_at,
+          "Value that a tunable parameter, or an input without a source, gets in the middle "
+          "of the run; may be given several times")
+      ->type_name("COMPONENT.VARIABLE=VALUE@SECONDS")
+      ->allow_extra_args(false);
+  command
+      .add_option("--force", request.forces,
+                  "Value of a connected input for some time, whatever its source gives; without a "
+                  "value it is held at what it has; may be given several times")
+      ->type_name("COMPONENT.VARIABLE[=VALUE]@SECONDS..[SECONDS]")
+      ->allow_extra_args(false);
+  command
       .add_option("--swap", request.swaps,
                   "Another unit for a component; may be given several times")
       ->type_name("COMPONENT=FILE.fmu")

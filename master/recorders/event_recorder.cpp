@@ -36,6 +36,17 @@ void EventRecorder::on_message(const core::Message& message) {
   file_.write('\n');
 }
 
+/// Before the first event iteration of the instant.
+void EventRecorder::on_intervention(Time time, core::VariableId id, std::string_view text) {
+  file_.set_time(time);
+  file_.write_seconds(time);
+  file_.write(",0");
+  file_.write(fields_[id.component][id.variable]);
+  file_.write("intervention,,");
+  file_.write(csv_field(text));
+  file_.write('\n');
+}
+
 void EventRecorder::write_payload(const core::Message& message) {
   const core::Variable& variable = system_.variable(message.id);
   if (variable.type == core::ValueType::String) {

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "master/algorithm/observer.h"
@@ -23,6 +24,7 @@ class EventRecorder : public core::Observer {
   void on_start(std::span<const core::Signal> signals) override;
   bool wants_content() const override { return true; }
   void on_message(const core::Message& message) override;
+  void on_intervention(Time time, core::VariableId id, std::string_view text) override;
   void on_finish() override;
 
  private:

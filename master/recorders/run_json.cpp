@@ -116,6 +116,32 @@ Json connection_entries(const core::System& system) {
   return entries;
 }
 
+const char* word(core::Intervention::Kind kind) {
+  switch (kind) {
+    case core::Intervention::Kind::Set:
+      return "set";
+    case core::Intervention::Kind::Force:
+      return "force";
+    case core::Intervention::Kind::Hold:
+      return "hold";
+  }
+  return "";
+}
+
+Json intervention_entries(const core::System& system,
+                          std::span<const core::Intervention> interventions) {
+  Json entries = Json::array();
+  for (const core::Intervention& intervention : interventions) {
+    Json entry = {{"kind", word(intervention.kind)},
+                  {"variable", system.full_name(intervention.id)},
+                  {"from", to_seconds(intervention.from)}};
+    if (intervention.until) entry["until"] = to_seconds(*intervention.until);
+    if (intervention.value) entry["value"] = core::elements_text(*intervention.value);
+    entries.push_back(std::move(entry));
+  }
+  return entries;
+}
+
 Json plot_entries(std::span<const Plot> plots) {
   Json entries = Json::array();
   for (const Plot& plot : plots) {
@@ -236,6 +262,7 @@ void write_run_json(const std::filesystem::path& file, const RunRecord& record) 
   if (is_over) add(run, statistics);
   run["units"] = unit_entries(system, statistics);
   run["connections"] = connection_entries(system);
+  run["interventions"] = intervention_entries(system, options.interventions);
   run["files"] = file_entries(files);
   run["signals"] = signal_entries(system, options.recorded);
   run["plots"] = plot_entries(plots);

@@ -15,6 +15,7 @@
 #include "master/ssp/ssp.h"
 #include "master/util/number_text.h"
 #include "master/util/suggest.h"
+#include "master/util/time_text.h"
 #include "master/util/xml/element.h"
 
 namespace stride::scenario {
@@ -201,6 +202,34 @@ IdleNumber read_idle_number(const xml::Element& element, double (*parse)(std::st
   return {element.required("variable"), parse_attribute(element, "value", parse), element.where()};
 }
 
+Time read_time(const xml::Element& element, const char* attribute) {
+  return Time(parse_attribute(element, attribute, core::parse_seconds));
+}
+
+void read_set(const xml::Element& element, ScenarioAnnotation& annotation) {
+  element.allow_attributes({"variable", "value", "at"});
+  element.allow_children({});
+  annotation.interventions.push_back({.kind = core::Intervention::Kind::Set,
+                                      .variable = element.required("variable"),
+                                      .value = element.required("value"),
+                                      .from = read_time(element, "at"),
+                                      .where = element.where()});
+}
+
+/// Without a value the input is held.
+void read_force(const xml::Element& element, ScenarioAnnotation& annotation) {
+  element.allow_attributes({"variable", "value", "from", "until"});
+  element.allow_children({});
+  const auto value = element.attribute("value");
+  InterventionDeclaration& declared = annotation.interventions.emplace_back(InterventionDeclaration{
+      .kind = value ? core::Intervention::Kind::Force : core::Intervention::Kind::Hold,
+      .variable = element.required("variable"),
+      .value = value.value_or(""),
+      .from = read_time(element, "from"),
+      .where = element.where()});
+  if (element.attribute("until")) declared.until = read_time(element, "until");
+}
+
 void read_terminal_connection(const xml::Element& element, ScenarioAnnotation& annotation) {
   element.allow_attributes({"startElement", "startTerminal", "endElement", "endTerminal"});
   element.allow_children({});
@@ -263,6 +292,8 @@ constexpr ScenarioElement kElements[] = {
      [](const auto& element, auto& to) {
        to.idle.tolerances.push_back(read_idle_number(element, core::parse_above_zero));
      }},
+    {"Set", true, read_set},
+    {"Force", true, read_force},
     {"TerminalConnection", true, read_terminal_connection},
 };
 

@@ -10,6 +10,7 @@
 #include "master/recorders/results_folder.h"
 #include "master/scenario/check_declaration.h"
 #include "master/scenario/component_selection.h"
+#include "master/scenario/interventions.h"
 #include "master/scenario/run_settings.h"
 #include "master/scenario/terminal_connections.h"
 #include "master/util/error.h"
@@ -49,6 +50,7 @@ struct ScenarioAnnotation {
   std::vector<PermissionRule> repeated_steps;
   HostRules hosts;
   IdleSettings idle;
+  std::vector<InterventionDeclaration> interventions;
   std::vector<TerminalConnection> terminals;
 };
 

@@ -154,6 +154,7 @@ LoadedScenario::LoadedScenario(const ScenarioRequest& request)
   choose_hosts(request.hosts);
   check_steps();
   choose_idle_skips(request);
+  choose_interventions(request);
   choose_signals(request);
   options_.threads.main_only =
       select_components(selection_names(), scenario_.annotation.main_thread);
@@ -375,6 +376,26 @@ void LoadedScenario::choose_idle_skips(const ScenarioRequest& request) {
   }
   options_.idle = settings.options(*system_, options_.step);
   for (const IdleTwin& pair : idle_twins_) options_.idle.max_skip[pair.twin].reset();
+}
+
+/// Those of the scenario are within its own time, also with --stop. What changes a unit changes its
+/// twin.
+void LoadedScenario::choose_interventions(const ScenarioRequest& request) {
+  const Time stop = request.stop.empty() ? options_.stop
+                                         : std::max(options_.stop, scenario_.stop.value_or(Time{}));
+  std::vector<InterventionDeclaration> declared = scenario_.annotation.interventions;
+  for (const std::string& text : request.set_at) declared.push_back(parse_set_at(text));
+  for (const std::string& text : request.forces) declared.push_back(parse_force(text));
+  options_.interventions = resolve_interventions(*system_, declared, {options_.start, stop});
+  const std::size_t count = options_.interventions.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    for (const IdleTwin& pair : idle_twins_) {
+      if (options_.interventions[i].id.component != pair.unit) continue;
+      core::Intervention of_twin = options_.interventions[i];
+      of_twin.id.component = pair.twin;
+      options_.interventions.push_back(std::move(of_twin));
+    }
+  }
 }
 
 void LoadedScenario::choose_signals(const ScenarioRequest& request) {

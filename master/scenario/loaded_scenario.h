@@ -28,6 +28,8 @@ struct ScenarioRequest {
   std::filesystem::path scenario;
   std::vector<std::string> swaps;    ///< "component=FILE"
   std::vector<std::string> sets;     ///< "component.variable=value"
+  std::vector<std::string> set_at;   ///< "component.variable=value@time"
+  std::vector<std::string> forces;   ///< "component.variable[=value]@from..[until]"
   std::vector<std::string> signals;  ///< globs that replace the scenario's
   std::string stop;                  ///< seconds; empty = the scenario's
   StepSettings step;                 ///< overrides the scenario
@@ -90,6 +92,7 @@ class LoadedScenario {
   void choose_hosts(const HostRequest& request);
   void check_steps();
   void choose_idle_skips(const ScenarioRequest& request);
+  void choose_interventions(const ScenarioRequest& request);
   void choose_signals(const ScenarioRequest& request);
   void end_with_whole_steps();
   void warn_of_other_steps() const;

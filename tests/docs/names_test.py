@@ -37,13 +37,13 @@ SHOWN = {
     "IdleScheduler": "add_candidate all_suspended_until catch_up_and_report check_promise covers find_sources "
                      "is_disturbed is_suspended is_trivial leaves_deadband may_suspend report_suspension "
                      "report_unfinished suspended_time",
-    "OrderedEvaluation": "check_nan find_direct_inputs is_trivial plan report sweep takes_part value",
+    "OrderedEvaluation": "check_nan find_direct_inputs is_trivial plan report sweep takes_part",
     "AlgebraicLoop": "collect fail has_converged have_held_values_converged hint inputs put sweep values_text",
     "InputExtrapolator": "sample set_targets signal_of undo_step within_step",
     "StepPolicy": "",
     "EventHandler": "had_event has_announced count description activate activate_announced update_announced "
                     "notify_observers receive report content_of described_by fail_nan fail_ticking fail_sample_loop "
-                    "takes_part find_discontinuities",
+                    "takes_part find_discontinuities set_in_event make_assignments",
 }
 
 

@@ -60,7 +60,7 @@ std::optional<Time> EventHandler::next_event() const {
   return std::min(*tick, *announced_);
 }
 
-void EventHandler::handle_events(Time time) {
+void EventHandler::begin_instant(Time time) {
   if (time != time_) index_ = 0;
   time_ = time;
   if (std::exchange(had_any_event_, false)) std::fill(had_event_.begin(), had_event_.end(), false);
@@ -69,6 +69,9 @@ void EventHandler::handle_events(Time time) {
     for (const std::size_t i : idle_->advance_to(time)) request_event(i);
   }
   route();
+}
+
+void EventHandler::handle_events() {
   for (std::uint32_t count = 0; prepare_events(); ++count) {
     if (count == kEventLimit) fail_ticking();
     const bool terminates = event_iteration();
@@ -77,7 +80,7 @@ void EventHandler::handle_events(Time time) {
     if (terminates) break;
   }
   if (has_event_) leave_event_mode();
-  if (idle_ != nullptr) idle_->suspend_idle(time);
+  if (idle_ != nullptr) idle_->suspend_idle(time_);
 }
 
 /// A suspended unit that catches up has new outputs, which may end the suspension of others.
@@ -127,7 +130,15 @@ bool EventHandler::prepare_events() {
     if (in_event_mode_[i]) exchange_.write_inputs(i, *units_[i]);
     if (active_[i]) enter_event_mode(i);
   }
+  make_assignments();
   return has_active_;
+}
+
+void EventHandler::make_assignments() {
+  for (const auto& [id, value] : assignments_) {
+    units_[id.component]->set({&system_.variable(id).reference, 1}, *value);
+  }
+  assignments_.clear();
 }
 
 void EventHandler::enter_event_mode(std::size_t i) {
@@ -205,7 +216,7 @@ void EventHandler::exchange_after_events() {
 /// A change of a continuous output by an event is an event of the units that receive it.
 void EventHandler::find_discontinuities() {
   for (const auto& [from, to, source, target, conversion] : links_) {
-    if (!in_event_mode_[from.component]) continue;
+    if (!in_event_mode_[from.component] || exchange_.is_forced(to)) continue;
     const double value = conversion.factor * real(source) + conversion.offset;
     if (would_change(target, value)) on_discontinuity(to, false);
   }

@@ -36,13 +36,22 @@ class EventHandler : private OrderedEvaluation::Participants {
   void request_event(std::size_t component) {
     if (description(component).has_event_mode) activate(component);
   }
-  /// Exchanges the outputs that have been read and handles events until no unit needs another
+  /// Likewise, and sets a variable of the unit there, which has Event Mode. The value must outlive
+  /// the call of handle_events().
+  void set_in_event(VariableId id, const ValueBlock& value) {
+    assignments_.push_back({id, &value});
+    activate(id.component);
+  }
+  /// At a communication point, after the steps: finds the announced events and exchanges the
+  /// outputs that have been read. Throws Error (Run) if a connected output is NaN.
+  void begin_instant(Time time);
+  /// Handles events until no unit needs another
   /// event iteration. Outputs of units in Event Mode that depend directly on inputs follow them at
   /// once, and algebraic loops between such units are solved. Units are left in Step Mode; the
   /// inputs of those without an event are still to be written (Exchange::write_routed_inputs).
   /// Throws Error (Run) if a connected output is NaN, a loop has no solution, or events do not
   /// settle after 1000 iterations.
-  void handle_events(Time time);
+  void handle_events();
 
   /// Whether the unit has announced an event for this time.
   bool has_announced(std::size_t component, Time time) const {
@@ -62,6 +71,7 @@ class EventHandler : private OrderedEvaluation::Participants {
     return *system_.components()[i].description;
   }
   void activate(std::size_t i) { active_[i] = has_active_ = true; }
+  void make_assignments();
   void activate_announced();
   void update_announced();
   bool prepare_events();
@@ -102,6 +112,12 @@ class EventHandler : private OrderedEvaluation::Participants {
   RunStatistics& statistics_;
   const WallClock& clock_;
   IdleScheduler* idle_;
+
+  struct Assignment {
+    VariableId id;
+    const ValueBlock* value;
+  };
+  std::vector<Assignment> assignments_;  ///< in the next event iteration
 
   Time time_{};
   std::uint32_t index_ = 0;                  ///< of the super-dense instant at that time

@@ -398,6 +398,23 @@ void Exchange::route(Time time) {
   }
   if (has_nan) [[unlikely]]
     check_nan(time);
+  for (const Forced& forced : forced_) keep(forced);
+}
+
+void Exchange::force(VariableId input, const ValueBlock& value) {
+  release(input);
+  keep(forced_.emplace_back(Forced{input, slice(input), value}));
+}
+
+void Exchange::release(VariableId input) {
+  std::erase_if(forced_, [&](const Forced& forced) { return forced.input == input; });
+}
+
+ValueBlock Exchange::value(VariableId id) {
+  const ValueSlice from = slice(id);
+  ValueBlock value(from.block->type(), from.size);
+  copy_elements({&value, 0, from.size}, from);
+  return value;
 }
 
 void Exchange::route_other_types(Time time) {

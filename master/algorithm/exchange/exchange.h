@@ -2,6 +2,7 @@
 #ifndef STRIDE_MASTER_ALGORITHM_EXCHANGE_EXCHANGE_H
 #define STRIDE_MASTER_ALGORITHM_EXCHANGE_EXCHANGE_H
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -84,6 +85,23 @@ class Exchange {
     with_step_values(component, unit,
                      [&](const StepValues& values) { steps.begin_step(interval, values, extras); });
   }
+  /// A connected input has this value, whatever is routed to it, until release().
+  void force(VariableId input, const ValueBlock& value);
+  /// To be followed by route().
+  void release(VariableId input);
+  bool is_forced(VariableId input) const {
+    return std::ranges::any_of(forced_,
+                               [&](const Forced& forced) { return forced.input == input; });
+  }
+  /// After inputs were changed in their blocks by other means than route(): those that are forced
+  /// have their values again. May be called for different components at the same time.
+  void keep_forced(std::size_t component) {
+    for (const Forced& forced : forced_) {
+      if (forced.input.component == component) keep(forced);
+    }
+  }
+  /// What a connected variable has now.
+  ValueBlock value(VariableId id);
   /// An input was changed in its block by other means than route().
   void mark_changed(std::size_t component) { ports_[component].written_route = 0; }
 
@@ -183,6 +201,15 @@ class Exchange {
     const Connection* connection;
   };
 
+  /// An input that is forced.
+  struct Forced {
+    VariableId input;
+    ValueSlice target;
+    ValueBlock value;
+  };
+  static void keep(const Forced& forced) {
+    copy_elements(*forced.target.block, forced.target.first, forced.value, 0, forced.value.size());
+  }
   std::vector<RealValue> elements(std::vector<Transfer>& transfers,
                                   const std::function<bool(const Transfer&)>& is_wanted) const;
   static bool is_of(const Transfer& transfer, std::span<const ValueReference> ticking);
@@ -221,9 +248,10 @@ class Exchange {
   Transfers inputs_;
   Transfers sampled_outputs_;  ///< what belongs to time-based clocks
   Transfers sampled_inputs_;
-  std::vector<Port> ports_;                              ///< by component
-  std::vector<BoundValues> bound_values_;                ///< of them
-  std::uint64_t route_ = 1;                              ///< counts the calls of route()
+  std::vector<Port> ports_;                ///< by component
+  std::vector<BoundValues> bound_values_;  ///< of them
+  std::uint64_t route_ = 1;                ///< counts the calls of route()
+  std::vector<Forced> forced_;
   std::array<std::vector<Copy<std::byte>>, 4> numbers_;  // of 1, 2, 4 and 8 bytes
   std::vector<Copy<std::string>> strings_;
   std::vector<Copy<Binary>> binaries_;

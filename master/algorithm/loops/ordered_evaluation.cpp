@@ -158,22 +158,15 @@ void OrderedEvaluation::solve(Block& block) {
   for (GroupEvaluation& group : block.groups)
     has_new_participant |= participants_->include(group.read.component());
   std::vector<ValueBlock> before;
-  for (const VariableId input : block.plan->inputs) before.push_back(value(input));
+  for (const VariableId input : block.plan->inputs) before.push_back(exchange_.value(input));
   is_trying_ = true;
   if (has_new_participant) sweep(block);
   if (!block.loop->has_converged()) block.loop->solve([&] { sweep(block); }, time_);
   is_trying_ = false;
   for (std::size_t i = 0; i < before.size(); ++i) {
     const VariableId input = block.plan->inputs[i];
-    if (!(before[i] == value(input))) report(input);
+    if (!(before[i] == exchange_.value(input))) report(input);
   }
-}
-
-ValueBlock OrderedEvaluation::value(VariableId id) {
-  const ValueSlice slice = exchange_.slice(id);
-  ValueBlock value(slice.block->type(), slice.size);
-  copy_elements({&value, 0, slice.size}, slice);
-  return value;
 }
 
 void OrderedEvaluation::check_nan(const Block& block) const {

@@ -78,7 +78,6 @@ class OrderedEvaluation {
   void check_nan(const Block& block) const;
   void report(VariableId input);
   bool takes_part(const Block& block) const;
-  ValueBlock value(VariableId id);
 
   const System& system_;
   Exchange& exchange_;

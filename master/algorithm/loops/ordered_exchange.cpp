@@ -85,6 +85,7 @@ void OrderedExchange::write_inputs(std::size_t component) {
 }
 
 bool OrderedExchange::route(Link& link) {
+  if (exchange_.is_forced(link.target().id)) return false;
   const bool changes = copy_elements(link.to_, link.from_, link.connection_->conversion);
   if (changes || link.batch_->is_new) make_due(link);
   return changes;

@@ -75,6 +75,7 @@ void InputExtrapolator::before_step(std::size_t component, const StepInterval& i
     set_targets(feed, history, history.mean(interval.from, interval.to), false);
     set_targets(feed, history, history.at(interval.from, 0, interval.to - interval.from), true);
   }
+  exchange_.keep_forced(component);
   exchange_.mark_changed(component);
 }
 
@@ -84,6 +85,7 @@ void InputExtrapolator::within_step(std::size_t component, Unit& unit, double se
     const SignalHistory& history = sources_[feed.source].history;
     set_targets(feed, history, history.at(from, seconds_into_step, to - from), true);
   }
+  exchange_.keep_forced(component);
   exchange_.write_inputs_within_step(component, unit);
 }
 

@@ -203,6 +203,7 @@ TEST_CASE("run.json has what was run and how far the run came") {
       "kind": "value"
     }
   ],
+  "interventions": [],
   "files": {
     "signals": "signals.csv",
     "events": "events.csv",

@@ -16,6 +16,11 @@ import { Stack } from "./stack.js";
 const note = (text) => h("p.note", {}, text);
 const row = (box, side) => h("div.row", {}, h("div.plot", {}, box), h("div.side", {}, side));
 
+function legend(messages) {
+  const hasInterventions = messages.some(({ direction }) => direction === "intervention");
+  return `Messages: ▲ sent, △ received${hasInterventions ? ", ◆ intervention" : ""}. n: next, p: previous`;
+}
+
 /** Films and messages share one row, because the enlarged picture is high. */
 function addFilmsAndMessages(context, stack) {
   const { report, view } = context;
@@ -24,7 +29,7 @@ function addFilmsAndMessages(context, stack) {
     view.addEventListener(name, () => strips.forEach((strip) => strip.update()));
   }
   const lanes = new MessageLanes(context);
-  const words = lanes.isEmpty ? "No messages were sent." : "Messages: ▲ sent, △ received. n: next, p: previous";
+  const words = lanes.isEmpty ? "No messages were sent." : legend(report.messages);
   const element = row(h("div", {}, ...strips.map((strip) => strip.box), lanes.box), note(words));
   element.lastChild.prepend(...strips.map((strip) => strip.picture));
   stack.add({ element, draw: (width) => [...strips, lanes].forEach((part) => part.draw(width)) });

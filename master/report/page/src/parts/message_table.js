@@ -31,9 +31,10 @@ export class MessageTable {
       "select",
       { "aria-label": "Direction" },
       ...[
-        ["", "sent and received"],
+        ["", "all"],
         ["sent", "sent"],
         ["received", "received"],
+        ["intervention", "interventions"],
       ].map(([value, label]) => h("option", { value }, label)),
     );
     this.text.addEventListener("input", () => this.#filter());

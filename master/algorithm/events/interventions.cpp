@@ -1,0 +1,75 @@
+#include "master/algorithm/events/interventions.h"
+
+#include <algorithm>
+#include <tuple>
+
+namespace stride::core {
+
+Interventions::Interventions(RunContext& context, EventHandler& event_handler, IdleScheduler* idle)
+    : system_(context.system),
+      units_(context.units),
+      exchange_(context.exchange),
+      observers_(context.observers),
+      event_handler_(event_handler),
+      idle_(idle) {
+  for (const Intervention& intervention : context.options.interventions) {
+    changes_.push_back({intervention.from, &intervention, false});
+    if (intervention.until) changes_.push_back({*intervention.until, &intervention, true});
+  }
+  // at one instant the ends come first, since another one may begin there
+  std::ranges::stable_sort(
+      changes_, {}, [](const Change& change) { return std::tuple(change.time, !change.is_end); });
+}
+
+void Interventions::make_all(Time time) {
+  for (; next() == time; ++made_) {
+    const Change& change = changes_[made_];
+    change.is_end ? end(*change.intervention, time) : begin(*change.intervention, time);
+  }
+  exchange_.route(time);
+}
+
+void Interventions::begin(const Intervention& intervention, Time time) {
+  if (intervention.kind == Intervention::Kind::Set) return set(intervention, time);
+  force(intervention, time);
+}
+
+void Interventions::set(const Intervention& intervention, Time time) {
+  const std::size_t i = intervention.id.component;
+  if (system_.components()[i].description->has_event_mode) {
+    event_handler_.set_in_event(intervention.id, *intervention.value);
+  } else {
+    resume(i, time);
+    units_[i]->set({&variable(intervention).reference, 1}, *intervention.value);
+  }
+  report(intervention, time, to_text(intervention, system_, *intervention.value));
+}
+
+void Interventions::force(const Intervention& intervention, Time time) {
+  const ValueBlock value =
+      intervention.value ? *intervention.value : exchange_.value(intervention.id);
+  resume(intervention.id.component, time);
+  exchange_.force(intervention.id, value);
+  event_handler_.request_event(intervention.id.component);
+  report(intervention, time, to_text(intervention, system_, value));
+}
+
+void Interventions::end(const Intervention& intervention, Time time) {
+  resume(intervention.id.component, time);
+  exchange_.release(intervention.id);
+  event_handler_.request_event(intervention.id.component);
+  report(intervention, time, "released");
+}
+
+void Interventions::resume(std::size_t component, Time time) {
+  if (idle_ != nullptr && idle_->is_suspended(component)) {
+    idle_->catch_up_and_report(component, time);
+  }
+}
+
+void Interventions::report(const Intervention& intervention, Time time,
+                           const std::string& text) const {
+  for (Observer* observer : observers_) observer->on_intervention(time, intervention.id, text);
+}
+
+}  // namespace stride::core

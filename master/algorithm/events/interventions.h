@@ -1,0 +1,71 @@
+#ifndef STRIDE_MASTER_ALGORITHM_EVENTS_INTERVENTIONS_H
+#define STRIDE_MASTER_ALGORITHM_EVENTS_INTERVENTIONS_H
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <stride/time.h>
+
+#include "master/algorithm/events/event_handler.h"
+#include "master/algorithm/idle/idle_scheduler.h"
+#include "master/algorithm/intervention.h"
+#include "master/algorithm/run_context.h"
+
+namespace stride::core {
+
+/// Makes the interventions of a run at their instants, which are communication points. A unit with
+/// Event Mode is in it where one of its variables changes; the others have new values from the next
+/// step on. A unit that is suspended goes on from the instant.
+class Interventions {
+ public:
+  /// All must outlive this object. `idle`: optional idle scheduler.
+  Interventions(RunContext& context, EventHandler& event_handler, IdleScheduler* idle);
+
+  /// The earliest instant at which something is still to be changed.
+  std::optional<Time> next() const {
+    if (made_ == changes_.size()) return std::nullopt;
+    return changes_[made_].time;
+  }
+  /// Between EventHandler::begin_instant() and handle_events() of a communication point: what is
+  /// due.
+  void make(Time time) {
+    if (next() == time) [[unlikely]]
+      make_all(time);
+  }
+
+ private:
+  /// The beginning of an intervention, or its end.
+  struct Change {
+    Time time;
+    const Intervention* intervention;
+    bool is_end;
+  };
+
+  void make_all(Time time);
+  void begin(const Intervention& intervention, Time time);
+  void end(const Intervention& intervention, Time time);
+  void set(const Intervention& intervention, Time time);
+  void force(const Intervention& intervention, Time time);
+  void resume(std::size_t component, Time time);
+  void report(const Intervention& intervention, Time time, const std::string& text) const;
+  const Variable& variable(const Intervention& intervention) const {
+    return system_.variable(intervention.id);
+  }
+
+  const System& system_;
+  std::span<const std::unique_ptr<Unit>> units_;
+  Exchange& exchange_;
+  const std::vector<Observer*>& observers_;
+  EventHandler& event_handler_;
+  IdleScheduler* idle_;
+  std::vector<Change> changes_;  ///< by time
+  std::size_t made_ = 0;
+};
+
+}  // namespace stride::core
+
+#endif

@@ -1,0 +1,49 @@
+// The interventions of a scenario and of a command line.
+#ifndef STRIDE_MASTER_SCENARIO_INTERVENTIONS_H
+#define STRIDE_MASTER_SCENARIO_INTERVENTIONS_H
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <stride/time.h>
+
+#include "master/algorithm/intervention.h"
+#include "master/model/system.h"
+#include "master/util/error.h"
+
+namespace stride::scenario {
+
+/// An intervention with names.
+struct InterventionDeclaration {
+  core::Intervention::Kind kind = core::Intervention::Kind::Set;
+  std::string variable;  ///< "component.variable"
+  std::string value;     ///< empty for Hold
+  Time from{};
+  std::optional<Time> until{};
+  core::Location where{};
+};
+
+/// Takes the text of `--set-at`, "COMPONENT.VARIABLE=VALUE@TIME". Throws core::Error (Input).
+InterventionDeclaration parse_set_at(const std::string& text);
+/// Takes the text of `--force`, "COMPONENT.VARIABLE[=VALUE]@FROM..[UNTIL]"; without a value it is
+/// held. Throws core::Error (Input).
+InterventionDeclaration parse_force(const std::string& text);
+
+/// The run for which interventions are meant.
+struct RunTimes {
+  Time start{};
+  Time stop{};
+};
+
+/// In the order of their instants. Throws core::Error (Input) for unknown names, for variables that
+/// cannot be changed so or at all, for values that are none of theirs, for instants outside of the
+/// run, and for two interventions that contradict each other.
+std::vector<core::Intervention> resolve_interventions(
+    const core::System& system, std::span<const InterventionDeclaration> declarations,
+    const RunTimes& times);
+
+}  // namespace stride::scenario
+
+#endif

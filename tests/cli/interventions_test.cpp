@@ -1,0 +1,82 @@
+// What a scenario and the command line change in the middle of a run.
+#include <nlohmann/json.hpp>
+
+#include "tests/cli/failures.h"
+
+using namespace stride::tests;
+using Catch::Matchers::Contains;
+
+namespace {
+
+/// Two low-passes in a row, the first of which has no source.
+Workspace low_passes(const std::string& annotation = "") {
+  return Workspace(Parts{component("a", "minimal.fmu") + component("b", "minimal.fmu"),
+                         connection("a.y", "b.u"), annotation});
+}
+
+std::string events_of(const Workspace& workspace) { return workspace.result("events.csv"); }
+
+}  // namespace
+
+TEST_CASE("a scenario's interventions and those of the command line are made and recorded") {
+  const Workspace workspace = low_passes(
+      "<stride:Set variable='a.u' value='2' at='0.125'/>\n"
+      "<stride:Force variable='b.u' from='0.25' until='0.5'/>\n");
+  const Outcome outcome = workspace.run({"--quiet", "--force", "b.u=7@0.75.."});
+  INFO(outcome.err);
+  REQUIRE(outcome.exit_code == 0);
+  CHECK_THAT(events_of(workspace), Contains("0.125,0,a,u,intervention,,set to 2\n") &&
+                                       Contains("0.25,0,b,u,intervention,,held at ") &&
+                                       Contains("0.5,0,b,u,intervention,,released\n") &&
+                                       Contains("0.75,0,b,u,intervention,,forced to 7\n"));
+}
+
+TEST_CASE("without interventions a run is what it was, up to the first one") {
+  const Workspace plain = low_passes();
+  const Workspace changed = low_passes();
+  REQUIRE(plain.run({"--quiet", "--set", "a.u=1"}).exit_code == 0);
+  REQUIRE(changed.run({"--quiet", "--set", "a.u=1", "--force", "b.u=7@0.5.."}).exit_code == 0);
+  const auto y = plain.signals().numbers("b.y");
+  const auto changed_y = changed.signals().numbers("b.y");
+  REQUIRE(y.size() == changed_y.size());
+  const auto time = plain.signals().numbers("time");
+  for (std::size_t i = 0; i < y.size(); ++i) {
+    CAPTURE(time[i]);
+    CHECK((y[i] == changed_y[i]) == (time[i] <= 0.5));
+  }
+}
+
+TEST_CASE(
+    "an intervention is the same in process, with a host, and with each unit's states saved") {
+  const Arguments interventions{"--quiet",        "--set",    "a.u=1",       "--force",
+                                "b.u@0.31..0.62", "--set-at", "a.u=3@0.4142"};
+  const Workspace here = low_passes();
+  const Workspace hosted = low_passes();
+  const Workspace controlled = low_passes("<stride:Step policy='error-controlled'/>");
+  REQUIRE(here.run(interventions).exit_code == 0);
+  Arguments isolated = interventions;
+  isolated.emplace_back("--isolate");
+  REQUIRE(hosted.run(isolated).exit_code == 0);
+  CHECK(here.result("signals.csv") == hosted.result("signals.csv"));
+  REQUIRE(controlled.run(interventions).exit_code == 0);
+  CHECK(controlled.signals().numbers("b.y").back() ==
+        Approx(here.signals().numbers("b.y").back()).epsilon(0.01));
+}
+
+TEST_CASE("an intervention that makes no sense is an error before the run, with its line") {
+  const Workspace workspace = low_passes("<stride:Set variable='b.u' value='2' at='0.125'/>\n");
+  const Outcome outcome = workspace.run({"--quiet"});
+  CHECK(outcome.exit_code == 2);
+  CHECK_THAT(outcome.err,
+             Contains("test.ssd:17: unit 'b', variable 'u': it cannot be set, since it "
+                      "is fed by 'a.y'"));
+  const Workspace late = low_passes("<stride:Force variable='b.u' value='2' from='5'/>\n");
+  CHECK_THAT(late.run({"--quiet"}).err, Contains("5 s is outside of the run, from 0 s to 1 s"));
+  CHECK(late.run({"--quiet", "--stop", "6"}).exit_code == 0);
+}
+
+TEST_CASE("an intervention behind an earlier stop time is left out") {
+  const Workspace workspace = low_passes("<stride:Set variable='a.u' value='2' at='0.75'/>\n");
+  CHECK(workspace.run({"--quiet", "--stop", "0.5"}).exit_code == 0);
+  CHECK_THAT(events_of(workspace), !Contains("intervention"));
+}
