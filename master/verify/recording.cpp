@@ -124,8 +124,13 @@ std::string to_text(const Recording& recording) {
   for (const Row& row : recording.rows) {
     rows.push_back({row.picoseconds, row.is_event, row.values});
   }
+  Json steps = Json::array();
+  for (const StepOutcome& step : recording.steps) {
+    steps.push_back({step.begin, step.end, step.is_rejected, step.needs_event, step.ends_run});
+  }
   return Json{
       {"rows", std::move(rows)},
+      {"steps", std::move(steps)},
       {"counts",
        {recording.rejections, recording.early_returns, recording.events,
         recording.first_early_return, recording.longest_promise, recording.longest_suspension}},
@@ -139,6 +144,9 @@ Recording recording_from_text(const std::string& text) {
   for (const Json& row : json["rows"]) {
     recording.rows.push_back(
         {row[0].get<std::int64_t>(), row[2].get<std::vector<std::string>>(), row[1].get<bool>()});
+  }
+  for (const Json& step : json["steps"]) {
+    recording.steps.push_back({step[0], step[1], step[2], step[3], step[4]});
   }
   recording.rejections = json["counts"][0];
   recording.early_returns = json["counts"][1];
