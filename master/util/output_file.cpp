@@ -3,6 +3,7 @@
 #include <atomic>
 #include <cerrno>
 #include <system_error>
+#include <type_traits>
 #include <utility>
 
 #include <fcntl.h>
@@ -109,13 +110,23 @@ void OutputFile::write_seconds(Time time) {
   const std::int64_t ticks = time.time_since_epoch().count();
   if (ticks < 0) return write(to_text(time));  // no run begins before 0
   write_number(ticks / kPerSecond);
-  std::int64_t fraction = ticks % kPerSecond;
-  if (fraction == 0) return;
-  char digits[13] = {'.'};
-  for (int i = 12; i > 0; --i, fraction /= 10) digits[i] = static_cast<char>('0' + fraction % 10);
-  std::size_t length = sizeof digits;
-  while (digits[length - 1] == '0') --length;
-  write(std::string_view(digits, length));
+  if (ticks % kPerSecond != 0) write_fraction(ticks % kPerSecond, kPerSecond);
+}
+
+/// ".DIGITS" of numerator / denominator, a power of ten, which is greater.
+void OutputFile::write_fraction(std::int64_t numerator, std::int64_t denominator) {
+  const auto reduce = [&](auto factor) {
+    if (numerator % factor != 0) return;
+    numerator /= factor;
+    denominator /= factor;
+  };
+  reduce(std::integral_constant<std::int64_t, 1'000'000>());  // most times are whole milliseconds
+  reduce(std::integral_constant<std::int64_t, 1'000>());
+  if (room() < kLongestNumber) flush();
+  char* const point = rest_->end();
+  write_number(denominator + numerator);
+  *point = '.';  // instead of the first digit, 1
+  while (rest_->end()[-1] == '0') --rest_->size;
 }
 
 void OutputFile::write_hex(std::span<const std::uint8_t> bytes) {

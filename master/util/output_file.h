@@ -71,10 +71,9 @@ class OutputFile {
   /// The shortest decimal text that reads back as the same number.
   template <class Number>
   void write_number(Number value) {
-    constexpr std::size_t kLongest = 32;
-    if (room() < kLongest) flush();
+    if (room() < kLongestNumber) flush();
     char* const at = rest_->end();
-    rest_->size += static_cast<std::size_t>(std::to_chars(at, at + kLongest, value).ptr - at);
+    rest_->size += static_cast<std::size_t>(std::to_chars(at, at + kLongestNumber, value).ptr - at);
   }
   /// Exact decimal seconds without trailing zeros.
   void write_seconds(Time time);
@@ -96,6 +95,9 @@ class OutputFile {
   static void rescue_left();
 
  private:
+  static constexpr std::size_t kLongestNumber = 32;
+
+  void write_fraction(std::int64_t numerator, std::int64_t denominator);
   std::size_t room() const { return UnwrittenRest::kCapacity - rest_->size; }
   void write_slowly(std::string_view text);
   void rescue() noexcept;

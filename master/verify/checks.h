@@ -75,6 +75,7 @@ Finding check_rejection(const Trial& trial);
 Finding check_reset(const Trial& trial);
 Finding check_instances(const Trial& trial);
 Finding check_restore(const Trial& trial);
+Finding check_repetition(const Trial& trial);
 Finding check_serialization(const Trial& trial);
 Finding check_memory(const Trial& trial);
 Finding check_determinism(const Trial& trial);

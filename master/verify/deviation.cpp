@@ -7,10 +7,6 @@
 
 #include <fmt/format.h>
 
-#include <stride/time.h>
-
-#include "master/util/time_text.h"
-
 namespace stride::verify {
 namespace {
 
@@ -83,7 +79,7 @@ Deviation deviation(const std::vector<std::string>& names, const std::vector<Row
       if (!(share > result.worst)) continue;
       result.worst = share;
       result.text = fmt::format("at {} s '{}' is {} instead of {}",
-                                core::to_text(Duration(expected[row].picoseconds)), names[i], b, a);
+                                instant_text(expected[row].picoseconds), names[i], b, a);
     }
   }
   return result;

@@ -9,6 +9,10 @@
 
 namespace stride::verify {
 
+/// Differences up to this share of the largest value are rounding: sums that are made in another
+/// order, a solver that begins anew.
+constexpr double kRounding = 1e-9;
+
 struct Deviation {
   bool is_equal = true;  ///< bit for bit
   /// The largest difference, as a share of the variable's largest value in the runs, or of 1e-6 if

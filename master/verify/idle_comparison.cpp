@@ -9,15 +9,12 @@
 #include <fmt/format.h>
 
 #include "master/algorithm/idle/idle_agreement.h"
-#include "master/util/time_text.h"
 #include "master/verify/idle_run.h"
 
 namespace stride::verify {
 namespace {
 
 using core::Variable;
-
-std::string instant_text(std::int64_t picoseconds) { return core::to_text(Duration(picoseconds)); }
 
 struct Difference {
   std::int64_t picoseconds = 0;

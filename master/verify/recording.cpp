@@ -7,15 +7,12 @@
 #include <nlohmann/json.hpp>
 
 #include "master/util/error.h"
-#include "master/util/time_text.h"
 #include "master/verify/deviation.h"
 
 namespace stride::verify {
 namespace {
 
 using Json = nlohmann::json;
-
-std::string time_text(std::int64_t picoseconds) { return core::to_text(Duration(picoseconds)); }
 
 std::string shortened(const std::string& text) {
   constexpr std::size_t kMost = 60;
@@ -30,11 +27,11 @@ std::string describe(const Row& row) {
 
 std::string compare(const std::vector<std::string>& names, const Row& expected, const Row& seen,
                     const std::string& expected_when, const std::string& seen_when) {
-  const std::string at = fmt::format("at {} s ", time_text(expected.picoseconds));
+  const std::string at = fmt::format("at {} s ", instant_text(expected.picoseconds));
   if (expected.picoseconds != seen.picoseconds || expected.is_event != seen.is_event) {
     const auto what = [](const Row& row) {
       return fmt::format("{} at {} s", row.is_event ? "the event " + describe(row) : "no event",
-                         time_text(row.picoseconds));
+                         instant_text(row.picoseconds));
     };
     return fmt::format("there is {} {}, and {} {}", what(expected), expected_when, what(seen),
                        seen_when);
@@ -107,7 +104,7 @@ std::optional<std::string> difference(const TestedUnit& tested, const std::vecto
   if (expected.size() == seen.size()) return std::nullopt;
   const bool is_shorter = seen.size() < expected.size();
   const std::string end =
-      common > 0 ? time_text(expected[common - 1].picoseconds) : std::string("0");
+      common > 0 ? instant_text(expected[common - 1].picoseconds) : std::string("0");
   return fmt::format("nothing follows after {} s {}, but something does {}", end,
                      is_shorter ? seen_when : expected_when,
                      is_shorter ? expected_when : seen_when);
@@ -116,7 +113,6 @@ std::optional<std::string> difference(const TestedUnit& tested, const std::vecto
 std::optional<std::string> difference_beyond_rounding(
     const TestedUnit& tested, const std::vector<Row>& expected, const std::vector<Row>& seen,
     const std::string& expected_when, const std::string& seen_when, std::string& note) {
-  constexpr double kRounding = 1e-9;
   auto differs = difference(tested, expected, seen, expected_when, seen_when);
   if (!differs || worst_deviation(tested, expected, seen) > kRounding) return differs;
   note = *differs;
@@ -128,8 +124,13 @@ std::string to_text(const Recording& recording) {
   for (const Row& row : recording.rows) {
     rows.push_back({row.picoseconds, row.is_event, row.values});
   }
+  Json steps = Json::array();
+  for (const StepOutcome& step : recording.steps) {
+    steps.push_back({step.begin, step.end, step.is_rejected, step.needs_event, step.ends_run});
+  }
   return Json{
       {"rows", std::move(rows)},
+      {"steps", std::move(steps)},
       {"counts",
        {recording.rejections, recording.early_returns, recording.events,
         recording.first_early_return, recording.longest_promise, recording.longest_suspension}},
@@ -143,6 +144,9 @@ Recording recording_from_text(const std::string& text) {
   for (const Json& row : json["rows"]) {
     recording.rows.push_back(
         {row[0].get<std::int64_t>(), row[2].get<std::vector<std::string>>(), row[1].get<bool>()});
+  }
+  for (const Json& step : json["steps"]) {
+    recording.steps.push_back({step[0], step[1], step[2], step[3], step[4]});
   }
   recording.rejections = json["counts"][0];
   recording.early_returns = json["counts"][1];

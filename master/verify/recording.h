@@ -8,12 +8,14 @@
 #include <vector>
 
 #include "master/verify/row.h"
+#include "master/verify/step_outcome.h"
 #include "master/verify/tested_unit.h"
 
 namespace stride::verify {
 
 struct Recording {
   std::vector<Row> rows;
+  std::vector<StepOutcome> steps{};
   /// Beside what was recorded, how the unit went on.
   std::size_t rejections = 0, early_returns = 0, events = 0;
   std::int64_t first_early_return = 0;  ///< [ps]

@@ -6,7 +6,16 @@
 #include <string>
 #include <vector>
 
+#include <stride/time.h>
+
+#include "master/util/time_text.h"
+
 namespace stride::verify {
+
+/// In seconds.
+inline std::string instant_text(std::int64_t picoseconds) {
+  return core::to_text(Duration(picoseconds));
+}
 
 /// The values at one instant, as texts that read back as the same bits.
 struct Row {

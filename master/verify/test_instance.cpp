@@ -54,10 +54,9 @@ TestInstance::TestInstance(const TestedUnit& tested, importer::CallNote& note,
                            TestInstanceOptions options)
     : tested_(tested),
       options_(std::move(options)),
-      stimulus_(options_.stimulus
-                    ? options_.stimulus
-                    : std::make_shared<const Stimulus>(
-                          tested, options_.seed != 0 ? options_.seed : tested.request().seed)),
+      seed_(options_.seed != 0 ? options_.seed : tested.request().seed),
+      stimulus_(options_.stimulus ? options_.stimulus
+                                  : std::make_shared<const Stimulus>(tested, seed_)),
       units_([&] {
         std::vector<std::unique_ptr<core::Unit>> units;
         units.push_back(instantiate(tested, note, options_));
@@ -163,12 +162,15 @@ std::vector<Time> TestInstance::targets(std::size_t k) const {
   const Time end = tested_.point(k + 1);
   const Time begin = tested_.point(k);
   const Duration size = end - begin;
+  const bool stays_whole = options_.split == Split::Random && uniform(seed_, k) < 0.5;
+  if (stays_whole) return {end};
   switch (options_.split) {
     case Split::None:
       break;
     case Split::Halves:
       return {begin + size / 2, end};
-    case Split::Uneven: {
+    case Split::Uneven:
+    case Split::Random: {
       const auto thirds = static_cast<std::int64_t>(k % 3);
       return {begin + size / (7 - 2 * thirds), begin + size / 2, end};
     }
@@ -234,6 +236,7 @@ void TestInstance::shorten(Time to) {
 
 bool TestInstance::try_step(Time to) {
   const core::StepResult result = unit().step({position_.now, to});
+  if (records_) record_step(result);
   if (result.rejected) {
     ++recording_.rejections;
     return false;
@@ -250,6 +253,18 @@ bool TestInstance::try_step(Time to) {
   recording_.has_ended = recording_.has_ended || result.terminate_simulation;
   if (result.event_handling_needed && !recording_.has_ended) handle_events();
   return true;
+}
+
+void TestInstance::record_step(const core::StepResult& result) {
+  const auto picoseconds = [](Time time) { return time.time_since_epoch().count(); };
+  const Time end = result.rejected ? position_.now : result.reached;
+  recording_.steps.push_back({picoseconds(position_.now), picoseconds(end), result.rejected,
+                              result.event_handling_needed, result.terminate_simulation});
+}
+
+void TestInstance::clear_recorded() {
+  recording_.rows.clear();
+  recording_.steps.clear();
 }
 
 // ---- Events ----

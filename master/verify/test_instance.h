@@ -17,13 +17,18 @@
 namespace stride::verify {
 
 /// How a step of the grid is cut into communication steps. The inputs change at the grid alone.
-enum class Split { None, Halves, Uneven };
+enum class Split {
+  None,
+  Halves,
+  Uneven,
+  Random,  ///< unevenly, or not at all, by chance
+};
 
 struct TestInstanceOptions {
   std::string name = "unit";
   bool early_return_allowed = true;
   Split split = Split::None;
-  std::uint64_t seed = 0;                              ///< of the stimulus; 0 = that of the request
+  std::uint64_t seed = 0;  ///< of all that is random; 0 = that of the request
   std::shared_ptr<const Stimulus> stimulus = nullptr;  ///< null: an ordinary one of that seed
 };
 
@@ -45,9 +50,10 @@ class TestInstance {
   Time now() const { return position_.now; }
   /// The last point of the grid that was reached.
   std::size_t at() const { return position_.point; }
-  /// What happened since the last start; its rows are those of run_to(… , true).
+  /// What happened since the last start; its rows and steps are those of run_to(… , true).
   const Recording& recording() const { return recording_; }
-  void clear_rows() { recording_.rows.clear(); }
+  /// Drops the rows and steps up to here.
+  void clear_recorded();
 
   /// Sets the start values and goes through initialization and the first events.
   void start();
@@ -104,6 +110,7 @@ class TestInstance {
 
   void advance(Time to);
   void shorten(Time to);
+  void record_step(const core::StepResult& result);
   void set_inputs(std::size_t k, bool continuous_only);
   void set_clocked_inputs(std::size_t k);
   std::vector<Time> targets(std::size_t k) const;
@@ -114,6 +121,7 @@ class TestInstance {
 
   const TestedUnit& tested_;
   TestInstanceOptions options_;
+  std::uint64_t seed_;
   std::shared_ptr<const Stimulus> stimulus_;
   std::vector<std::unique_ptr<core::Unit>> units_;  ///< one
   std::optional<core::Clocks> clocks_;              ///< new with each start

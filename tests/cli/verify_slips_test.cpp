@@ -44,6 +44,24 @@ TEST_CASE("a state that is restored with the inaccuracy of a solver passes, with
   CHECK_THAT(outcome.out, Contains("note") && Contains("all differences are within 1e-13"));
 }
 
+TEST_CASE("steps that are repeated with another last bit pass, with a note") {
+  const Outcome exact = examine_forgetter("repetition", "0");
+  check_pass(exact);
+  CHECK_THAT(exact.out, Contains("each repeated twice: the same bits") && !Contains("note"));
+  check_pass(examine_forgetter("restore", "10"));
+  for (const char* slip : {"5", "10"}) {
+    CAPTURE(slip);
+    const Outcome outcome = examine_forgetter("repetition", slip);
+    check_pass(outcome);
+    CHECK_THAT(outcome.out, Contains("the same but for rounding") && Contains("note") &&
+                                Contains("eachStep=\"true\""));
+  }
+  CHECK_THAT(examine_forgetter("repetition", "5").out,
+             Contains("when the steps are repeated; all"));
+  CHECK_THAT(examine_forgetter("repetition", "10").out,
+             Contains("when the steps are repeated without reading values in between; all"));
+}
+
 TEST_CASE("a state that cannot be kept fails by the rule of the standard") {
   check_failure(examine_forgetter("restore", "1"), "fmi2GetFMUstate returned fmi2Error");
   check_failure(examine_forgetter("restore", "2"), "(FMI 2.0, 2.1.8)");
@@ -74,6 +92,7 @@ TEST_CASE("a unit of FMI 1.0 is verified, too") {
     check_pass(examine("fmi1_tank", check));
   }
   CHECK_THAT(examine("fmi1_tank", "restore").out, Contains("skipped"));
+  CHECK_THAT(examine("fmi1_tank", "repetition").out, Contains("skipped"));
   const Outcome outcome = examine("fmi1_tank", "values", "0", {"--set", "mood=4"});
   check_failure(outcome, "fmiDoStep returned fmiError: it leaks");
 }

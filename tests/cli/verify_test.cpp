@@ -71,13 +71,17 @@ TEST_CASE("a unit that keeps what it declares passes all checks") {
   CHECK(outcome.exit_code == 0);
   CHECK(outcome.err == "");
   CHECK_THAT(outcome.out, StartsWith("lying_none: FMI 3.0, steps of 0.001 s to 0.2 s, seed 1\n"));
-  CHECK_THAT(outcome.out, Contains(kSanitized ? "13 passed, 0 failed, 3 skipped"
-                                              : "14 passed, 0 failed, 2 skipped"));
+  CHECK_THAT(outcome.out, Contains(kSanitized ? "14 passed, 0 failed, 3 skipped"
+                                              : "15 passed, 0 failed, 2 skipped"));
 }
 
 TEST_CASE("each lie is found, with variable, values and time") {
   check_fails("lying_forgets_on_restore.fmu", "restore",
               "at 0.061 s 'steps' is 61 after the save, and 141 after the restore");
+  check_fails("lying_forgets_on_restore.fmu", "repetition",
+              "at 0.012 s 'steps' is 24 after the save, and 27 when the steps are repeated");
+  check_fails("lying_counts_repetitions.fmu", "repetition", "the step from ");
+  check_fails("lying_counts_repetitions.fmu", "repetition", " s when the steps are repeated");
   check_fails("lying_forgets_on_restore.fmu", "serialization",
               "'steps' is 61 in the instance that was serialised, and 1 in another one");
   check_fails("lying_depends_on_split.fmu", "splitting",
@@ -152,6 +156,12 @@ TEST_CASE("rounding, rejections and early returns that the standard allows pass"
                  "rejection"),
              Contains("passed") && Contains("steps rejected, nothing changed"));
   CHECK_THAT(row(verify_one("early.fmu", "events"), "events"), Contains("early returns"));
+  CHECK_THAT(row(verify_one("rejecter.fmu", "repetition",
+                            {"--set", "longest=0.05", "--set", "shortest=0.0002"}),
+                 "repetition"),
+             Contains("passed") && Contains("stretches of at most ") && Contains("the same bits"));
+  CHECK_THAT(row(verify_one("linear.fmu", "repetition"), "repetition"),
+             Contains("passed") && Contains("the same bits"));
   CHECK_THAT(row(verify_one("ticker.fmu", "events", {"--set", "announces=0"}), "events"),
              Contains("passed") && Contains(" 0 where they are not allowed"));
 }
@@ -163,6 +173,8 @@ TEST_CASE("the text of a message can be requested for any bytes") {
 
 TEST_CASE("capabilities that a unit does not declare are not checked") {
   CHECK_THAT(row(verify_one("stateless.fmu", "restore"), "restore"),
+             Contains("skipped") && Contains("it has no canGetAndSetFMUState"));
+  CHECK_THAT(row(verify_one("stateless.fmu", "repetition"), "repetition"),
              Contains("skipped") && Contains("it has no canGetAndSetFMUState"));
   CHECK_THAT(row(verify_one("stateless.fmu", "serialization"), "serialization"),
              Contains("skipped") && Contains("it has no canSerializeFMUState"));
@@ -199,7 +211,7 @@ TEST_CASE("a library without what is declared fails to load, and nothing else is
       row(outcome, "load"),
       Contains("FAILED") && Contains("does not export fmi3GetFMUState, fmi3SetFMUState, "
                                      "fmi3FreeFMUState, which the model description declares"));
-  CHECK_THAT(outcome.out, Contains("0 passed, 1 failed, 15 skipped"));
+  CHECK_THAT(outcome.out, Contains("0 passed, 1 failed, 16 skipped"));
 }
 
 TEST_CASE("a unit that is not of the kit may let mistakes pass, which is noted") {
@@ -264,9 +276,9 @@ TEST_CASE("mistakes in the input are reported, with exit code 2") {
 TEST_CASE("the help names each check") {
   const Outcome outcome = run_program({"verify", "--help"});
   CHECK(outcome.exit_code == 0);
-  for (const char* check :
-       {"load", "description", "values", "dependencies", "events", "calls", "messages", "splitting",
-        "rejection", "reset", "instances", "restore", "serialization", "memory", "determinism"}) {
+  for (const char* check : {"load", "description", "values", "dependencies", "events", "calls",
+                            "messages", "splitting", "rejection", "reset", "instances", "restore",
+                            "repetition", "serialization", "memory", "determinism"}) {
     CHECK_THAT(outcome.out, Contains(std::string("\n  ") + check + " "));
   }
 }

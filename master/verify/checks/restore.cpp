@@ -15,7 +15,7 @@ class Restorer {
   void save(std::size_t slot, std::size_t to) {
     instance_.save(slot);
     const std::vector<std::string> values = instance_.observe();
-    instance_.clear_rows();
+    instance_.clear_recorded();
     instance_.run_to(to);
     expected_[slot] = {to, values, instance_.recording().rows};
   }
@@ -26,7 +26,7 @@ class Restorer {
     const std::int64_t now = instance_.now().time_since_epoch().count();
     compare({{now, expected.values, false}}, {{now, instance_.observe(), false}},
             "when it was saved", "when it is restored" + when);
-    instance_.clear_rows();
+    instance_.clear_recorded();
     instance_.run_to(expected.to);
     compare(expected.rows, instance_.recording().rows, "after the save",
             "after the restore" + when);

@@ -30,7 +30,7 @@ Serialized serialize(const Trial& trial) {
   instance.capability<core::StateSaving>().save_state();
   made.bytes = instance.capability<core::StateSerialization>().serialize_state();
   made.position = instance.position();
-  instance.clear_rows();
+  instance.clear_recorded();
   instance.run_to(made.to);
   made.rows = instance.recording().rows;
   return made;
@@ -78,7 +78,7 @@ Recording continue_from(const Trial& trial, const Serialized& made, Receiver rec
   }
   TestInstance instance = trial.make_instance();
   if (receiver == Receiver::Initialized) instance.start();
-  instance.clear_rows();
+  instance.clear_recorded();
   instance.capability<core::StateSerialization>().deserialize_state(made.bytes);
   instance.capability<core::StateSaving>().restore_state();
   instance.set_position(made.position, clocks ? &*clocks : nullptr);

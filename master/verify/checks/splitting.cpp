@@ -7,9 +7,6 @@
 namespace stride::verify {
 namespace {
 
-/// What the sums of a run may differ by when they are made in another order.
-constexpr double kRounding = 1e-9;
-
 bool is_multiple(Duration size, Duration of) { return size % of == Duration{}; }
 
 /// Why halves of a step have to give what the whole gives; empty if there is no reason.

@@ -68,6 +68,22 @@ TEST_CASE("Seconds are written as core writes them") {
   CHECK(text_of(Time(Duration(ticks))) == core::to_text(Time(Duration(ticks))));
 }
 
+TEST_CASE("Seconds of all lengths are written, also where the buffer is full") {
+  const TemporaryFolder folder;
+  OutputFile file(folder / "x");
+  std::string expected;
+  for (int i = 0; i < 4'000; ++i) {
+    for (std::int64_t unit = 1; unit <= 1'000'000'000'000; unit *= 10) {
+      const Time time(Duration(i * unit));
+      file.write_seconds(time);
+      file.write('\n');
+      expected += core::to_text(time) + "\n";
+    }
+  }
+  file.close();
+  CHECK((content(folder / "x") == expected));
+}
+
 TEST_CASE("A file that cannot be created is named, with the reason") {
   CHECK_THROWS_WITH(OutputFile("/nowhere/x.csv"),
                     Contains("/nowhere/x.csv: cannot create the file: No such file or directory") &&

@@ -61,6 +61,7 @@ TEST_CASE("an event that is missing, and a run that ends, differ") {
 
 TEST_CASE("a recording survives the way through its text") {
   Recording recording{{point(0, "1e-300"), event(5, "frame=00ff"), point(7, "\xff not UTF-8")}};
+  recording.steps = {{0, 5, false, true}, {5, 5, true}, {5, 7, false, false, true}};
   recording.rejections = 3;
   recording.early_returns = 4;
   recording.first_early_return = 5;

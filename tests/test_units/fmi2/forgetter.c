@@ -8,16 +8,38 @@
  *   4  its state is a null pointer, and        7  fmi2GetFMUstate crashes
  *      restored well
  *
- * Other slips: 8 it steps no further than 1 s; 9 it rounds `k`, which it reads back.
+ * Other slips: 8 it steps no further than 1 s; 9 it rounds `k`, which it reads back; 10 the
+ * last bit of a step depends on whether a value was read before it.
  */
 #define WITHOUT_STATE
 #include <math.h>
 #include <signal.h>
+#include <stdbool.h>
+#include <string.h>
+
+static bool was_read; /* since the last step */
+
+static int note_call(const char* call) {
+  was_read = was_read || strcmp(call, "get") == 0;
+  return 0;
+}
+#define FAULT(call) note_call(call)
 
 #include "tests/test_units/fmi2/unit.h"
 
 enum { kU = FIRST_INPUT, kX = FIRST_OTHER, kK };
-enum Slip { kGet = 1, kSet, kTime, kNull, kInaccurate, kOnlyInitialized, kCrash, kEnd, kRounds };
+enum Slip {
+  kGet = 1,
+  kSet,
+  kTime,
+  kNull,
+  kInaccurate,
+  kOnlyInitialized,
+  kCrash,
+  kEnd,
+  kRounds,
+  kDependsOnReading
+};
 
 static Model kept; /* of the unit without a state */
 
@@ -48,6 +70,8 @@ static fmi2Status unit_step(Unit* unit, double begin, double size) {
     return fmi2Error;
   }
   m->x = m->real[kU] + (m->x - m->real[kU]) * exp(-m->real[kK] * size);
+  if (has_slip(kDependsOnReading) && was_read) m->x = nextafter(m->x, 2);
+  was_read = false;
   m->time = begin + size;
   return fmi2OK;
 }

@@ -40,6 +40,7 @@ enum Lie {
   ExitsInStep,        ///< it ends the process
   MumblesMessages,    ///< its descriptions of messages are not text
   CountsQuestions,    ///< it changes when a message is described
+  CountsRepetitions,  ///< each third step ends early, those included that are made again
   OnlyOnce,           ///< no lie: it says that it crashes when it is made again in its process
 };
 constexpr Lie kLie = LIE;
@@ -69,6 +70,7 @@ class Lying : public stride::Unit {
     info.may_reject = kLie == BreaksRejection;
     info.single_instance = kLie == OnlyOnce;
     info.split_invariant = kLie == DependsOnSplit;
+    info.early_return = kLie == CountsRepetitions;
     input("u", u_);
     output("y", y_).exact().depends_on({}).range(-10, kLie == LeavesRange ? 0.01 : 10);
     output("steps", steps_).exact().depends_on({});
@@ -101,6 +103,9 @@ class Lying : public stride::Unit {
     if (kLie == BreaksRejection && h > 0.003) {
       y_ += h / 2 * (u_ - y_);
       return step.reject("too long");
+    }
+    if (kLie == CountsRepetitions && ++steps_made_ % 3 == 0) {
+      return step.return_early(step.from() + step.size() / 2);
     }
     if (kLie == GrowsInSteps) grown_.push_back(std::vector<char>(100));
     y_ += h / 0.05 * (u_ - y_);
@@ -136,6 +141,7 @@ class Lying : public stride::Unit {
   std::int32_t steps_ = 0;
   double echo_ = 0;
   std::int32_t count_ = 0;
+  int steps_made_ = 0;
   double hidden_ = 0;
   stride::Binary message_;
   std::vector<std::vector<char>> grown_;
