@@ -8,8 +8,8 @@
 #include <fmt/format.h>
 
 #include "master/algorithm/loops/evaluation_order.h"
+#include "master/scenario/find_variable.h"
 #include "master/util/diagnostics.h"
-#include "master/util/suggest.h"
 #include "master/util/time_text.h"
 
 namespace stride::scenario {
@@ -39,20 +39,6 @@ std::pair<std::string, std::string> split_time(const char* option, const std::st
   const std::size_t sign = text.rfind('@');
   if (sign == std::string::npos) fail_form(option, text, form);
   return {text.substr(0, sign), text.substr(sign + 1)};
-}
-
-core::VariableId find(const core::System& system, const InterventionDeclaration& declared) {
-  std::vector<std::string> names;
-  for (std::size_t i = 0; i < system.components().size(); ++i) {
-    const auto& variables = system.components()[i].description->variables;
-    for (std::size_t k = 0; k < variables.size(); ++k) {
-      names.push_back(system.full_name({i, k}));
-      if (names.back() == declared.variable) return {i, k};
-    }
-  }
-  core::fail_input({declared.where, {}, {}, {}},
-                   fmt::format("'{}' is not a variable of a component", declared.variable),
-                   core::suggestion(declared.variable, names));
 }
 
 core::Context context_of(const core::System& system, core::VariableId id,
@@ -136,7 +122,9 @@ void check_times(const InterventionDeclaration& declared, const core::Context& c
 
 Intervention resolve(const core::System& system, const InterventionDeclaration& declared,
                      const RunTimes& times) {
-  const core::VariableId id = find(system, declared);
+  const core::VariableId id =
+      find_variable(system, declared.variable, declared.where, "a variable of a component",
+                    [](const auto&, const auto&) { return true; });
   const core::Context context = context_of(system, id, declared.where);
   if (const auto [reason, hint] = refusal(system, declared.kind, id); !reason.empty()) {
     core::fail_input(context,

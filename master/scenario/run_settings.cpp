@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "master/scenario/find_variable.h"
 #include "master/util/number_text.h"
 #include "master/util/suggest.h"
 #include "master/util/time_text.h"
@@ -43,23 +44,6 @@ void take(T& mine, const std::optional<U>& other) {
 }
 
 constexpr std::uint64_t kMebibyte = 1024 * 1024;
-
-/// The variable, if `fits` holds for it. What else is named has no promise to widen.
-template <class Fits>
-core::VariableId find(const core::System& system, const IdleNumber& number, const char* kind,
-                      Fits&& fits) {
-  std::vector<std::string> names;
-  for (std::size_t i = 0; i < system.components().size(); ++i) {
-    const auto& variables = system.components()[i].description->variables;
-    for (std::size_t k = 0; k < variables.size(); ++k) {
-      if (!fits(*system.components()[i].description, variables[k])) continue;
-      names.push_back(system.full_name({i, k}));
-      if (names.back() == number.variable) return {i, k};
-    }
-  }
-  core::fail_input({number.where, {}, {}, {}}, fmt::format("'{}' is not {}", number.variable, kind),
-                   core::suggestion(number.variable, names));
-}
 
 void check(const IdleRule& rule, const core::StepOptions& step) {
   if (!rule.max_skip || !step.policy->has_grid || *rule.max_skip >= step.size) {
@@ -170,15 +154,17 @@ core::IdleOptions IdleSettings::options(const core::System& system,
   };
   for (const IdleNumber& deadband : deadbands) {
     options.deadbands.push_back(
-        {find(system, deadband, "a Float64 input of a unit that can promise to be idle", is_input),
+        {find_variable(system, deadband.variable, deadband.where,
+                       "a Float64 input of a unit that can promise to be idle", is_input),
          deadband.value});
   }
   const auto has_one = [](const core::UnitDescription&, const core::Variable& variable) {
     return variable.tolerance.has_value();
   };
   for (const IdleNumber& tolerance : tolerances) {
-    options.tolerances.push_back(
-        {find(system, tolerance, "an output with a tolerance", has_one), tolerance.value});
+    options.tolerances.push_back({find_variable(system, tolerance.variable, tolerance.where,
+                                                "an output with a tolerance", has_one),
+                                  tolerance.value});
   }
   return options;
 }
