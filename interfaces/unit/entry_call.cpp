@@ -13,12 +13,12 @@ void report(const Importer& importer, Function function, const char* text,
   }
 }
 
-void refuse(const Instance& instance, Function function) {
+void refuse_call(const Instance& instance, Function function) {
   throw Misuse("not allowed in " + mode_names(instance.mode()) + ", only in " +
                mode_names(legal_modes(function)));
 }
 
-fmi3Status fail(Instance& instance, Function function) noexcept {
+fmi3Status report_failure(Instance& instance, Function function) noexcept {
   try {
     throw;
   } catch (const Misuse& misuse) {

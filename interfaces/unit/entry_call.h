@@ -30,11 +30,11 @@ void report(const Importer& importer, Function function, const char* text,
             fmi3Status status = fmi3Error) noexcept;
 
 /// Throws the Misuse that the function is not legal in the present state of the instance.
-[[noreturn]] void refuse(const Instance& instance, Function function);
+[[noreturn]] void refuse_call(const Instance& instance, Function function);
 
 /// Reports the exception that is being handled. A failure in a function that runs the unit's own
 /// code ends the simulation of this instance; a misuse by the importer changes nothing.
-fmi3Status fail(Instance& instance, Function function) noexcept;
+fmi3Status report_failure(Instance& instance, Function function) noexcept;
 
 /// Runs body(instance) where the function is legal.
 template <class Body>
@@ -42,10 +42,10 @@ fmi3Status call(fmi3Instance handle, Function function, Body&& body) {
   if (handle == nullptr) return fmi3Error;
   Instance& instance = *static_cast<Instance*>(handle);
   try {
-    if ((legal_modes(function) & instance.mode()) == 0) refuse(instance, function);
+    if ((legal_modes(function) & instance.mode()) == 0) refuse_call(instance, function);
     return body(instance);
   } catch (...) {
-    return fail(instance, function);
+    return report_failure(instance, function);
   }
 }
 

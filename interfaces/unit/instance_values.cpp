@@ -12,39 +12,34 @@ bool is_control(char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x
 
 }  // namespace
 
-const Slot& Instance::slot(fmi3ValueReference reference, Type type) const {
+void refuse_count(std::size_t needed, std::size_t given) {
+  throw Misuse(std::string("nValues is too ") + (needed > given ? "small" : "large"));
+}
+
+void Instance::refuse_access(fmi3ValueReference reference, Type type) const {
   require_unit();
   if (reference >= table_->size()) {
     throw Misuse("there is no variable with the value reference " + std::to_string(reference));
   }
-  const Slot& found = table_->slot(reference);
-  const bool same = found.type == type || (found.type == Type::Enumeration && type == Type::Int64);
-  if (!same) {
-    throw Misuse("variable '" + table_->row(reference).name + "' is of the type " +
-                 name(found.type) + ", not " + name(type));
-  }
-  return found;
+  const Variable& row = table_->row(reference);
+  throw Misuse("variable '" + row.name + "' is of the type " + name(row.type) + ", not " +
+               name(type));
 }
 
-/// Checks a whole set call before any of it is done, so that a refused one changes nothing.
-void Instance::check_writable(const fmi3ValueReference references[], std::size_t count, Type type,
-                              std::size_t size) const {
-  std::size_t total = 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    const Slot& found = slot(references[i], type);
-    total += found.size;
-    if (mode_ == IntermediateUpdateMode && !is_intermediate(references[i])) {
-      throw Misuse("variable '" + table_->row(references[i]).name +
-                   "' is not among the requiredIntermediateVariables of the instance");
-    }
-    if ((found.settable & mode_) != 0) continue;
-    const std::string legal = mode_names(found.settable);
-    throw Misuse("variable '" + table_->row(references[i]).name + "' cannot be set in " +
-                 mode_names(mode_) +
-                 (legal.empty() ? ", nor in any other state" : ", only in " + legal));
+void Instance::refuse_to_set(fmi3ValueReference reference) const {
+  const Variable& row = table_->row(reference);
+  if (mode_ == IntermediateUpdateMode && !is_intermediate(reference)) {
+    throw Misuse("variable '" + row.name +
+                 "' is not among the requiredIntermediateVariables of the instance");
   }
-  if (total != size) {
-    throw Misuse(std::string("nValues is too ") + (total > size ? "small" : "large"));
+  const std::string legal = mode_names(table_->slot(reference).settable);
+  throw Misuse("variable '" + row.name + "' cannot be set in " + mode_names(mode_) +
+               (legal.empty() ? ", nor in any other state" : ", only in " + legal));
+}
+
+void Instance::check_intermediate(const fmi3ValueReference references[], std::size_t count) const {
+  for (std::size_t i = 0; i < count; ++i) {
+    if (!is_intermediate(references[i])) refuse_to_set(references[i]);
   }
 }
 
@@ -54,22 +49,24 @@ void Instance::get_binary(const fmi3ValueReference references[], std::size_t cou
   std::size_t at = 0;
   for (std::size_t i = 0; i < count; ++i) {
     const Slot& from = slot(references[i], Type::Binary);
-    if (at + from.size > size) throw Misuse("nValues is too small");
+    if (at + from.size > size) refuse_count(at + from.size, size);
     const auto* elements = static_cast<const Binary*>(from.data);
     for (std::size_t k = 0; k < from.size; ++k) {
       sizes[at] = elements[k].size();
       values[at++] = elements[k].data();
     }
   }
-  if (at != size) throw Misuse("nValues is too large");
+  if (at != size) refuse_count(at, size);
 }
 
 void Instance::set_binary(const fmi3ValueReference references[], std::size_t count,
                           const std::size_t sizes[], const fmi3Binary values[], std::size_t size) {
   check_writable(references, count, Type::Binary, size);
   std::size_t at = 0;
+  bool is_discrete = false;
   for (std::size_t i = 0; i < count; ++i) {
     const Slot& to = table_->slot(references[i]);
+    is_discrete |= to.is_discrete;
     auto* elements = static_cast<Binary*>(to.data);
     for (std::size_t k = 0; k < to.size; ++k, ++at) {
       if (sizes[at] == 0) {
@@ -79,8 +76,7 @@ void Instance::set_binary(const fmi3ValueReference references[], std::size_t cou
       }
     }
   }
-  inputs_changed_ = true;
-  note_discrete_change(references, count);
+  note_change(is_discrete);
 }
 
 std::string Instance::describe_message(fmi3ValueReference reference, const fmi3Byte value[],
@@ -108,10 +104,10 @@ void Instance::get_output_derivatives(const fmi3ValueReference references[], std
       throw Misuse("output '" + row.name + "' has no derivative of order " +
                    std::to_string(orders[i]));
     }
-    if (at + output.size > size) throw Misuse("nValues is too small");
+    if (at + output.size > size) refuse_count(at + output.size, size);
     for (std::size_t k = 0; k < output.size; ++k) values[at++] = row.derivative[k];
   }
-  if (at != size) throw Misuse("nValues is too large");
+  if (at != size) refuse_count(at, size);
 }
 
 }  // namespace stride::kit
