@@ -53,8 +53,6 @@ void check_range(const Variable& row) {
 
 }  // namespace
 
-Time checked_time(double seconds) { return Time(duration_of_seconds(seconds)); }
-
 void Importer::message(fmi3Status status, LogCategory category, const std::string& text) const {
   if (log != nullptr && (log_categories & category) != 0) {
     log(environment, status, name(category), text.c_str());

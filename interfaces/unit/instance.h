@@ -25,10 +25,17 @@ struct Misuse : std::invalid_argument {
   using std::invalid_argument::invalid_argument;
 };
 
-/// A time that the importer gives [s]; throws Misuse for what is not an instant.
-Time checked_time(double seconds);
-/// A length of time that it gives, to the nearest picosecond; throws Misuse likewise.
-Duration duration_of_seconds(double seconds);
+/// A length of time that the importer gives [s], to the nearest picosecond; throws Misuse for what
+/// is none.
+inline Duration duration_of_seconds(double seconds) {
+  try {
+    return duration_from_seconds(seconds);
+  } catch (const std::out_of_range& error) {
+    throw Misuse(error.what());
+  }
+}
+/// An instant that it gives [s], likewise.
+inline Time checked_time(double seconds) { return Time(duration_of_seconds(seconds)); }
 Duration duration_of_fraction(std::uint64_t counter, std::uint64_t resolution);
 
 /// Throws a Misuse with the text that compose() makes. It is apart from what is checked, so that a
@@ -159,8 +166,8 @@ class Instance final : private InputUpdater {
   Time end_of_step(double point, double size) const;
   bool is_here(double point) const;
   void check_step(double point, double size, Time to) const;
-  StepOutcome step_with_event_mode(Time to);
-  StepOutcome step_with_own_events(Time to);
+  bool is_one_step(Time to) const;
+  StepOutcome step_once(Time to);
   StepOutcome rejected(const std::string& reason);
   Step step_to(Time to, bool may_return_early);
   StepOutcome step_through_events(Time to);

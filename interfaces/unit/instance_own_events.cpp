@@ -42,16 +42,6 @@ bool Instance::handle_own_events() {
   throw std::runtime_error("the events at " + to_text(time_) + " s do not settle");
 }
 
-/// Most steps have no event before their end, and most units make each step to its end.
-Instance::StepOutcome Instance::step_with_own_events(Time to) {
-  const UnitInfo& info = unit_->info();
-  const bool has_event = event_is_due() || (next_event_ && *next_event_ < to);
-  if (has_event || info.may_reject || info.early_return) return step_through_events(to);
-  const bool terminates = step_to(to, true).terminates();
-  const bool event_terminates = event_is_due() && handle_own_events();
-  return {nullptr, false, terminates || event_terminates, false, time_seconds_};
-}
-
 Instance::StepOutcome Instance::step_through_events(Time to) {
   std::optional<SavedState> before;
   if (unit_->info().may_reject && unit_->lists_state()) save(before.emplace());

@@ -71,16 +71,27 @@ Instance::StepOutcome Instance::do_step(double point, double size) {
   check_step(point, size, to);
   step_point_ = point;
   step_size_ = size;
-  StepOutcome outcome =
-      importer_.event_mode_used ? step_with_event_mode(to) : step_with_own_events(to);
+  StepOutcome outcome = is_one_step(to) ? step_once(to) : step_through_events(to);
   if (time_ == to) outcome.reached = point + size;
   return outcome;
 }
 
-Instance::StepOutcome Instance::step_with_event_mode(Time to) {
-  const Step step = step_to(to, importer_.early_return_allowed);
+/// With Event Mode a step of the importer is one of the unit. Without it most are: those of units
+/// that make each step to its end, with no event before that.
+inline bool Instance::is_one_step(Time to) const {
+  if (importer_.event_mode_used) return true;
+  const UnitInfo& info = unit_->info();
+  const bool has_event = event_is_due() || (next_event_ && *next_event_ < to);
+  return !has_event && !info.may_reject && !info.early_return;
+}
+
+inline Instance::StepOutcome Instance::step_once(Time to) {
+  const bool has_own_events = !importer_.event_mode_used;
+  const Step step = step_to(to, has_own_events || importer_.early_return_allowed);
   if (step.rejection()) return rejected(*step.rejection());
-  return {nullptr, event_pending_, step.terminates(), time_ < to, time_seconds_};
+  const bool event_terminates = has_own_events && event_is_due() && handle_own_events();
+  const bool terminates = step.terminates() || event_terminates;
+  return {nullptr, event_pending_, terminates, time_ < to, time_seconds_};
 }
 
 Instance::StepOutcome Instance::rejected(const std::string& reason) {
