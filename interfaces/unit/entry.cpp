@@ -138,13 +138,13 @@ fmi3Status fmi3DoStep(fmi3Instance instance, fmi3Float64 point, fmi3Float64 size
                       fmi3Float64* reached) {
   return call(instance, Function::DoStep, [&](Instance& unit) {
     const Instance::StepOutcome outcome = unit.do_step(point, size);
-    const bool rejected = outcome.rejection.has_value();
+    const bool rejected = outcome.rejection != nullptr;
     if (rejected)
       report(unit.importer(), Function::DoStep, outcome.rejection->c_str(), fmi3Discard);
     *event_needed = outcome.event_needed;
     *terminate = outcome.terminate;
     *early = outcome.early;
-    *reached = outcome.whole ? point + size : stride::to_seconds(outcome.reached);
+    *reached = outcome.reached;
     return rejected ? fmi3Discard : fmi3OK;
   });
 }
@@ -176,20 +176,57 @@ fmi3Status fmi3GetOutputDerivatives(fmi3Instance instance, const fmi3ValueRefere
 
 // ---- Values ----
 
+namespace {
+
+// What is not the copy of one number is done by functions of their own, so that the copy needs no
+// stack frame.
+
+template <Type kType, class T>
+[[gnu::noinline]] fmi3Status get_any(fmi3Instance instance, Function function,
+                                     const fmi3ValueReference references[], size_t count,
+                                     T values[], size_t size) {
+  return call(instance, function, [&](Instance& unit) {
+    unit.get<kType>(references, count, values, size);
+    return fmi3OK;
+  });
+}
+
+template <Type kType, class T>
+[[gnu::noinline]] fmi3Status set_any(fmi3Instance instance, Function function,
+                                     const fmi3ValueReference references[], size_t count,
+                                     const T values[], size_t size) {
+  return call(instance, function, [&](Instance& unit) {
+    unit.set<kType>(references, count, values, size);
+    return fmi3OK;
+  });
+}
+
+template <Type kType, class T>
+fmi3Status get(fmi3Instance instance, Function function, const fmi3ValueReference references[],
+               size_t count, T values[], size_t size) {
+  const auto* const unit = static_cast<const Instance*>(instance);
+  const bool is_done = unit != nullptr && unit->get_number<kType>(references, count, values, size);
+  return is_done ? fmi3OK : get_any<kType>(instance, function, references, count, values, size);
+}
+
+template <Type kType, class T>
+fmi3Status set(fmi3Instance instance, Function function, const fmi3ValueReference references[],
+               size_t count, const T values[], size_t size) {
+  auto* const unit = static_cast<Instance*>(instance);
+  const bool is_done = unit != nullptr && unit->set_number<kType>(references, count, values, size);
+  return is_done ? fmi3OK : set_any<kType>(instance, function, references, count, values, size);
+}
+
+}  // namespace
+
 #define STRIDE_ACCESS(T)                                                              \
   fmi3Status fmi3Get##T(fmi3Instance instance, const fmi3ValueReference references[], \
                         size_t count, fmi3##T values[], size_t size) {                \
-    return call(instance, Function::Get##T, [&](Instance& unit) {                     \
-      unit.get<Type::T>(references, count, values, size);                             \
-      return fmi3OK;                                                                  \
-    });                                                                               \
+    return get<Type::T>(instance, Function::Get##T, references, count, values, size); \
   }                                                                                   \
   fmi3Status fmi3Set##T(fmi3Instance instance, const fmi3ValueReference references[], \
                         size_t count, const fmi3##T values[], size_t size) {          \
-    return call(instance, Function::Set##T, [&](Instance& unit) {                     \
-      unit.set<Type::T>(references, count, values, size);                             \
-      return fmi3OK;                                                                  \
-    });                                                                               \
+    return set<Type::T>(instance, Function::Set##T, references, count, values, size); \
   }
 FMI3_VALUE_TYPES(STRIDE_ACCESS)
 #undef STRIDE_ACCESS

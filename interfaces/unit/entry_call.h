@@ -3,9 +3,6 @@
 #ifndef STRIDE_INTERFACES_UNIT_ENTRY_CALL_H
 #define STRIDE_INTERFACES_UNIT_ENTRY_CALL_H
 
-#include <exception>
-#include <string>
-
 #include <stride/describe.h>
 #include <stride/fmi3.h>
 #include <stride/idle.h>
@@ -29,37 +26,27 @@ namespace stride::kit {
 
 /// The last thing that a failing call does, so it must not fail itself, be it for lack of memory or
 /// because the importer's callback throws.
-inline void report(const Importer& importer, Function function, const char* text,
-                   fmi3Status status = fmi3Error) noexcept {
-  try {
-    importer.message(status, LogErrors, std::string(name(function)) + ": " + text);
-  } catch (...) {
-  }
-}
+void report(const Importer& importer, Function function, const char* text,
+            fmi3Status status = fmi3Error) noexcept;
 
-/// Runs body(instance) where the function is legal. A failure in a function that runs the unit's
-/// own code ends the simulation of this instance; a misuse by the importer changes nothing.
+/// Throws the Misuse that the function is not legal in the present state of the instance.
+[[noreturn]] void refuse_call(const Instance& instance, Function function);
+
+/// Reports the exception that is being handled. A failure in a function that runs the unit's own
+/// code ends the simulation of this instance; a misuse by the importer changes nothing.
+fmi3Status report_failure(Instance& instance, Function function) noexcept;
+
+/// Runs body(instance) where the function is legal.
 template <class Body>
 fmi3Status call(fmi3Instance handle, Function function, Body&& body) {
   if (handle == nullptr) return fmi3Error;
   Instance& instance = *static_cast<Instance*>(handle);
   try {
-    const std::uint8_t legal = legal_modes(function);
-    if ((legal & instance.mode()) == 0) {
-      throw Misuse("not allowed in " + mode_names(instance.mode()) + ", only in " +
-                   mode_names(legal));
-    }
+    if ((legal_modes(function) & instance.mode()) == 0) refuse_call(instance, function);
     return body(instance);
-  } catch (const Misuse& misuse) {
-    report(instance.importer(), function, misuse.what());
-  } catch (const std::exception& failure) {
-    instance.fail();
-    report(instance.importer(), function, failure.what());
   } catch (...) {
-    instance.fail();
-    report(instance.importer(), function, "the unit threw something that is not a std::exception");
+    return report_failure(instance, function);
   }
-  return fmi3Error;
 }
 
 inline fmi3Status unsupported(fmi3Instance handle, Function function, const char* why) {

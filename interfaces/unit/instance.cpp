@@ -3,24 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <limits>
 #include <stdexcept>
 
 #include <stride/idle.h>
-#include <stride/value_text.h>
 
 #include "interfaces/unit/model_description.h"
 #include "interfaces/unit/xml_writer.h"
 
 namespace stride::kit {
 namespace {
-
-/// How far apart two readings of the same instant may be: after two and a half hours a double is
-/// coarser than a picosecond.
-Duration rounding(double seconds) {
-  const double picoseconds = 4 * std::numeric_limits<double>::epsilon() * std::abs(seconds) * 1e12;
-  return Duration(1 + static_cast<std::int64_t>(picoseconds));
-}
 
 void write_optional(StateWriter& writer, const std::optional<Time>& time) {
   writer.write(time.has_value());
@@ -35,16 +26,6 @@ std::optional<Time> read_optional(StateReader& reader) {
   return has_value ? std::optional(time) : std::nullopt;
 }
 
-/// Whether two instants are at most this far apart. Their difference may be more than a Duration
-/// holds.
-bool are_near(Time one, Time other, Duration distance) {
-  const auto count = [](Time time) {
-    return static_cast<std::uint64_t>(time.time_since_epoch().count());
-  };
-  const std::uint64_t apart = one < other ? count(other) - count(one) : count(one) - count(other);
-  return apart <= static_cast<std::uint64_t>(distance.count());
-}
-
 std::uint8_t log_category(const char* wanted) {
   std::string known;
   for (const auto& [category, name] : kLogCategories) {
@@ -54,8 +35,6 @@ std::uint8_t log_category(const char* wanted) {
   throw Misuse("there is no log category '" + std::string(wanted != nullptr ? wanted : "") +
                "', only " + known);
 }
-
-bool is_control(char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; }
 
 void check_range(const Variable& row) {
   if (!row.min && !row.max) return;
@@ -73,8 +52,6 @@ void check_range(const Variable& row) {
 }
 
 }  // namespace
-
-Time checked_time(double seconds) { return Time(duration_of_seconds(seconds)); }
 
 void Importer::message(fmi3Status status, LogCategory category, const std::string& text) const {
   if (log != nullptr && (log_categories & category) != 0) {
@@ -94,6 +71,7 @@ Instance::Instance(Importer importer, const std::string& token) : importer_(std:
 }
 
 void Instance::build() {
+  mode_ = Instantiated;  // from here on, so that there is a unit in every other mode
   idle_.reset();
   table_.reset();
   unit_.reset();
@@ -103,9 +81,8 @@ void Instance::build() {
     const bool warning = severity == Severity::Warning;
     importer_.message(warning ? fmi3Warning : fmi3OK, warning ? LogWarnings : LogEvents, text);
   });
-  table_ = std::make_unique<Table>(*unit_, time_seconds_);
+  table_.emplace(*unit_, time_seconds_);
   if (unit_->info().promises_idle) idle_.emplace(*unit_, *table_);
-  mode_ = Instantiated;
   time_seconds_ = 0;
   next_event_.reset();
   inputs_changed_ = true;
@@ -125,8 +102,7 @@ void Instance::enter_initialization_mode(Time start, std::optional<Time> stop) {
   if (stop && *stop < start) throw Misuse("the stop time is before the start time");
   start_ = start;
   stop_ = stop;
-  time_ = start;
-  time_seconds_ = to_seconds(start);
+  set_time(start);
   mode_ = InitializationMode;
   inputs_changed_ = true;
 }
@@ -142,93 +118,14 @@ void Instance::terminate() {
   mode_ = Terminated;
 }
 
-/// Brings the outputs up to date where an importer may read them directly after it has set inputs.
-void Instance::refresh() {
-  if (!inputs_changed_) return;
+void Instance::recompute_outputs() {
   if (mode_ == InitializationMode) {
     for (const Variable& row : unit_->variables()) check_range(row);
     forget_intervals();
     unit_->initialize(start_);
-    unit_->update_outputs();
-  } else if (mode_ == EventMode) {
-    unit_->update_outputs();
-  } else {
-    return;
   }
+  unit_->update_outputs();
   inputs_changed_ = false;
-}
-
-void Instance::check_step(double point, double size, Time from, Time to) const {
-  if (!are_near(from, time_, rounding(point))) {
-    throw Misuse("the unit is at " + to_text(time_) + " s, but the step starts at " +
-                 to_text(from) + " s");
-  }
-  if (!(size > 0) || to <= time_) throw Misuse("the communication step size must be positive");
-  if (size > kMaxSeconds) {
-    throw Misuse("the communication step size must be at most " + to_text(kMaxSeconds) + " s");
-  }
-  if (stop_ && to > *stop_ + rounding(point + size)) {
-    throw Misuse("the step ends at " + to_text(to) + " s, behind the stop time " + to_text(*stop_) +
-                 " s");
-  }
-}
-
-/// What the unit did must be what it has declared and what the importer allows.
-void Instance::check_outcome(const Step& step) const {
-  if (step.rejection()) {
-    if (unit_->info().may_reject) return;
-    throw std::logic_error("step() rejected the step (" + *step.rejection() +
-                           "), but the unit did not declare may_reject");
-  }
-  const Time reached = step.reached().value_or(step.to());
-  if (reached < time_ || reached > step.to()) {
-    throw std::logic_error("step() returned early at an instant outside of the step");
-  }
-  if (reached == step.to()) return;
-  if (!unit_->info().early_return) {
-    throw std::logic_error("step() returned early, but the unit did not declare early_return");
-  }
-  if (!step.early_return_allowed()) {
-    throw std::logic_error("step() returned early, which the importer does not allow");
-  }
-}
-
-/// A size that is the difference of two points leads to the second one without rounding. Any other
-/// is a duration of its own, which counts from the exact time: from 4096 s on the rounded sum can
-/// be another picosecond.
-Time Instance::end_of_step(double point, double size) const {
-  const double end = point + size;
-  const bool is_difference = end - point == size;
-  const bool is_from_here = to_seconds(time_) == point && size > 0 && size <= kMaxSeconds;
-  if (is_difference || !is_from_here) return checked_time(end);
-  return later(time_, duration_from_seconds(size));
-}
-
-Instance::StepOutcome Instance::do_step(double point, double size) {
-  const Time from = checked_time(point);
-  const Time to = end_of_step(point, size);
-  check_step(point, size, from, to);
-  step_point_ = point;
-  step_size_ = size;
-  if (!importer_.event_mode_used) return step_through_events(to);
-  const Step step = step_to(to, importer_.early_return_allowed);
-  if (step.rejection()) return {step.rejection(), false, false, false, time_, false};
-  event_pending_ = step.event_needed() || any_clock_ticked();
-  return {std::nullopt, event_pending_, step.terminates(), time_ < to, time_, time_ == to};
-}
-
-/// The unit's own step, from its present instant.
-Step Instance::step_to(Time to, bool may_return_early) {
-  for (Clock* clock : table_->output_clocks()) clock->clear();
-  const bool can_update =
-      importer_.intermediate_update != nullptr && !importer_.intermediate_variables.empty();
-  Step step(time_, to, may_return_early, can_update ? this : nullptr);
-  unit_->step(step);
-  check_outcome(step);
-  if (step.rejection()) return step;
-  time_ = step.reached().value_or(to);
-  time_seconds_ = to_seconds(time_);
-  return step;
 }
 
 Instance::UpdateOutcome Instance::update_discrete_states() {
@@ -256,136 +153,8 @@ bool Instance::is_intermediate(fmi3ValueReference reference) const {
   return std::binary_search(known.begin(), known.end(), reference);
 }
 
-/// Gives the importer occasion to set its intermediate inputs (FMI 3.0, 4.2.2). It is always free
-/// to be called for an earlier instant, since no instant is known to be finished.
-void Instance::update_inputs(double seconds_into_step) {
-  const double rounding = 1e-9 * step_size_;
-  if (!(seconds_into_step >= -rounding && seconds_into_step <= step_size_ + rounding)) {
-    throw std::logic_error("step() asked for the inputs at " + to_text(seconds_into_step) +
-                           " s after the beginning of a step of " + to_text(step_size_) + " s");
-  }
-  const double time =
-      std::min(std::max(step_point_ + seconds_into_step, step_point_), step_point_ + step_size_);
-  mode_ = IntermediateUpdateMode;
-  struct Guard {
-    Mode& mode;
-    ~Guard() { mode = StepMode; }
-  } guard{mode_};  // the importer may be C++ and throw
-  fmi3Boolean early_return_requested = fmi3False;
-  fmi3Float64 early_return_time = 0;
-  importer_.intermediate_update(importer_.environment, time, fmi3True, fmi3False, fmi3False,
-                                fmi3False, &early_return_requested, &early_return_time);
-}
-
-bool Instance::any_clock_ticked() const {
-  const auto& clocks = table_->output_clocks();
-  return std::any_of(clocks.begin(), clocks.end(), [](const Clock* c) { return c->ticked(); });
-}
-
 void Instance::require_unit() const {
   if (!unit_ || !table_) throw Misuse("the last reset failed; reset it again or free it");
-}
-
-const Slot& Instance::slot(fmi3ValueReference reference, Type type) const {
-  require_unit();
-  if (reference >= table_->size()) {
-    throw Misuse("there is no variable with the value reference " + std::to_string(reference));
-  }
-  const Slot& found = table_->slot(reference);
-  const bool same = found.type == type || (found.type == Type::Enumeration && type == Type::Int64);
-  if (!same) {
-    throw Misuse("variable '" + table_->row(reference).name + "' is of the type " +
-                 name(found.type) + ", not " + name(type));
-  }
-  return found;
-}
-
-/// Checks a whole set call before any of it is done, so that a refused one changes nothing.
-void Instance::check_writable(const fmi3ValueReference references[], std::size_t count, Type type,
-                              std::size_t size) const {
-  std::size_t total = 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    const Slot& found = slot(references[i], type);
-    total += found.size;
-    if (mode_ == IntermediateUpdateMode && !is_intermediate(references[i])) {
-      throw Misuse("variable '" + table_->row(references[i]).name +
-                   "' is not among the requiredIntermediateVariables of the instance");
-    }
-    if ((found.settable & mode_) != 0) continue;
-    const std::string legal = mode_names(found.settable);
-    throw Misuse("variable '" + table_->row(references[i]).name + "' cannot be set in " +
-                 mode_names(mode_) +
-                 (legal.empty() ? ", nor in any other state" : ", only in " + legal));
-  }
-  if (total != size) {
-    throw Misuse(std::string("nValues is too ") + (total > size ? "small" : "large"));
-  }
-}
-
-void Instance::get_binary(const fmi3ValueReference references[], std::size_t count,
-                          std::size_t sizes[], fmi3Binary values[], std::size_t size) {
-  refresh();
-  std::size_t at = 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    const Slot& from = slot(references[i], Type::Binary);
-    if (at + from.size > size) throw Misuse("nValues is too small");
-    const auto* elements = static_cast<const Binary*>(from.data);
-    for (std::size_t k = 0; k < from.size; ++k) {
-      sizes[at] = elements[k].size();
-      values[at++] = elements[k].data();
-    }
-  }
-  if (at != size) throw Misuse("nValues is too large");
-}
-
-void Instance::set_binary(const fmi3ValueReference references[], std::size_t count,
-                          const std::size_t sizes[], const fmi3Binary values[], std::size_t size) {
-  check_writable(references, count, Type::Binary, size);
-  std::size_t at = 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    const Slot& to = table_->slot(references[i]);
-    auto* elements = static_cast<Binary*>(to.data);
-    for (std::size_t k = 0; k < to.size; ++k, ++at) {
-      if (sizes[at] == 0) {
-        elements[k].clear();
-      } else {
-        elements[k].assign(values[at], values[at] + sizes[at]);
-      }
-    }
-  }
-  inputs_changed_ = true;
-  note_discrete_change(references, count);
-}
-
-std::string Instance::describe_message(fmi3ValueReference reference, const fmi3Byte value[],
-                                       std::size_t size, std::size_t capacity) const {
-  slot(reference, Type::Binary);
-  const Variable& row = table_->row(reference);
-  std::string text;
-  try {
-    text = unit_->describe_message(row, size == 0 ? Binary() : Binary(value, value + size));
-  } catch (const std::exception& failure) {
-    importer_.message(fmi3Warning, LogWarnings,
-                      "a value of '" + row.name + "' cannot be described: " + failure.what());
-  }
-  std::replace_if(text.begin(), text.end(), is_control, ' ');
-  return text.substr(0, whole_characters(text, capacity));
-}
-
-void Instance::get_output_derivatives(const fmi3ValueReference references[], std::size_t count,
-                                      const fmi3Int32 orders[], double values[], std::size_t size) {
-  std::size_t at = 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    const Slot& output = slot(references[i], Type::Float64);
-    const Variable& row = table_->row(references[i]);
-    if (row.derivative == nullptr || orders[i] != 1) {
-      throw Misuse("output '" + row.name + "' has no derivative of order " +
-                   std::to_string(orders[i]));
-    }
-    if (at + output.size > size) throw Misuse("nValues is too small");
-    for (std::size_t k = 0; k < output.size; ++k) values[at++] = row.derivative[k];
-  }
-  if (at != size) throw Misuse("nValues is too large");
 }
 
 void Instance::require_idle_promises() const {

@@ -3,6 +3,7 @@
 #ifndef STRIDE_INTERFACES_UNIT_INSTANCE_H
 #define STRIDE_INTERFACES_UNIT_INSTANCE_H
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -24,11 +25,28 @@ struct Misuse : std::invalid_argument {
   using std::invalid_argument::invalid_argument;
 };
 
-/// A time that the importer gives [s]; throws Misuse for what is not an instant.
-Time checked_time(double seconds);
-/// A length of time that it gives, to the nearest picosecond; throws Misuse likewise.
-Duration duration_of_seconds(double seconds);
+/// A length of time that the importer gives [s], to the nearest picosecond; throws Misuse for what
+/// is none.
+inline Duration duration_of_seconds(double seconds) {
+  try {
+    return duration_from_seconds(seconds);
+  } catch (const std::out_of_range& error) {
+    throw Misuse(error.what());
+  }
+}
+/// An instant that it gives [s], likewise.
+inline Time checked_time(double seconds) { return Time(duration_of_seconds(seconds)); }
 Duration duration_of_fraction(std::uint64_t counter, std::uint64_t resolution);
+
+/// Throws a Misuse with the text that compose() makes. It is apart from what is checked, so that a
+/// check costs no more than its comparison.
+template <class Compose>
+[[noreturn, gnu::noinline]] void refuse(Compose compose) {
+  throw Misuse(compose());
+}
+
+/// Throws a Misuse: nValues is not the number of elements of the variables.
+[[noreturn]] void refuse_count(std::size_t needed, std::size_t given);
 
 /// What the importer gave when it made the instance.
 struct Importer {
@@ -78,10 +96,11 @@ class Instance final : private InputUpdater {
   void reset();
 
   struct StepOutcome {
-    std::optional<std::string> rejection;  ///< why; then only `reached` has a meaning
+    /// Why the unit rejected the step; then only `reached` has a meaning. Null if it did not. Holds
+    /// until the next step.
+    const std::string* rejection;
     bool event_needed, terminate, early;
-    Time reached;
-    bool whole;  ///< it reached the end of the step
+    double reached;  ///< [s]
   };
   StepOutcome do_step(double point, double size);
 
@@ -90,6 +109,15 @@ class Instance final : private InputUpdater {
     std::optional<Time> next_event;
   };
   UpdateOutcome update_discrete_states();
+
+  /// Most calls are for one number in Step Mode, which is copied and no more. These return false
+  /// for any other call, and for one to be refused, without doing it.
+  template <Type kType, class T>
+  bool get_number(const fmi3ValueReference references[], std::size_t count, T values[],
+                  std::size_t size) const;
+  template <Type kType, class T>
+  bool set_number(const fmi3ValueReference references[], std::size_t count, const T values[],
+                  std::size_t size);
 
   template <Type kType, class T>
   void get(const fmi3ValueReference references[], std::size_t count, T values[], std::size_t size);
@@ -136,20 +164,30 @@ class Instance final : private InputUpdater {
  private:
   void build();
   Time end_of_step(double point, double size) const;
-  void check_step(double point, double size, Time from, Time to) const;
+  bool is_here(double point) const;
+  void check_step(double point, double size, Time to) const;
+  bool is_one_step(Time to) const;
+  StepOutcome step_once(Time to);
+  StepOutcome rejected(const std::string& reason);
   Step step_to(Time to, bool may_return_early);
   StepOutcome step_through_events(Time to);
-  StepOutcome undo(const std::string& rejection, const std::optional<SavedState>& before);
+  void undo(const std::string& rejection, const std::optional<SavedState>& before);
   void begin_own_events();
   bool event_is_due() const;
   bool handle_own_events();
-  void note_discrete_change(const fmi3ValueReference references[], std::size_t count);
+  void note_change(bool is_discrete);
   void warn_of_clocks(Causality causality, bool& warned, const std::string& consequence);
   void check_outcome(const Step& step) const;
   void check_intermediate_variables() const;
+  void check_intermediate(const fmi3ValueReference references[], std::size_t count) const;
   bool is_intermediate(fmi3ValueReference reference) const;
   void update_inputs(double seconds_into_step) override;
   void refresh();
+  void recompute_outputs();
+  void set_time(Time time) {
+    time_ = time;
+    time_seconds_ = to_seconds(time);
+  }
   const Variable& time_based_clock(fmi3ValueReference reference) const;
   const Variable& periodic_clock(fmi3ValueReference reference) const;
   const Variable& adjustable_clock(fmi3ValueReference reference) const;
@@ -163,12 +201,17 @@ class Instance final : private InputUpdater {
   void check_writable(const fmi3ValueReference references[], std::size_t count, Type type,
                       std::size_t size) const;
   const Slot& slot(fmi3ValueReference reference, Type type) const;
+  const Slot* number_in_step_mode(const fmi3ValueReference references[], std::size_t count,
+                                  Type type, std::size_t size) const;
+  [[noreturn]] void refuse_access(fmi3ValueReference reference, Type type) const;
+  [[noreturn]] void refuse_to_set(fmi3ValueReference reference) const;
 
-  Importer importer_;
   std::string token_;
-  std::unique_ptr<Unit> unit_;
-  std::unique_ptr<Table> table_;
+  std::string rejection_;             ///< of the last step that the unit rejected
   std::optional<IdleSettings> idle_;  ///< of a unit that promises to be idle
+
+  // What each step needs is side by side, so that it is in few lines of the cache.
+  Importer importer_;
   double time_seconds_ = 0;
   Time time_{};
   Time start_{};
@@ -182,7 +225,77 @@ class Instance final : private InputUpdater {
   bool warned_of_outputs_ = false;
   double step_point_ = 0;  ///< the present step as the importer gave it
   double step_size_ = 0;
+  std::unique_ptr<Unit> unit_;
+  std::optional<Table> table_;
 };
+
+inline const Slot& Instance::slot(fmi3ValueReference reference, Type type) const {
+  const Slot* const found = table_ ? table_->find_slot(reference, type) : nullptr;
+  if (found == nullptr) refuse_access(reference, type);
+  return *found;
+}
+
+/// Brings the outputs up to date where an importer may read them directly after it has set inputs.
+inline void Instance::refresh() {
+  if (inputs_changed_ && (mode_ & (InitializationMode | EventMode)) != 0) recompute_outputs();
+}
+
+inline bool Instance::any_clock_ticked() const {
+  for (const Clock* clock : table_->output_clocks()) {
+    if (clock->ticked()) return true;
+  }
+  return false;
+}
+
+inline bool Instance::event_is_due() const {
+  return event_pending_ || (next_event_ && *next_event_ <= time_);
+}
+
+/// Without Event Mode discrete inputs are set between steps; that is an event.
+inline void Instance::note_change(bool is_discrete) {
+  inputs_changed_ = true;
+  if (is_discrete && mode_ == StepMode && !importer_.event_mode_used) event_pending_ = true;
+}
+
+/// Checks a whole set call before any of it is done, so that a refused one changes nothing.
+inline void Instance::check_writable(const fmi3ValueReference references[], std::size_t count,
+                                     Type type, std::size_t size) const {
+  std::size_t total = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Slot& found = slot(references[i], type);
+    total += found.size;
+    if ((found.settable & mode_) == 0) refuse_to_set(references[i]);
+  }
+  if (total != size) refuse_count(total, size);
+  if (mode_ == IntermediateUpdateMode) check_intermediate(references, count);
+}
+
+inline const Slot* Instance::number_in_step_mode(const fmi3ValueReference references[],
+                                                 std::size_t count, Type type,
+                                                 std::size_t size) const {
+  if (mode_ != StepMode || count != 1 || size != 1 || type == Type::String) return nullptr;
+  const Slot* const found = table_->find_slot(references[0], type);
+  return found != nullptr && found->size == 1 ? found : nullptr;
+}
+
+template <Type kType, class T>
+bool Instance::get_number(const fmi3ValueReference references[], std::size_t count, T values[],
+                          std::size_t size) const {
+  const Slot* const from = number_in_step_mode(references, count, kType, size);
+  if (from == nullptr) return false;
+  values[0] = *static_cast<const T*>(from->data);
+  return true;
+}
+
+template <Type kType, class T>
+bool Instance::set_number(const fmi3ValueReference references[], std::size_t count,
+                          const T values[], std::size_t size) {
+  const Slot* const to = number_in_step_mode(references, count, kType, size);
+  if (to == nullptr || (to->settable & StepMode) == 0) return false;
+  *static_cast<T*>(to->data) = values[0];
+  note_change(to->is_discrete);
+  return true;
+}
 
 /// fmi3Boolean is bool and an Enumeration travels as Int64, so the element of a slot has the type
 /// T.
@@ -193,7 +306,7 @@ void Instance::get(const fmi3ValueReference references[], std::size_t count, T v
   std::size_t at = 0;
   for (std::size_t i = 0; i < count; ++i) {
     const Slot& from = slot(references[i], kType);
-    if (at + from.size > size) throw Misuse("nValues is too small");
+    if (at + from.size > size) refuse_count(at + from.size, size);
     if constexpr (kType == Type::String) {
       const auto* texts = static_cast<const std::string*>(from.data);
       for (std::size_t k = 0; k < from.size; ++k) values[at + k] = texts[k].c_str();
@@ -205,7 +318,7 @@ void Instance::get(const fmi3ValueReference references[], std::size_t count, T v
     }
     at += from.size;
   }
-  if (at != size) throw Misuse("nValues is too large");
+  if (at != size) refuse_count(at, size);
 }
 
 template <Type kType, class T>
@@ -213,8 +326,10 @@ void Instance::set(const fmi3ValueReference references[], std::size_t count, con
                    std::size_t size) {
   check_writable(references, count, kType, size);
   std::size_t at = 0;
+  bool is_discrete = false;
   for (std::size_t i = 0; i < count; ++i) {
     const Slot& to = table_->slot(references[i]);
+    is_discrete |= to.is_discrete;
     if constexpr (kType == Type::Clock) {
       values[at] ? activate(references[i]) : static_cast<Clock*>(to.data)->clear();
     } else if constexpr (kType == Type::String) {
@@ -226,8 +341,7 @@ void Instance::set(const fmi3ValueReference references[], std::size_t count, con
     }
     at += to.size;
   }
-  inputs_changed_ = true;
-  note_discrete_change(references, count);
+  note_change(is_discrete);
 }
 
 }  // namespace stride::kit

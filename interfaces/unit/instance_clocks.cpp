@@ -6,14 +6,6 @@
 
 namespace stride::kit {
 
-Duration duration_of_seconds(double seconds) {
-  try {
-    return duration_from_seconds(seconds);
-  } catch (const std::out_of_range& error) {
-    throw Misuse(error.what());
-  }
-}
-
 Duration duration_of_fraction(std::uint64_t counter, std::uint64_t resolution) {
   __extension__ using Wide = unsigned __int128;
   if (resolution == 0) throw Misuse("the resolution is 0");

@@ -25,10 +25,6 @@ void Instance::begin_own_events() {
   }
 }
 
-bool Instance::event_is_due() const {
-  return event_pending_ || (next_event_ && *next_event_ <= time_);
-}
-
 /// Events at this instant, to a fixed point. Returns whether the unit requests the end of the
 /// simulation.
 bool Instance::handle_own_events() {
@@ -52,19 +48,22 @@ Instance::StepOutcome Instance::step_through_events(Time to) {
   const Time from = time_;
   const auto outcome = [&](bool terminate) {
     const bool early = time_ < to && importer_.early_return_allowed;
-    return StepOutcome{std::nullopt, false, terminate, early, time_, time_ == to};
+    return StepOutcome{nullptr, false, terminate, early, time_seconds_};
   };
   for (int standing = 0; standing < kMostIterations;) {
     if (event_is_due() && handle_own_events()) return outcome(true);
     if (time_ >= to) return outcome(false);
     const Time start = time_;
     const Time target = next_event_ ? std::min(*next_event_, to) : to;
-    step_point_ = to_seconds(start);
-    step_size_ = to_seconds(target - start);
+    if (start > from || target < to) {
+      step_point_ = to_seconds(start);
+      step_size_ = to_seconds(target - start);
+    }
     const Step step = step_to(target, true);
-    if (step.rejection() && (before || start > from)) return undo(*step.rejection(), before);
-    if (step.rejection()) return {step.rejection(), false, false, false, time_, false};
-    event_pending_ = step.event_needed() || any_clock_ticked();
+    if (step.rejection()) {
+      if (before || start > from) undo(*step.rejection(), before);
+      return rejected(*step.rejection());
+    }
     if (step.terminates()) {
       if (event_is_due()) handle_own_events();
       return outcome(true);
@@ -76,8 +75,7 @@ Instance::StepOutcome Instance::step_through_events(Time to) {
 }
 
 /// fmi3Discard leaves the unit as it was before the step.
-Instance::StepOutcome Instance::undo(const std::string& rejection,
-                                     const std::optional<SavedState>& before) {
+void Instance::undo(const std::string& rejection, const std::optional<SavedState>& before) {
   if (!before) {
     throw std::runtime_error("the unit rejects the rest of the step at " + to_text(time_) + " s (" +
                              rejection +
@@ -85,15 +83,6 @@ Instance::StepOutcome Instance::undo(const std::string& rejection,
                              "be saved; use Event Mode, or shorter steps");
   }
   restore(*before);
-  return {rejection, false, false, false, time_, false};
-}
-
-/// Without Event Mode discrete inputs are set between steps; that is an event.
-void Instance::note_discrete_change(const fmi3ValueReference references[], std::size_t count) {
-  if (importer_.event_mode_used || mode_ != StepMode) return;
-  for (std::size_t i = 0; i < count; ++i) {
-    if (table_->row(references[i]).variability != Variability::Continuous) event_pending_ = true;
-  }
 }
 
 /// Logs once what an importer without Event Mode misses. This is not debug logging, so it does not

@@ -46,6 +46,12 @@ std::uint8_t settable_modes(const Variable& row) {
   return modes;
 }
 
+Slot slot_of(const Variable& row) {
+  const Type type = row.type == Type::Enumeration ? Type::Int64 : row.type;
+  const bool is_discrete = row.variability != Variability::Continuous;
+  return {type, settable_modes(row), is_discrete, row.size, row.data};
+}
+
 [[noreturn]] void reject(const Variable& row, const std::string& mistake) {
   throw std::logic_error("variable '" + row.name + "': " + mistake);
 }
@@ -165,7 +171,7 @@ Table::Table(const Unit& unit, double& time) {
   for (const Variable* row : rows_) {
     check(*row);
     check_idle(*row, unit.info().promises_idle);
-    slots_.push_back({row->type, settable_modes(*row), row->size, row->data});
+    slots_.push_back(slot_of(*row));
     if (row->type == Type::Clock) {
       auto& clocks = row->causality == Causality::Input ? input_clocks_ : output_clocks_;
       clocks.push_back(static_cast<Clock*>(row->data));

@@ -61,10 +61,11 @@ inline bool is_periodic(const Variable& row) {
   return row.interval_variability <= IntervalVariability::Tunable;
 }
 
-/// What the access functions need of a row, and no more.
-struct Slot {
-  Type type;
+/// What the access functions need of a row, and no more, in one line of the cache.
+struct alignas(32) Slot {
+  Type type;              ///< of the functions that get and set it: Int64 for an Enumeration
   std::uint8_t settable;  ///< the modes in which it may be set
+  bool is_discrete;
   std::size_t size;
   void* data;
 };
@@ -81,6 +82,11 @@ class Table {
   std::size_t size() const { return rows_.size(); }
   const Variable& row(std::size_t reference) const { return *rows_[reference]; }
   const Slot& slot(std::size_t reference) const { return slots_[reference]; }
+  /// Null if there is no such variable, or functions of this type do not get and set it.
+  const Slot* find_slot(std::size_t reference, Type type) const {
+    const bool is_found = reference < slots_.size() && slots_[reference].type == type;
+    return is_found ? &slots_[reference] : nullptr;
+  }
 
   const std::vector<Clock*>& input_clocks() const { return input_clocks_; }
   const std::vector<Clock*>& output_clocks() const { return output_clocks_; }
@@ -96,13 +102,13 @@ class Table {
   void check_references(const Variable& row) const;
   void check_verdict() const;
 
+  std::vector<Slot> slots_;
+  std::vector<Clock*> output_clocks_;
+  std::vector<Clock*> input_clocks_;
   Variable time_;
   std::vector<const Variable*> rows_;
   std::map<std::string_view, fmi3ValueReference> references_;  ///< by name
   std::map<const void*, fmi3ValueReference> clock_references_;
-  std::vector<Slot> slots_;
-  std::vector<Clock*> input_clocks_;
-  std::vector<Clock*> output_clocks_;
 };
 
 }  // namespace stride::kit

@@ -342,6 +342,77 @@ TEST_CASE("a refused set changes nothing") {
   CHECK(unit.real("float64.echo") == 1);
 }
 
+namespace {
+
+/// Sets the value alone, and reads it alone and along with its echo after a step.
+template <class T, class Setter, class Getter>
+void check_echo(UnitInstance& unit, Setter* set, Getter* get, const std::string& name, T value) {
+  CAPTURE(name);
+  const fmi3ValueReference both[] = {unit.reference(name), unit.reference(name + ".echo")};
+  CHECK(set(unit.handle, both, 1, &value, 1) == fmi3OK);
+  T alone{};
+  CHECK(get(unit.handle, both, 1, &alone, 1) == fmi3OK);
+  CHECK(alone == value);
+  REQUIRE(unit.step(unit.real("time"), 0.5) == fmi3OK);
+  T together[2] = {};
+  CHECK(get(unit.handle, both, 2, together, 2) == fmi3OK);
+  CHECK(get(unit.handle, both + 1, 1, &alone, 1) == fmi3OK);
+  CHECK(together[0] == value);
+  CHECK(together[1] == value);
+  CHECK(alone == value);
+}
+
+/// The message of fmi3SetFloat64 or fmi3GetFloat64 for this variable and so many values.
+std::string refusal(UnitInstance& unit, bool is_set, fmi3ValueReference variable,
+                    std::size_t size) {
+  double values[] = {1, 2};
+  const fmi3Status status = is_set ? unit.fmi.SetFloat64(unit.handle, &variable, 1, values, size)
+                                   : unit.fmi.GetFloat64(unit.handle, &variable, 1, values, size);
+  CHECK(status == fmi3Error);
+  return unit.last_message();
+}
+
+}  // namespace
+
+TEST_CASE("in Step Mode a number is the same alone and with others") {
+  const UnitLibrary fmi(unit_library("types"));
+  UnitInstance unit(fmi);
+  REQUIRE(unit.start_steps() == fmi3OK);
+  check_echo<float>(unit, fmi.SetFloat32, fmi.GetFloat32, "float32", 0.5F);
+  check_echo<double>(unit, fmi.SetFloat64, fmi.GetFloat64, "float64", 1e-300);
+  check_echo<std::int8_t>(unit, fmi.SetInt8, fmi.GetInt8, "int8", -128);
+  check_echo<std::uint8_t>(unit, fmi.SetUInt8, fmi.GetUInt8, "uint8", 255);
+  check_echo<std::int16_t>(unit, fmi.SetInt16, fmi.GetInt16, "int16", -32768);
+  check_echo<std::uint16_t>(unit, fmi.SetUInt16, fmi.GetUInt16, "uint16", 65535);
+  check_echo<std::int32_t>(unit, fmi.SetInt32, fmi.GetInt32, "int32", -7);
+  check_echo<std::uint32_t>(unit, fmi.SetUInt32, fmi.GetUInt32, "uint32", 7);
+  check_echo<std::int64_t>(unit, fmi.SetInt64, fmi.GetInt64, "int64", -(1LL << 62));
+  check_echo<std::uint64_t>(unit, fmi.SetUInt64, fmi.GetUInt64, "uint64", 1ULL << 63);
+  check_echo<bool>(unit, fmi.SetBoolean, fmi.GetBoolean, "boolean", true);
+  check_echo<std::int64_t>(unit, fmi.SetInt64, fmi.GetInt64, "colour", 4);
+}
+
+TEST_CASE("in Step Mode a refused call names its reason, and changes nothing") {
+  const UnitLibrary fmi(unit_library("types"));
+  UnitInstance unit(fmi);
+  REQUIRE(unit.start_steps() == fmi3OK);
+  for (const bool is_set : {false, true}) {
+    CAPTURE(is_set);
+    CHECK_THAT(refusal(unit, is_set, 9999, 1), Contains("no variable with the value reference"));
+    CHECK_THAT(refusal(unit, is_set, unit.reference("float32"), 1),
+               Contains("variable 'float32' is of the type Float32, not Float64"));
+    CHECK_THAT(refusal(unit, is_set, unit.reference("colour"), 1),
+               Contains("variable 'colour' is of the type Enumeration, not Float64"));
+    CHECK_THAT(refusal(unit, is_set, unit.reference("float64"), 0), Contains("too small"));
+    CHECK_THAT(refusal(unit, is_set, unit.reference("float64"), 2), Contains("too large"));
+    CHECK_THAT(refusal(unit, is_set, unit.reference("matrix"), 1), Contains("too small"));
+  }
+  CHECK_THAT(refusal(unit, true, unit.reference("float64.echo"), 1),
+             Contains("variable 'float64.echo' cannot be set in Step Mode"));
+  CHECK(unit.real("float64") == 0);
+  CHECK(unit.real("float64.echo") == 0);
+}
+
 TEST_CASE("the independent variable is the time") {
   const UnitLibrary library(unit_library("stepper"));
   UnitInstance unit(library);
