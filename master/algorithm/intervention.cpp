@@ -22,6 +22,18 @@ const char* word(Intervention::Kind kind) {
 
 }  // namespace
 
+const char* name(Intervention::Kind kind) {
+  switch (kind) {
+    case Intervention::Kind::Set:
+      return "set";
+    case Intervention::Kind::Force:
+      return "force";
+    case Intervention::Kind::Hold:
+      return "hold";
+  }
+  return "";
+}
+
 std::string to_text(const Intervention& intervention, const System& system,
                     const ValueBlock& value) {
   constexpr std::size_t kMostElements = 8;

@@ -30,6 +30,8 @@ struct Intervention {
   std::optional<ValueBlock> value{};  ///< of all elements; not of Hold
 };
 
+/// "set", "force", "hold".
+const char* name(Intervention::Kind kind);
 /// For people: "set to 3 V", "forced to 85 until 3 s", "held at 20.5".
 std::string to_text(const Intervention& intervention, const System& system,
                     const ValueBlock& value);

@@ -125,6 +125,24 @@ std::string order_table(const scenario::LoadedScenario& loaded) {
   return table.text();
 }
 
+/// With its title; empty if there are none.
+std::string intervention_table(const core::System& system,
+                               std::span<const core::Intervention> interventions) {
+  if (interventions.empty()) return "";
+  Table table({{"from [s]", Table::Align::Right},
+               {"until [s]", Table::Align::Right},
+               {"variable"},
+               {"intervention"},
+               {"value"}});
+  for (const core::Intervention& intervention : interventions) {
+    table.add({core::to_text(intervention.from),
+               intervention.until ? core::to_text(*intervention.until) : "",
+               system.full_name(intervention.id), core::name(intervention.kind),
+               intervention.value ? core::elements_text(*intervention.value) : ""});
+  }
+  return "\nInterventions\n" + table.text();
+}
+
 /// Empty if the scenario has none.
 std::string check_table(std::span<const checks::Definition> checks) {
   Table table({{"check"}, {"demands"}, {"line", Table::Align::Right}});
@@ -218,6 +236,7 @@ void check(const scenario::ScenarioRequest& request) {
              connection_table(system));
   print_text("{}", unconnected_elements_text(system));
   print_text("{}", check_table(loaded.checks()));
+  print_text("{}", intervention_table(system, options.interventions));
   print_text("\nStep order\n{}", order_table(loaded));
   print_text("\nOrder of the initial values\n{}", initial_order_text(system));
   print_text("\nAlgebraic loops\n{}", loops_text(system));

@@ -116,23 +116,11 @@ Json connection_entries(const core::System& system) {
   return entries;
 }
 
-const char* word(core::Intervention::Kind kind) {
-  switch (kind) {
-    case core::Intervention::Kind::Set:
-      return "set";
-    case core::Intervention::Kind::Force:
-      return "force";
-    case core::Intervention::Kind::Hold:
-      return "hold";
-  }
-  return "";
-}
-
 Json intervention_entries(const core::System& system,
                           std::span<const core::Intervention> interventions) {
   Json entries = Json::array();
   for (const core::Intervention& intervention : interventions) {
-    Json entry = {{"kind", word(intervention.kind)},
+    Json entry = {{"kind", name(intervention.kind)},
                   {"variable", system.full_name(intervention.id)},
                   {"from", to_seconds(intervention.from)}};
     if (intervention.until) entry["until"] = to_seconds(*intervention.until);

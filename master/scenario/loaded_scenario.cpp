@@ -378,6 +378,27 @@ void LoadedScenario::choose_idle_skips(const ScenarioRequest& request) {
   for (const IdleTwin& pair : idle_twins_) options_.idle.max_skip[pair.twin].reset();
 }
 
+/// A unit that takes steps of one size only cannot have one that ends in between.
+void LoadedScenario::check_instants_of_interventions() const {
+  const auto rigid = std::ranges::find_if(
+      fmus_, [](const auto& fmu) { return !fmu->description()->can_vary_step; });
+  if (rigid == fmus_.end() || !options_.step.policy->has_grid) return;
+  const auto& component =
+      scenario_.system.components[static_cast<std::size_t>(rigid - fmus_.begin())];
+  for (const core::Intervention& intervention : options_.interventions) {
+    for (const Time time : {intervention.from, intervention.until.value_or(intervention.from)}) {
+      if ((time - options_.start) % options_.step.size == Duration{}) continue;
+      core::fail_input(
+          {component.where, component.name, {}, {}},
+          fmt::format("the unit takes steps of one size only, and none of {} s ends at "
+                      "{} s, the instant of an intervention on '{}'",
+                      core::to_text(options_.step.size), core::to_text(time),
+                      system_->full_name(intervention.id)),
+          "choose a multiple of the step for it");
+    }
+  }
+}
+
 /// Those of the scenario are within its own time, also with --stop. What changes a unit changes its
 /// twin.
 void LoadedScenario::choose_interventions(const ScenarioRequest& request) {
@@ -387,6 +408,7 @@ void LoadedScenario::choose_interventions(const ScenarioRequest& request) {
   for (const std::string& text : request.set_at) declared.push_back(parse_set_at(text));
   for (const std::string& text : request.forces) declared.push_back(parse_force(text));
   options_.interventions = resolve_interventions(*system_, declared, {options_.start, stop});
+  check_instants_of_interventions();
   const std::size_t count = options_.interventions.size();
   for (std::size_t i = 0; i < count; ++i) {
     for (const IdleTwin& pair : idle_twins_) {

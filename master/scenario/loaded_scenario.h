@@ -93,6 +93,7 @@ class LoadedScenario {
   void check_steps();
   void choose_idle_skips(const ScenarioRequest& request);
   void choose_interventions(const ScenarioRequest& request);
+  void check_instants_of_interventions() const;
   void choose_signals(const ScenarioRequest& request);
   void end_with_whole_steps();
   void warn_of_other_steps() const;

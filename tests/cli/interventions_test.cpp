@@ -80,3 +80,31 @@ TEST_CASE("an intervention behind an earlier stop time is left out") {
   CHECK(workspace.run({"--quiet", "--stop", "0.5"}).exit_code == 0);
   CHECK_THAT(events_of(workspace), !Contains("intervention"));
 }
+
+TEST_CASE("a unit with steps of one size makes no intervention in between") {
+  const Workspace workspace(
+      Parts{component("unit", "fmi2_rigid_stickler.fmu") + component("other", "minimal.fmu")});
+  const Arguments arguments{"--quiet", "--step", "0.1", "--stop", "0.6", "--set-at"};
+  const auto run_with = [&](const std::string& intervention) {
+    Arguments all = arguments;
+    all.push_back(intervention);
+    return workspace.run(all);
+  };
+  CHECK(run_with("other.u=1@0.3").exit_code == 0);
+  const Outcome outcome = run_with("other.u=1@0.25");
+  CHECK(outcome.exit_code == 2);
+  CHECK_THAT(outcome.err,
+             Contains("unit 'unit': the unit takes steps of one size only, and none of "
+                      "0.1 s ends at 0.25 s, the instant of an intervention on "
+                      "'other.u'"));
+}
+
+TEST_CASE("check lists the interventions") {
+  const Workspace workspace =
+      low_passes("<stride:Force variable='b.u' from='0.25' until='0.5'/>\n");
+  const Outcome outcome = workspace.stride({"check", "test.ssd", "--set-at", "a.u=2@0.125"});
+  CHECK(outcome.exit_code == 0);
+  CHECK_THAT(outcome.out, Contains("\nInterventions\n"));
+  CHECK_THAT(outcome.out, Contains("0.125             a.u       set           2"));
+  CHECK_THAT(outcome.out, Contains("0.25        0.5  b.u       hold"));
+}
