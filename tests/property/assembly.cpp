@@ -187,6 +187,12 @@ std::vector<std::string> Results::event_rows() const {
   return rows;
 }
 
+void check_same_bytes(const Results& results, const Results& expected) {
+  const bool has_same_signals = results.signals == expected.signals;  // not printed
+  CHECK(has_same_signals);
+  CHECK(results.events == expected.events);
+}
+
 core::RunOptions fixed_steps(Duration step, Time stop) {
   core::RunOptions options;
   options.step.size = step;

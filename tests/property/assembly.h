@@ -64,6 +64,9 @@ struct Results {
   std::vector<std::string> event_rows() const;  ///< sorted, without the header
 };
 
+/// Signals and events.
+void check_same_bytes(const Results& results, const Results& expected);
+
 core::RunOptions fixed_steps(Duration step, Time stop);
 
 /// Records all outputs, whatever the options say of it, and captures what these receive.

@@ -26,12 +26,6 @@ std::array<std::uint64_t, 9> counts(const core::UnitStatistics& unit) {
           unit.saves, unit.events, unit.messages_sent, unit.messages_received};
 }
 
-void check_same_bytes(const Results& results, const Results& expected) {
-  const bool same_signals = results.signals == expected.signals;
-  CHECK(same_signals);
-  CHECK(results.events == expected.events);
-}
-
 void check_same(const Results& results, const Results& expected) {
   check_same_bytes(results, expected);
   CHECK(results.statistics.communication_steps == expected.statistics.communication_steps);

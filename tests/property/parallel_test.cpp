@@ -22,9 +22,7 @@ std::array<std::uint64_t, 8> counts(const core::UnitStatistics& unit) {
 }
 
 void check_same(const Results& results, const Results& expected) {
-  const bool same_signals = results.signals == expected.signals;
-  CHECK(same_signals);
-  CHECK(results.events == expected.events);
+  check_same_bytes(results, expected);
   CHECK(results.statistics.communication_steps == expected.statistics.communication_steps);
   CHECK(results.statistics.event_iterations == expected.statistics.event_iterations);
   for (const auto& [name, unit] : expected.units) {
