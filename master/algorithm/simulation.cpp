@@ -29,6 +29,9 @@
 namespace stride::core {
 namespace {
 
+/// For what is noted of units whose states are not saved before each step [byte].
+constexpr std::size_t kNoteCache = std::size_t{512} << 10;
+
 /// Successive steps that end where they began, after which the run fails.
 constexpr std::uint32_t kStallLimit = 1000;
 
@@ -113,13 +116,15 @@ class Simulation::Run {
                                               const RunOptions& options) {
     const auto& [each_step, most_steps, always] = options.checkpoints;
     coasting_.resize(units.size());
+    const auto saved =
+        static_cast<std::size_t>(std::ranges::count_if(order_, &StepOrderEntry::saves_state));
     for (const StepOrderEntry& entry : order_) {
       if (!entry.saves_state) continue;
       const std::size_t i = entry.component;
       const std::size_t most = std::ranges::count(each_step, i) > 0 ? 1 : most_steps;
       auto unit =
           std::make_unique<CoastingUnit>(std::move(units[i]), *system.components()[i].description,
-                                         CheckpointInterval(most, !always));
+                                         CheckpointInterval(most, !always), kNoteCache / saved);
       coasting_[i] = unit.get();
       units[i] = std::move(unit);
     }

@@ -12,6 +12,8 @@ constexpr std::size_t kWarmUp = 64;
 constexpr std::size_t kMemory = 4096;
 /// Noting what a unit is given costs about as much [ns], where the caches have no room for it.
 constexpr double kNoteCost = 50;
+/// Likewise where it goes to memory.
+constexpr double kFarNoteCost = 150;
 
 /// A moving average over the last eight or so. An interruption of the machine counts as little more
 /// than the rest.
@@ -22,7 +24,7 @@ void add_to_average(double& average, double value) {
 }  // namespace
 
 CheckpointInterval::CheckpointInterval(std::size_t most, bool adapts)
-    : most_(most), adapts_(adapts && most > 1), chosen_(adapts ? 1 : most) {}
+    : most_(most), near_(most), adapts_(adapts && most > 1), chosen_(adapts ? 1 : most) {}
 
 void CheckpointInterval::choose() {
   if (steps_ > kMemory) {
@@ -31,6 +33,7 @@ void CheckpointInterval::choose() {
   }
   if (stretches_ < kWarmUp) return;
   chosen_ = static_cast<std::size_t>(std::clamp(best(), 1.0, static_cast<double>(most_)));
+  if (save_cost_ <= kFarNoteCost * static_cast<double>(near_)) chosen_ = std::min(chosen_, near_);
 }
 
 void CheckpointInterval::add_costs(Cost save, Cost step) {

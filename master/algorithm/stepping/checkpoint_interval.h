@@ -44,6 +44,9 @@ class CheckpointInterval {
     chosen_ = std::min(chosen_, most_);
   }
   std::size_t most() const { return most_; }
+  /// What is noted of so many steps has room in the caches of the processor. To note more of them
+  /// costs more, and is worthwhile where saves do.
+  void set_near(std::size_t steps) { near_ = std::max<std::size_t>(steps, 1); }
 
  private:
   /// One stretch of so many is measured; of the first ones, more.
@@ -53,6 +56,7 @@ class CheckpointInterval {
   double best() const;
 
   std::size_t most_;
+  std::size_t near_;
   bool adapts_;
   bool is_measured_ = false;
   std::size_t chosen_;

@@ -15,12 +15,13 @@ constexpr std::size_t kMostBytes = std::size_t{64} << 10;
 }  // namespace
 
 CoastingUnit::CoastingUnit(std::unique_ptr<Unit> unit, const UnitDescription& description,
-                           CheckpointInterval interval)
+                           CheckpointInterval interval, std::size_t cache)
     : ForwardingUnit(std::move(unit)),
       state_(inner().require_capability<StateSaving>()),
       concurrent_(inner().capability<ConcurrentSteps>()),
       description_(description),
-      interval_(interval) {}
+      interval_(interval),
+      cache_(cache) {}
 
 Capability* CoastingUnit::find_capability(CapabilityId id) {
   return find_decorated<StateSaving, ConcurrentSteps>(*this, id);
@@ -178,6 +179,7 @@ void CoastingUnit::save_measured() {
 void CoastingUnit::bound_log() {
   is_log_bounded_ = true;
   interval_.limit(kMostBytes * log_.steps() / log_.size());
+  interval_.set_near(cache_ * log_.steps() / log_.size());
   log_.reserve(interval_.most() / log_.steps() + 1);
 }
 

@@ -39,9 +39,10 @@ class CoastingUnit : public ForwardingUnit, public StateSaving, public Concurren
     std::optional<InexactRepetition> inexact_repetition{};  ///< the first one
   };
 
-  /// `unit` has the capability StateSaving. The description must outlive this object.
+  /// `unit` has the capability StateSaving. The description must outlive this object. `cache`: its
+  /// share of the processor's caches, for what is noted [byte].
   CoastingUnit(std::unique_ptr<Unit> unit, const UnitDescription& description,
-               CheckpointInterval interval);
+               CheckpointInterval interval, std::size_t cache);
 
   const Counts& counts() const { return counts_; }
 
@@ -103,6 +104,7 @@ class CoastingUnit : public ForwardingUnit, public StateSaving, public Concurren
   ConcurrentSteps* concurrent_;  ///< of the unit; null if it steps here
   const UnitDescription& description_;
   CheckpointInterval interval_;
+  std::size_t cache_;
   Counts counts_;
   CheckpointInterval::Cost save_cost_{};
   std::size_t stretch_ = 0;     ///< its greatest number of steps

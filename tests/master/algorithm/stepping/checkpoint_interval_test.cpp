@@ -52,6 +52,22 @@ TEST_CASE("a save that costs no more than to note a step stays before each step"
   CHECK(interval_after(1000, 200ns, 1ns) > 1);
 }
 
+TEST_CASE("no more is noted than the caches have room for, unless saves cost more") {
+  const auto chosen = [](std::chrono::nanoseconds save) {
+    CheckpointInterval interval(kMost, true);
+    interval.set_near(4);
+    std::size_t steps = 0;
+    for (int i = 0; i < 1000; ++i) {
+      steps = interval.begin_stretch();
+      if (interval.is_measured()) interval.add_costs(save, 10ns);
+      interval.count_step();
+    }
+    return steps;
+  };
+  CHECK(chosen(500ns) == 4);
+  CHECK(chosen(100us) > 100);
+}
+
 TEST_CASE("where nothing is rolled back the interval grows, to the limit at most") {
   CHECK(interval_after(2000, 1us, 1us) > 50);
   CHECK(interval_after(2000, 1ms, 1us) == kMost);
