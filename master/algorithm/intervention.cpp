@@ -8,44 +8,73 @@
 namespace stride::core {
 namespace {
 
-const char* word(Intervention::Kind kind) {
+struct Words {
+  const char* name;
+  const char* effect;
+};
+
+Words words(Intervention::Kind kind) {
   switch (kind) {
     case Intervention::Kind::Set:
-      return "set to";
+      return {"set", "set to"};
     case Intervention::Kind::Force:
-      return "forced to";
+      return {"force", "forced to"};
     case Intervention::Kind::Hold:
-      return "held at";
+      return {"hold", "held at"};
+    case Intervention::Kind::Drop:
+      return {"drop", "messages are dropped"};
+    case Intervention::Kind::Delay:
+      return {"delay", "messages are delayed by"};
+    case Intervention::Kind::Corrupt:
+      return {"corrupt", "messages are received with wrong bits,"};
   }
-  return "";
+  return {"", ""};
+}
+
+std::string until_text(const Intervention& intervention) {
+  if (!intervention.until) return "";
+  return fmt::format(" until {} s", to_text(*intervention.until));
 }
 
 }  // namespace
 
-const char* name(Intervention::Kind kind) {
-  switch (kind) {
-    case Intervention::Kind::Set:
-      return "set";
-    case Intervention::Kind::Force:
-      return "force";
-    case Intervention::Kind::Hold:
-      return "hold";
+bool disturbs_messages(Intervention::Kind kind) {
+  return kind == Intervention::Kind::Drop || kind == Intervention::Kind::Delay ||
+         kind == Intervention::Kind::Corrupt;
+}
+
+const char* name(Intervention::Kind kind) { return words(kind).name; }
+
+std::string amount_text(const Intervention& intervention) {
+  if (intervention.kind == Intervention::Kind::Delay) {
+    return fmt::format("{} s", to_text(intervention.delay));
   }
-  return "";
+  if (intervention.kind == Intervention::Kind::Corrupt) {
+    const std::string bits =
+        fmt::format("{} bit{}", intervention.bits, intervention.bits == 1 ? "" : "s");
+    if (intervention.header == 0) return bits;
+    return fmt::format("{} after a header of {} bytes", bits, intervention.header);
+  }
+  return intervention.value ? elements_text(*intervention.value) : "";
 }
 
 std::string to_text(const Intervention& intervention, const System& system,
                     const ValueBlock& value) {
   constexpr std::size_t kMostElements = 8;
   const Variable& variable = system.variable(intervention.id);
-  std::string text = word(intervention.kind);
+  std::string text = words(intervention.kind).effect;
   for (std::size_t i = 0; i < std::min(value.size(), kMostElements); ++i) {
     text += ' ' + name_text(element_text(value, i));
   }
   if (value.size() > kMostElements) text += " …";
   if (!variable.unit.empty()) text += ' ' + variable.unit;
-  if (intervention.until) text += fmt::format(" until {} s", to_text(*intervention.until));
-  return text;
+  return text + until_text(intervention);
+}
+
+std::string to_text(const Intervention& intervention) {
+  const std::string amount = amount_text(intervention);
+  return words(intervention.kind).effect + (amount.empty() ? "" : ' ' + amount) +
+         until_text(intervention);
 }
 
 }  // namespace stride::core

@@ -67,9 +67,10 @@ class Observer {
   /// Whether on_message() needs Message::content, which units have to provide.
   virtual bool wants_content() const { return false; }
   virtual void on_message(const Message& /*message*/) {}
-  /// The run's options have changed a variable; `text` says how, such as "set to 3 V"
-  /// (Intervention).
-  virtual void on_intervention(Time /*time*/, VariableId /*id*/, std::string_view /*text*/) {}
+  /// The run's options have changed a variable, or the messages that it receives, at an instant and
+  /// its super-dense index; `text` says how, such as "set to 3 V" (Intervention).
+  virtual void on_intervention(Time /*time*/, std::uint32_t /*index*/, VariableId /*id*/,
+                               std::string_view /*text*/) {}
   /// Whether on_activity() is to be called. Read once, before the run.
   virtual bool watches_activities() const { return false; }
   /// Called when the activity is over, in an order that does not depend on threads; at the end of

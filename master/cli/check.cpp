@@ -138,7 +138,7 @@ std::string intervention_table(const core::System& system,
     table.add({core::to_text(intervention.from),
                intervention.until ? core::to_text(*intervention.until) : "",
                system.full_name(intervention.id), core::name(intervention.kind),
-               intervention.value ? core::elements_text(*intervention.value) : ""});
+               core::amount_text(intervention)});
   }
   return "\nInterventions\n" + table.text();
 }

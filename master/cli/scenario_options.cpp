@@ -83,6 +83,28 @@ void add_host_options(CLI::App& command, scenario::HostRequest& request) {
                    "Run units in processes of their own without a sandbox; overrides the scenario");
 }
 
+void add_interventions(CLI::App& command, scenario::ScenarioRequest& request) {
+  const auto add = [&](const char* option, std::vector<std::string>& texts, const char* form,
+                       const std::string& help) {
+    command.add_option(option, texts, help + "; may be given several times")
+        ->type_name(form)
+        ->allow_extra_args(false);
+  };
+  add("--set-at", request.set_at, "COMPONENT.VARIABLE=VALUE@SECONDS",
+      "Value that a tunable parameter, or an input without a source, gets in the middle of the "
+      "run");
+  add("--force", request.forces, "COMPONENT.VARIABLE[=VALUE]@SECONDS..[SECONDS]",
+      "Value of a connected input for some time, whatever its source gives; without a value it is "
+      "held at what it has");
+  add("--drop", request.drops, "COMPONENT.VARIABLE@SECONDS..[SECONDS]",
+      "Time for which an input, or an input clock, receives no messages");
+  add("--delay", request.delays, "COMPONENT.VARIABLE=SECONDS@SECONDS..[SECONDS]",
+      "How much later an input, or an input clock, receives the messages of some time");
+  add("--corrupt", request.corruptions, "COMPONENT.VARIABLE[=BITS[,HEADER]]@SECONDS..[SECONDS]",
+      "How many bits are inverted in each message that an input receives in some time, 1 if left "
+      "out, and how many first bytes are left alone");
+}
+
 }  // namespace
 
 void add_scenario_options(CLI::App& command, scenario::ScenarioRequest& request) {
@@ -108,19 +130,7 @@ void add_scenario_options(CLI::App& command, scenario::ScenarioRequest& request)
                   "Start value of a parameter or input; may be given several times")
       ->type_name("COMPONENT.VARIABLE=VALUE")
       ->allow_extra_args(false);
-  command
-      .add_option(
-          "--set-at", request.set_at,
-          "Value that a tunable parameter, or an input without a source, gets in the middle "
-          "of the run; may be given several times")
-      ->type_name("COMPONENT.VARIABLE=VALUE@SECONDS")
-      ->allow_extra_args(false);
-  command
-      .add_option("--force", request.forces,
-                  "Value of a connected input for some time, whatever its source gives; without a "
-                  "value it is held at what it has; may be given several times")
-      ->type_name("COMPONENT.VARIABLE[=VALUE]@SECONDS..[SECONDS]")
-      ->allow_extra_args(false);
+  add_interventions(command, request);
   command
       .add_option("--swap", request.swaps,
                   "Another unit for a component; may be given several times")

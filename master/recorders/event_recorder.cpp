@@ -36,11 +36,12 @@ void EventRecorder::on_message(const core::Message& message) {
   file_.write('\n');
 }
 
-/// Before the first event iteration of the instant.
-void EventRecorder::on_intervention(Time time, core::VariableId id, std::string_view text) {
+void EventRecorder::on_intervention(Time time, std::uint32_t index, core::VariableId id,
+                                    std::string_view text) {
   file_.set_time(time);
   file_.write_seconds(time);
-  file_.write(",0");
+  file_.write(',');
+  file_.write_number(index);
   file_.write(fields_[id.component][id.variable]);
   file_.write("intervention,,");
   file_.write(csv_field(text));

@@ -24,7 +24,8 @@ class EventRecorder : public core::Observer {
   void on_start(std::span<const core::Signal> signals) override;
   bool wants_content() const override { return true; }
   void on_message(const core::Message& message) override;
-  void on_intervention(Time time, core::VariableId id, std::string_view text) override;
+  void on_intervention(Time time, std::uint32_t index, core::VariableId id,
+                       std::string_view text) override;
   void on_finish() override;
 
  private:

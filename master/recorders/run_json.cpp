@@ -125,6 +125,12 @@ Json intervention_entries(const core::System& system,
                   {"from", to_seconds(intervention.from)}};
     if (intervention.until) entry["until"] = to_seconds(*intervention.until);
     if (intervention.value) entry["value"] = core::elements_text(*intervention.value);
+    if (intervention.delay > Duration{}) entry["delay"] = to_seconds(intervention.delay);
+    if (intervention.bits > 0) {
+      entry["bits"] = intervention.bits;
+      entry["header"] = intervention.header;
+      entry["seed"] = intervention.seed;
+    }
     entries.push_back(std::move(entry));
   }
   return entries;

@@ -216,18 +216,46 @@ void read_set(const xml::Element& element, ScenarioAnnotation& annotation) {
                                       .where = element.where()});
 }
 
+/// What lasts for some time; it has no value yet.
+InterventionDeclaration& add_intervention(const xml::Element& element,
+                                          core::Intervention::Kind kind,
+                                          ScenarioAnnotation& annotation) {
+  element.allow_children({});
+  InterventionDeclaration& declared = annotation.interventions.emplace_back(
+      InterventionDeclaration{.kind = kind,
+                              .variable = element.required("variable"),
+                              .from = read_time(element, "from"),
+                              .where = element.where()});
+  if (element.attribute("until")) declared.until = read_time(element, "until");
+  return declared;
+}
+
 /// Without a value the input is held.
 void read_force(const xml::Element& element, ScenarioAnnotation& annotation) {
   element.allow_attributes({"variable", "value", "from", "until"});
-  element.allow_children({});
   const auto value = element.attribute("value");
-  InterventionDeclaration& declared = annotation.interventions.emplace_back(InterventionDeclaration{
-      .kind = value ? core::Intervention::Kind::Force : core::Intervention::Kind::Hold,
-      .variable = element.required("variable"),
-      .value = value.value_or(""),
-      .from = read_time(element, "from"),
-      .where = element.where()});
-  if (element.attribute("until")) declared.until = read_time(element, "until");
+  const auto kind = value ? core::Intervention::Kind::Force : core::Intervention::Kind::Hold;
+  add_intervention(element, kind, annotation).value = value;
+}
+
+void read_drop(const xml::Element& element, ScenarioAnnotation& annotation) {
+  element.allow_attributes({"variable", "from", "until"});
+  add_intervention(element, core::Intervention::Kind::Drop, annotation);
+}
+
+void read_delay(const xml::Element& element, ScenarioAnnotation& annotation) {
+  element.allow_attributes({"variable", "time", "from", "until"});
+  add_intervention(element, core::Intervention::Kind::Delay, annotation).value =
+      element.required("time");
+}
+
+void read_corrupt(const xml::Element& element, ScenarioAnnotation& annotation) {
+  element.allow_attributes({"variable", "bits", "header", "seed", "from", "until"});
+  InterventionDeclaration& declared =
+      add_intervention(element, core::Intervention::Kind::Corrupt, annotation);
+  declared.value =
+      fmt::format("{},{}", element.attribute_or("bits", "1"), element.attribute_or("header", "0"));
+  declared.seed = element.number<std::uint64_t>("seed").value_or(declared.seed);
 }
 
 void read_terminal_connection(const xml::Element& element, ScenarioAnnotation& annotation) {
@@ -294,6 +322,9 @@ constexpr ScenarioElement kElements[] = {
      }},
     {"Set", true, read_set},
     {"Force", true, read_force},
+    {"Drop", true, read_drop},
+    {"Delay", true, read_delay},
+    {"Corrupt", true, read_corrupt},
     {"TerminalConnection", true, read_terminal_connection},
 };
 

@@ -1,6 +1,7 @@
 #include "master/scenario/interventions.h"
 
 #include <algorithm>
+#include <charconv>
 #include <map>
 #include <set>
 #include <stdexcept>
@@ -20,6 +21,9 @@ using InterventionKind = Intervention::Kind;
 
 constexpr const char* kSetForm = "COMPONENT.VARIABLE=VALUE@TIME";
 constexpr const char* kForceForm = "COMPONENT.VARIABLE[=VALUE]@FROM..[UNTIL]";
+constexpr const char* kDropForm = "COMPONENT.VARIABLE@FROM..[UNTIL]";
+constexpr const char* kDelayForm = "COMPONENT.VARIABLE=SECONDS@FROM..[UNTIL]";
+constexpr const char* kCorruptForm = "COMPONENT.VARIABLE[=BITS[,HEADER]]@FROM..[UNTIL]";
 
 [[noreturn]] void fail_form(const char* option, const std::string& text, const char* form) {
   core::fail_input({}, fmt::format("{} {}: expected {}", option, text, form));
@@ -39,6 +43,22 @@ std::pair<std::string, std::string> split_time(const char* option, const std::st
   const std::size_t sign = text.rfind('@');
   if (sign == std::string::npos) fail_form(option, text, form);
   return {text.substr(0, sign), text.substr(sign + 1)};
+}
+
+/// The form that all but --set-at have in common, without the kind.
+InterventionDeclaration parse_from_until(const char* option, const std::string& text,
+                                         const char* form) {
+  const auto [assignment, times] = split_time(option, text, form);
+  const std::size_t dots = times.find("..");
+  const std::size_t sign = assignment.find('=');
+  if (dots == std::string::npos || assignment.empty() || sign == 0) fail_form(option, text, form);
+  InterventionDeclaration declared{.variable = assignment.substr(0, sign),
+                                   .from = parse_time(option, text, times.substr(0, dots)),
+                                   .where = {fmt::format("{} {}", option, text), 0}};
+  if (sign != std::string::npos) declared.value = assignment.substr(sign + 1);
+  const std::string until = times.substr(dots + 2);
+  if (!until.empty()) declared.until = parse_time(option, text, until);
+  return declared;
 }
 
 core::Context context_of(const core::System& system, core::VariableId id,
@@ -98,11 +118,114 @@ Refusal refusal_to_force(const core::System& system, core::VariableId id) {
   return {};
 }
 
-Refusal refusal(const core::System& system, InterventionKind kind, core::VariableId id) {
+Refusal refusal_to_change(const core::System& system, InterventionKind kind, core::VariableId id) {
+  if (system.is_message(id)) {
+    return {"is a message", "disturb it: <stride:Drop>, <stride:Delay>, <stride:Corrupt>"};
+  }
   if (!system.is_signal(id) || system.is_sampled(id)) {
     return {"belongs to a clock, and changes at its ticks only", "choose a variable without one"};
   }
   return kind == InterventionKind::Set ? refusal_to_set(system, id) : refusal_to_force(system, id);
+}
+
+/// The clocks with which the input receives messages: itself, or the connected ones to which it
+/// belongs.
+std::vector<core::VariableId> clocks_of(const core::System& system, core::VariableId id) {
+  std::vector<core::VariableId> clocks;
+  const auto add = [&](core::VariableId clock) {
+    if (!system.connections_to(clock).empty()) clocks.push_back(clock);
+  };
+  const core::Variable& variable = system.variable(id);
+  if (variable.type == core::ValueType::Clock) {
+    add(id);
+    return clocks;
+  }
+  for (const core::ValueReference clock : variable.clocks) {
+    add({id.component, *system.components()[id.component].description->find(clock)});
+  }
+  return clocks;
+}
+
+/// Whether Binary values are received in it, or with it.
+bool has_bits(const core::System& system, core::VariableId id) {
+  const core::Variable& variable = system.variable(id);
+  if (variable.type != core::ValueType::Clock) return variable.type == core::ValueType::Binary;
+  const auto& variables = system.components()[id.component].description->variables;
+  return std::ranges::any_of(variables, [&](const core::Variable& other) {
+    return other.type == core::ValueType::Binary && other.belongs_to(variable.reference) &&
+           other.causality == core::Causality::Input;
+  });
+}
+
+Refusal refusal_to_disturb(const core::System& system, InterventionKind kind, core::VariableId id) {
+  const core::Variable& variable = system.variable(id);
+  const bool is_clock = variable.type == core::ValueType::Clock;
+  if (variable.causality != core::Causality::Input || (!is_clock && !system.is_message(id))) {
+    return {"receives no messages",
+            "choose an input clock, or an input that belongs to a triggered clock"};
+  }
+  const std::size_t clocks = clocks_of(system, id).size();
+  if (clocks == 0 || (!is_clock && system.connections_to(id).empty())) {
+    return {"is not connected", "choose an input that receives messages"};
+  }
+  if (clocks > 1) return {"belongs to more than one connected clock", "choose one of its clocks"};
+  if (kind == InterventionKind::Corrupt && !has_bits(system, id)) {
+    return {"receives no Binary values", "drop or delay its messages"};
+  }
+  return {};
+}
+
+Refusal refusal(const core::System& system, InterventionKind kind, core::VariableId id) {
+  return disturbs_messages(kind) ? refusal_to_disturb(system, kind, id)
+                                 : refusal_to_change(system, kind, id);
+}
+
+const char* participle(InterventionKind kind) {
+  if (kind == InterventionKind::Set) return "set";
+  return disturbs_messages(kind) ? "disturbed" : "forced";
+}
+
+std::size_t parse_count(std::string_view text, const char* of_what) {
+  std::size_t count = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), count);
+  if (error != std::errc{} || end != text.data() + text.size()) {
+    throw std::invalid_argument(
+        fmt::format("'{}' is not a number of {}: expected a whole number", text, of_what));
+  }
+  return count;
+}
+
+void read_bits(std::string_view text, Intervention& intervention) {
+  const std::size_t comma = text.find(',');
+  intervention.bits = parse_count(text.substr(0, comma), "bits");
+  if (comma != std::string_view::npos) {
+    intervention.header = parse_count(text.substr(comma + 1), "bytes of a header");
+  }
+  if (intervention.bits == 0) throw std::invalid_argument("0 bits leave messages as they are");
+}
+
+/// Throws std::invalid_argument if it is none.
+void read_value(const core::System& system, const InterventionDeclaration& declared,
+                Intervention& intervention) {
+  switch (declared.kind) {
+    case InterventionKind::Set:
+    case InterventionKind::Force:
+      intervention.value = core::parse(system.variable(intervention.id), *declared.value);
+      return;
+    case InterventionKind::Delay:
+      intervention.delay = core::parse_seconds(*declared.value);
+      if (intervention.delay > Duration{}) break;
+      throw std::invalid_argument(fmt::format("a delay of {} s is not above 0 s", *declared.value));
+    case InterventionKind::Corrupt:
+      read_bits(*declared.value, intervention);
+      intervention.seed = declared.seed;
+      break;
+    case InterventionKind::Hold:
+      return;
+    case InterventionKind::Drop:
+      break;
+  }
+  intervention.clock = clocks_of(system, intervention.id).front();
 }
 
 void check_times(const InterventionDeclaration& declared, const core::Context& context,
@@ -128,23 +251,25 @@ Intervention resolve(const core::System& system, const InterventionDeclaration& 
   const core::Context context = context_of(system, id, declared.where);
   if (const auto [reason, hint] = refusal(system, declared.kind, id); !reason.empty()) {
     core::fail_input(context,
-                     fmt::format("it cannot be {}, since it {}",
-                                 declared.kind == InterventionKind::Set ? "set" : "forced", reason),
+                     fmt::format("it cannot be {}, since it {}", participle(declared.kind), reason),
                      hint);
   }
   check_times(declared, context, times);
-  Intervention intervention{declared.kind, id, declared.from, declared.until, std::nullopt};
-  if (declared.kind == InterventionKind::Hold) return intervention;
+  Intervention intervention{declared.kind, id, declared.from, declared.until};
   try {
-    intervention.value = core::parse(system.variable(id), declared.value);
+    read_value(system, declared, intervention);
   } catch (const std::invalid_argument& mistake) {
     core::fail_input(context, mistake.what());
   }
   return intervention;
 }
 
+/// What an intervention changes: messages are received with their clock.
+core::VariableId changed(const Intervention& intervention) {
+  return disturbs_messages(intervention.kind) ? intervention.clock : intervention.id;
+}
+
 bool contradict(const Intervention& one, const Intervention& other) {
-  if (one.id != other.id) return false;
   if (one.kind == InterventionKind::Set) return one.from == other.from;
   const auto end = [](const Intervention& intervention) {
     return intervention.until.value_or(Time::max());
@@ -159,7 +284,7 @@ void check_contradictions(const core::System& system, const Resolved& resolved) 
   std::map<core::VariableId, const Resolved::value_type*> latest;
   for (const auto& entry : resolved) {
     const auto& [intervention, where] = entry;
-    const auto [place, is_first] = latest.emplace(intervention.id, &entry);
+    const auto [place, is_first] = latest.emplace(changed(intervention), &entry);
     if (is_first) continue;
     const auto& [earlier, earlier_where] = *place->second;
     if (contradict(earlier, intervention)) {
@@ -188,21 +313,29 @@ InterventionDeclaration parse_set_at(const std::string& text) {
 }
 
 InterventionDeclaration parse_force(const std::string& text) {
-  constexpr const char* kOption = "--force";
-  const auto [assignment, times] = split_time(kOption, text, kForceForm);
-  const std::size_t dots = times.find("..");
-  const std::size_t sign = assignment.find('=');
-  if (dots == std::string::npos || assignment.empty() || sign == 0) {
-    fail_form(kOption, text, kForceForm);
-  }
-  InterventionDeclaration declared{
-      .kind = sign == std::string::npos ? InterventionKind::Hold : InterventionKind::Force,
-      .variable = assignment.substr(0, sign),
-      .value = sign == std::string::npos ? "" : assignment.substr(sign + 1),
-      .from = parse_time(kOption, text, times.substr(0, dots)),
-      .where = {fmt::format("{} {}", kOption, text), 0}};
-  const std::string until = times.substr(dots + 2);
-  if (!until.empty()) declared.until = parse_time(kOption, text, until);
+  InterventionDeclaration declared = parse_from_until("--force", text, kForceForm);
+  declared.kind = declared.value ? InterventionKind::Force : InterventionKind::Hold;
+  return declared;
+}
+
+InterventionDeclaration parse_drop(const std::string& text) {
+  InterventionDeclaration declared = parse_from_until("--drop", text, kDropForm);
+  if (declared.value) fail_form("--drop", text, kDropForm);
+  declared.kind = InterventionKind::Drop;
+  return declared;
+}
+
+InterventionDeclaration parse_delay(const std::string& text) {
+  InterventionDeclaration declared = parse_from_until("--delay", text, kDelayForm);
+  if (!declared.value) fail_form("--delay", text, kDelayForm);
+  declared.kind = InterventionKind::Delay;
+  return declared;
+}
+
+InterventionDeclaration parse_corrupt(const std::string& text) {
+  InterventionDeclaration declared = parse_from_until("--corrupt", text, kCorruptForm);
+  if (!declared.value) declared.value = "1";
+  declared.kind = InterventionKind::Corrupt;
   return declared;
 }
 

@@ -2,6 +2,7 @@
 #ifndef STRIDE_MASTER_SCENARIO_INTERVENTIONS_H
 #define STRIDE_MASTER_SCENARIO_INTERVENTIONS_H
 
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
@@ -19,9 +20,12 @@ namespace stride::scenario {
 struct InterventionDeclaration {
   core::Intervention::Kind kind = core::Intervention::Kind::Set;
   std::string variable;  ///< "component.variable"
-  std::string value;     ///< empty for Hold
+  /// Of Set and Force; of Delay the seconds; of Corrupt the number of bits, and behind a comma the
+  /// bytes of the header.
+  std::optional<std::string> value{};
   Time from{};
   std::optional<Time> until{};
+  std::uint64_t seed = 1;  ///< of Corrupt
   core::Location where{};
 };
 
@@ -30,6 +34,13 @@ InterventionDeclaration parse_set_at(const std::string& text);
 /// Takes the text of `--force`, "COMPONENT.VARIABLE[=VALUE]@FROM..[UNTIL]"; without a value it is
 /// held. Throws core::Error (Input).
 InterventionDeclaration parse_force(const std::string& text);
+/// Likewise of `--drop`, "COMPONENT.VARIABLE@FROM..[UNTIL]".
+InterventionDeclaration parse_drop(const std::string& text);
+/// Likewise of `--delay`, "COMPONENT.VARIABLE=SECONDS@FROM..[UNTIL]".
+InterventionDeclaration parse_delay(const std::string& text);
+/// Likewise of `--corrupt`, "COMPONENT.VARIABLE[=BITS[,HEADER]]@FROM..[UNTIL]"; one bit where none
+/// is given.
+InterventionDeclaration parse_corrupt(const std::string& text);
 
 /// The run for which interventions are meant.
 struct RunTimes {

@@ -407,6 +407,9 @@ void LoadedScenario::choose_interventions(const ScenarioRequest& request) {
   std::vector<InterventionDeclaration> declared = scenario_.annotation.interventions;
   for (const std::string& text : request.set_at) declared.push_back(parse_set_at(text));
   for (const std::string& text : request.forces) declared.push_back(parse_force(text));
+  for (const std::string& text : request.drops) declared.push_back(parse_drop(text));
+  for (const std::string& text : request.delays) declared.push_back(parse_delay(text));
+  for (const std::string& text : request.corruptions) declared.push_back(parse_corrupt(text));
   options_.interventions = resolve_interventions(*system_, declared, {options_.start, stop});
   check_instants_of_interventions();
   const std::size_t count = options_.interventions.size();
@@ -414,7 +417,7 @@ void LoadedScenario::choose_interventions(const ScenarioRequest& request) {
     for (const IdleTwin& pair : idle_twins_) {
       if (options_.interventions[i].id.component != pair.unit) continue;
       core::Intervention of_twin = options_.interventions[i];
-      of_twin.id.component = pair.twin;
+      of_twin.id.component = of_twin.clock.component = pair.twin;
       options_.interventions.push_back(std::move(of_twin));
     }
   }

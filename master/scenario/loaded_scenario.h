@@ -26,13 +26,16 @@ namespace stride::scenario {
 /// The settings of the command line for a scenario.
 struct ScenarioRequest {
   std::filesystem::path scenario;
-  std::vector<std::string> swaps;    ///< "component=FILE"
-  std::vector<std::string> sets;     ///< "component.variable=value"
-  std::vector<std::string> set_at;   ///< "component.variable=value@time"
-  std::vector<std::string> forces;   ///< "component.variable[=value]@from..[until]"
-  std::vector<std::string> signals;  ///< globs that replace the scenario's
-  std::string stop;                  ///< seconds; empty = the scenario's
-  StepSettings step;                 ///< overrides the scenario
+  std::vector<std::string> swaps;        ///< "component=FILE"
+  std::vector<std::string> sets;         ///< "component.variable=value"
+  std::vector<std::string> set_at;       ///< "component.variable=value@time"
+  std::vector<std::string> forces;       ///< "component.variable[=value]@from..[until]"
+  std::vector<std::string> drops;        ///< "component.variable@from..[until]"
+  std::vector<std::string> delays;       ///< "component.variable=seconds@from..[until]"
+  std::vector<std::string> corruptions;  ///< "component.variable[=bits]@from..[until]"
+  std::vector<std::string> signals;      ///< globs that replace the scenario's
+  std::string stop;                      ///< seconds; empty = the scenario's
+  StepSettings step;                     ///< overrides the scenario
   bool no_idle_skip = false;
   std::string max_skip;  ///< seconds, for all components; empty = the scenario's
   bool no_checks = false;

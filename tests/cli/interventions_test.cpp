@@ -14,6 +14,15 @@ Workspace low_passes(const std::string& annotation = "") {
                          connection("a.y", "b.u"), annotation});
 }
 
+/// A ticker that ticks each 0.141 s, and who listens to it.
+Workspace talkers(const std::string& annotation = "") {
+  return Workspace(Parts{component("ticker", "ticker.fmu") + component("listener", "listener.fmu"),
+                         connection("ticker.tick.clock", "listener.message.clock") +
+                             connection("ticker.tick.number", "listener.message.number") +
+                             connection("ticker.tick.picoseconds", "listener.message.picoseconds"),
+                         annotation});
+}
+
 std::string events_of(const Workspace& workspace) { return workspace.result("events.csv"); }
 
 }  // namespace
@@ -107,4 +116,40 @@ TEST_CASE("check lists the interventions") {
   CHECK_THAT(outcome.out, Contains("\nInterventions\n"));
   CHECK_THAT(outcome.out, Contains("0.125             a.u       set           2"));
   CHECK_THAT(outcome.out, Contains("0.25        0.5  b.u       hold"));
+}
+
+TEST_CASE("messages are dropped and delayed by a scenario and by the command line") {
+  const Workspace workspace = talkers(
+      "<stride:Drop variable='listener.message.number' from='0.2' until='0.4'/>\n"
+      "<stride:Delay variable='listener.message.clock' time='0.03' from='0.5'/>\n");
+  const Arguments arguments{"--quiet", "--set", "ticker.period=0.1", "--stop", "0.75"};
+  REQUIRE(workspace.run(arguments).exit_code == 0);
+  const std::string events = events_of(workspace);
+  CHECK_THAT(events, Contains("0.282842712475,1,listener,message.number,intervention,,dropped\n"));
+  CHECK_THAT(events, !Contains("listener,message.number,received,2"));
+  CHECK_THAT(events, Contains("0.424264068712,1,listener,message.number,received,3"));
+  CHECK_THAT(events, Contains("0.565685424949,1,listener,message.clock,intervention,,delayed until "
+                              "0.595685424949 s\n"));
+  CHECK_THAT(events, Contains("0.595685424949,0,listener,message.number,received,4"));
+  const Workspace other = talkers();
+  Arguments options = arguments;
+  for (const char* text : {"--drop", "listener.message.number@0.2..0.4", "--delay",
+                           "listener.message.clock=0.03@0.5.."}) {
+    options.emplace_back(text);
+  }
+  REQUIRE(other.run(options).exit_code == 0);
+  CHECK(events_of(other) == events);
+  const auto interventions = run_json(other)["interventions"];
+  REQUIRE(interventions.size() == 2);
+  CHECK(interventions[0]["kind"] == "drop");
+  CHECK(interventions[1]["delay"] == 0.03);
+}
+
+TEST_CASE("a message that cannot be corrupted is an error before the run, with its line") {
+  const Workspace workspace =
+      talkers("<stride:Corrupt variable='listener.message.number' bits='2' from='0.2'/>\n");
+  const Outcome outcome = workspace.run({"--quiet"});
+  CHECK(outcome.exit_code == 2);
+  CHECK_THAT(outcome.err, Contains("unit 'listener', variable 'message.number': it cannot be "
+                                   "disturbed, since it receives no Binary values"));
 }

@@ -43,7 +43,7 @@ SHOWN = {
     "StepPolicy": "",
     "EventHandler": "had_event has_announced count description activate activate_announced update_announced "
                     "notify_observers receive report content_of described_by fail_nan fail_ticking fail_sample_loop "
-                    "takes_part find_discontinuities set_in_event make_assignments",
+                    "takes_part find_discontinuities set_in_event make_assignments disturb release report_disturbed",
 }
 
 

@@ -25,7 +25,8 @@ std::set<VariableId> inputs_of_loops(const System& system) {
   return inputs;
 }
 
-/// Each second real input that may be changed is changed twice, at instants on no grid.
+/// Each second real input that may be changed is changed twice, at instants on no grid, and each
+/// second clock receives its messages late, or not at all.
 std::vector<Intervention> random_interventions(const Assembly& assembly, unsigned seed) {
   const System system(assembly.declaration());
   const std::set<VariableId> loops = inputs_of_loops(system);
@@ -44,6 +45,16 @@ std::vector<Intervention> random_interventions(const Assembly& assembly, unsigne
     for (std::size_t k = 0; k < variables.size(); ++k) {
       const VariableId id{i, k};
       const Variable& variable = variables[k];
+      if (variable.type == ValueType::Clock && !system.connections_to(id).empty()) {
+        if (random() % 2 == 0) continue;
+        Intervention late{Intervention::Kind::Delay, id, instant(0ms, 20ms), instant(21ms, 29ms)};
+        late.delay = Duration(instant(0ms, 9ms).time_since_epoch()) + 1ms;
+        Intervention none{Intervention::Kind::Drop, id, instant(30ms, 40ms)};
+        late.clock = none.clock = id;
+        interventions.push_back(std::move(late));
+        interventions.push_back(std::move(none));
+        continue;
+      }
       const bool is_real_input = variable.causality == Causality::Input &&
                                  variable.type == ValueType::Float64 && variable.size == 1 &&
                                  system.is_signal(id) && !system.is_sampled(id);

@@ -1,7 +1,6 @@
 #include "master/algorithm/events/event_handler.h"
 
 #include <algorithm>
-#include <functional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -14,13 +13,18 @@ namespace {
 /// Event iterations at one instant after which the run fails.
 constexpr std::uint32_t kEventLimit = 1000;
 
+std::optional<Time> earlier(std::optional<Time> one, std::optional<Time> other) {
+  if (!one || !other) return one ? one : other;
+  return std::min(*one, *other);
+}
+
 }  // namespace
 
 EventHandler::EventHandler(RunContext& context, IdleScheduler* idle)
     : system_(context.system),
       units_(context.units),
       exchange_(context.exchange),
-      messages_(system_, units_),
+      messages_(system_, units_, *this),
       texts_(capabilities<MessageText>(units_)),
       clocks_(system_, units_),
       observers_(context.observers),
@@ -55,9 +59,7 @@ void EventHandler::begin() {
 }
 
 std::optional<Time> EventHandler::next_event() const {
-  const std::optional<Time> tick = clocks_.next();
-  if (!tick || !announced_) return tick ? tick : announced_;
-  return std::min(*tick, *announced_);
+  return earlier(earlier(clocks_.next(), announced_), messages_.next_delivery());
 }
 
 void EventHandler::begin_instant(Time time) {
@@ -125,13 +127,14 @@ bool EventHandler::prepare_events() {
   for (const std::size_t i : discrete_units_) {
     if (exchange_.has_discrete_change(i)) activate(i);
   }
-  if (!has_active_ && !has_event_) return false;
+  const bool has_delivery = messages_.has_delivery(time_);
+  if (!has_active_ && !has_event_ && !has_delivery) return false;
   for (const std::size_t i : event_units_) {
     if (in_event_mode_[i]) exchange_.write_inputs(i, *units_[i]);
     if (active_[i]) enter_event_mode(i);
   }
   make_assignments();
-  return has_active_;
+  return has_active_ || has_delivery;
 }
 
 void EventHandler::make_assignments() {
@@ -240,11 +243,14 @@ bool EventHandler::include(std::size_t i) {
 /// What is sent at a tick may depend on the messages of this instant, so those of triggered clocks
 /// are handed over before.
 void EventHandler::exchange_messages() {
-  messages_.begin_instant();
+  messages_.begin_instant(time_);
   polled_ = in_event_mode_;
+  messages_.deliver_delayed();
   transmit_triggered();
   for (const std::size_t i : event_units_) {
-    if (!clocks_.ticking(i).empty()) transmit_ticks(i);
+    if (const auto ticking = clocks_.ticking(i); !ticking.empty()) {
+      messages_.transmit_ticks(i, ticking);
+    }
   }
   transmit_triggered();
 }
@@ -257,20 +263,9 @@ void EventHandler::transmit_triggered() {
       if (!polled_[i]) continue;
       polled_[i] = false;
       again = true;
-      transmit(i);
+      messages_.transmit(i);
     }
   }
-}
-
-void EventHandler::transmit(std::size_t sender) {
-  messages_.transmit(sender, std::bind_front(&EventHandler::receive, this),
-                     std::bind_front(&EventHandler::report, this));
-}
-
-void EventHandler::transmit_ticks(std::size_t sender) {
-  messages_.transmit_ticks(sender, clocks_.ticking(sender),
-                           std::bind_front(&EventHandler::receive, this),
-                           std::bind_front(&EventHandler::report, this));
 }
 
 void EventHandler::receive(std::size_t receiver) {
@@ -283,6 +278,10 @@ void EventHandler::report(VariableId id, bool received, const ValueBlock* block)
   UnitStatistics& statistics = statistics_.units[id.component];
   ++(received ? statistics.messages_received : statistics.messages_sent);
   notify_observers(id, received, block);
+}
+
+void EventHandler::report_disturbed(VariableId id, const std::string& text) {
+  for (Observer* observer : observers_) observer->on_intervention(time_, index_, id, text);
 }
 
 void EventHandler::notify_observers(VariableId id, bool received, const ValueBlock* block) {

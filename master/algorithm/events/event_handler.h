@@ -21,7 +21,8 @@
 namespace stride::core {
 
 /// Handles the events at a communication point, and keeps the times of the next ones.
-class EventHandler : private OrderedEvaluation::Participants {
+class EventHandler : private OrderedEvaluation::Participants,
+                     private MessageExchange::Participants {
  public:
   /// Both must outlive this object. `idle`: optional idle scheduler.
   explicit EventHandler(RunContext& context, IdleScheduler* idle = nullptr);
@@ -42,6 +43,9 @@ class EventHandler : private OrderedEvaluation::Participants {
     assignments_.push_back({id, &value});
     activate(id.component);
   }
+  /// What a clock receives is dropped, delayed or corrupted from now on, and until release().
+  void disturb(const Intervention& intervention) { messages_.disturb(intervention); }
+  void release(const Intervention& intervention) { messages_.release(intervention); }
   /// At a communication point, after the steps: finds the announced events and exchanges the
   /// outputs that have been read. Throws Error (Run) if a connected output is NaN.
   void begin_instant(Time time);
@@ -61,8 +65,8 @@ class EventHandler : private OrderedEvaluation::Participants {
   /// Whether the unit handled an event in the last handle_events(), by component.
   std::span<const char> had_event() const { return had_event_; }
 
-  /// The earliest event announced, or tick of a time-based clock, for later than the last
-  /// handle_events().
+  /// The earliest event announced, tick of a time-based clock, or arrival of a delayed message, for
+  /// later than the last handle_events().
   std::optional<Time> next_event() const;
 
  private:
@@ -83,10 +87,6 @@ class EventHandler : private OrderedEvaluation::Participants {
   void exchange_after_events();
   void exchange_messages();
   void transmit_triggered();
-  void transmit(std::size_t sender);
-  void transmit_ticks(std::size_t sender);
-  void receive(std::size_t receiver);
-  void report(VariableId id, bool received, const ValueBlock* block);
   void notify_observers(VariableId id, bool received, const ValueBlock* block);
   std::string content_of(VariableId id, const ValueBlock& block) const;
   std::string described_by(VariableId id, const ValueBlock& block) const;
@@ -99,6 +99,10 @@ class EventHandler : private OrderedEvaluation::Participants {
   bool takes_part(std::size_t i) const override { return in_event_mode_[i]; }
   void on_discontinuity(VariableId input, bool is_followed) override;
   bool include(std::size_t i) override;
+
+  void receive(std::size_t receiver) override;
+  void report(VariableId id, bool received, const ValueBlock* block) override;
+  void report_disturbed(VariableId id, const std::string& text) override;
 
   const System& system_;
   std::span<const std::unique_ptr<Unit>> units_;

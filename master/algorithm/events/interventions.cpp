@@ -31,7 +31,9 @@ void Interventions::make_all(Time time) {
 
 void Interventions::begin(const Intervention& intervention, Time time) {
   if (intervention.kind == Intervention::Kind::Set) return set(intervention, time);
-  force(intervention, time);
+  if (!disturbs_messages(intervention.kind)) return force(intervention, time);
+  event_handler_.disturb(intervention);
+  report(intervention, time, to_text(intervention));
 }
 
 void Interventions::set(const Intervention& intervention, Time time) {
@@ -55,6 +57,10 @@ void Interventions::force(const Intervention& intervention, Time time) {
 }
 
 void Interventions::end(const Intervention& intervention, Time time) {
+  if (disturbs_messages(intervention.kind)) {
+    event_handler_.release(intervention);
+    return report(intervention, time, "messages are received as they are sent");
+  }
   resume(intervention.id.component, time);
   exchange_.release(intervention.id);
   event_handler_.request_event(intervention.id.component);
@@ -69,7 +75,7 @@ void Interventions::resume(std::size_t component, Time time) {
 
 void Interventions::report(const Intervention& intervention, Time time,
                            const std::string& text) const {
-  for (Observer* observer : observers_) observer->on_intervention(time, intervention.id, text);
+  for (Observer* observer : observers_) observer->on_intervention(time, 0, intervention.id, text);
 }
 
 }  // namespace stride::core

@@ -1,6 +1,13 @@
 #include "master/algorithm/events/messages.h"
 
 #include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "master/algorithm/events/bit_errors.h"
+#include "master/util/time_text.h"
 
 namespace stride::core {
 namespace {
@@ -15,8 +22,12 @@ std::vector<VariableId> targets_of(const System& system, VariableId source) {
 
 }  // namespace
 
-MessageExchange::MessageExchange(const System& system, std::span<const std::unique_ptr<Unit>> units)
-    : system_(system), units_(units), senders_(system.components().size()) {
+MessageExchange::MessageExchange(const System& system, std::span<const std::unique_ptr<Unit>> units,
+                                 Participants& participants)
+    : system_(system),
+      units_(units),
+      participants_(participants),
+      senders_(system.components().size()) {
   tick_.numbers<bool>()[0] = true;
   for (std::size_t component = 0; component < senders_.size(); ++component) {
     const auto& variables = system.components()[component].description->variables;
@@ -33,42 +44,101 @@ void MessageExchange::add_clock(VariableId id) {
   if (clock.type != ValueType::Clock) return;
   const bool is_output = clock.causality == Causality::Output;
   if (!is_output && !system_.ticks_triggered(id)) return;
-  SourceClock source{id, clock.reference, {}, targets_of(system_, id), false};
+  SourceClock source{id, clock.reference, {}, {}, false};
   for (std::size_t i = 0; i < description.variables.size(); ++i) {
     const Variable& variable = description.variables[i];
     if (!variable.belongs_to(clock.reference) || variable.causality != Causality::Output) continue;
-    const VariableId value{id.component, i};
-    source.payloads.push_back({value, variable.reference, ValueBlock(variable.type, variable.size),
-                               receivers_of(value, source.targets)});
+    source.payloads.push_back(
+        {{id.component, i}, variable.reference, ValueBlock(variable.type, variable.size)});
+  }
+  for (const VariableId target : targets_of(system_, id)) {
+    source.targets.push_back(make_target(target, source.payloads));
   }
   Sender& sender = senders_[id.component];
   if (is_output) sender.references.push_back(clock.reference);
   (is_output ? sender.triggered : sender.time_based).push_back(std::move(source));
 }
 
-/// The inputs that the value travels to when the clock ticks: those that belong to a clock wired to
-/// it.
-std::vector<MessageExchange::Receiver> MessageExchange::receivers_of(
-    VariableId value, std::span<const VariableId> clock_targets) const {
-  std::vector<Receiver> receivers;
-  for (const Connection& connection : system_.connections()) {
-    if (connection.from != value) continue;
-    const VariableId input = connection.to;
-    const Variable& variable = system_.variable(input);
-    const bool is_reached = std::ranges::any_of(clock_targets, [&](VariableId clock) {
-      return clock.component == input.component &&
-             variable.belongs_to(system_.variable(clock).reference);
-    });
-    if (!is_reached) continue;
-    receivers.push_back({input, &connection, ValueBlock(variable.type, variable.size)});
+/// With the inputs that belong to this clock and are connected to one of the payloads.
+MessageExchange::Target MessageExchange::make_target(VariableId clock,
+                                                     std::span<const Payload> payloads) const {
+  Target target{clock, {}};
+  const ValueReference reference = system_.variable(clock).reference;
+  for (std::size_t payload = 0; payload < payloads.size(); ++payload) {
+    for (const Connection& connection : system_.connections()) {
+      const VariableId input = connection.to;
+      if (connection.from != payloads[payload].id || input.component != clock.component) continue;
+      const Variable& variable = system_.variable(input);
+      if (!variable.belongs_to(reference)) continue;
+      target.receivers.push_back(
+          {input, &connection, payload, ValueBlock(variable.type, variable.size)});
+    }
   }
-  return receivers;
+  return target;
 }
 
-void MessageExchange::begin_instant() {
+template <class Function>
+void MessageExchange::for_each_target(Function&& function) {
+  for (Sender& sender : senders_) {
+    for (std::vector<SourceClock>* const clocks : {&sender.time_based, &sender.triggered}) {
+      for (SourceClock& clock : *clocks) std::ranges::for_each(clock.targets, function);
+    }
+  }
+}
+
+MessageExchange::Target& MessageExchange::target_of(const Intervention& intervention) {
+  Target* found = nullptr;
+  for_each_target([&](Target& target) {
+    if (target.clock == intervention.clock) found = &target;
+  });
+  if (found == nullptr) throw std::logic_error("an intervention on a clock without messages");
+  return *found;
+}
+
+void MessageExchange::disturb(const Intervention& intervention) {
+  target_of(intervention).disturbance = &intervention;
+}
+
+void MessageExchange::release(const Intervention& intervention) {
+  target_of(intervention).disturbance = nullptr;
+}
+
+void MessageExchange::begin_instant(Time time) {
+  time_ = time;
   for (Sender& sender : senders_) {
     for (SourceClock& clock : sender.time_based) clock.is_forwarded = false;
     for (SourceClock& clock : sender.triggered) clock.is_forwarded = false;
+  }
+  for_each_target([](Target& target) { target.has_ticked = false; });
+}
+
+void MessageExchange::deliver_delayed() {
+  for (auto next = delayed_.begin(); next != delayed_.end() && next->due <= time_;) {
+    Target& target = *next->target;
+    if (target.has_ticked) {  // a clock ticks once in an instant, so the next one has to wait
+      ++next;
+      continue;
+    }
+    for (std::size_t i = 0; i < target.receivers.size(); ++i) {
+      target.receivers[i].block = std::move(next->values[i]);
+    }
+    next = delayed_.erase(next);
+    deliver(target);
+  }
+}
+
+void MessageExchange::transmit(std::size_t component) {
+  if (!poll(component)) return;
+  Sender& sender = senders_[component];
+  for (std::size_t i = 0; i < sender.triggered.size(); ++i) {
+    if (sender.ticked.numbers<bool>()[i]) forward(sender.triggered[i]);
+  }
+}
+
+void MessageExchange::transmit_ticks(std::size_t component,
+                                     std::span<const ValueReference> ticking) {
+  for (SourceClock& clock : senders_[component].time_based) {
+    if (std::ranges::find(ticking, clock.reference) != ticking.end()) forward(clock);
   }
 }
 
@@ -80,17 +150,88 @@ bool MessageExchange::poll(std::size_t component) {
   return std::find(ticked.begin(), ticked.end(), true) != ticked.end();
 }
 
-void MessageExchange::read_payload(std::size_t component, Payload& payload) {
-  units_[component]->get({&payload.reference, 1}, payload.block);
+void MessageExchange::forward(SourceClock& clock) {
+  if (std::exchange(clock.is_forwarded, true)) return;
+  send(clock);
+  for (Target& target : clock.targets) {
+    convert(target, clock.payloads);
+    if (target.disturbance != nullptr && !passes(target)) continue;
+    target.has_ticked ? delay(target, time_) : deliver(target);
+  }
 }
 
-void MessageExchange::set_clock(VariableId target) {
-  units_[target.component]->set({&system_.variable(target).reference, 1}, tick_);
+void MessageExchange::send(SourceClock& clock) {
+  for (Payload& payload : clock.payloads) {
+    units_[clock.id.component]->get({&payload.reference, 1}, payload.block);
+    participants_.report(payload.id, false, &payload.block);
+  }
+  if (clock.payloads.empty()) participants_.report(clock.id, false, nullptr);
 }
 
-void MessageExchange::set_payload(Receiver& receiver, const ValueBlock& payload) {
-  copy_elements(receiver.block, 0, payload, 0, payload.size(), receiver.connection->conversion);
-  units_[receiver.id.component]->set({&system_.variable(receiver.id).reference, 1}, receiver.block);
+void MessageExchange::convert(Target& target, std::span<const Payload> payloads) {
+  for (Receiver& receiver : target.receivers) {
+    const ValueBlock& sent = payloads[receiver.payload].block;
+    copy_elements(receiver.block, 0, sent, 0, sent.size(), receiver.connection->conversion);
+  }
+}
+
+/// Does what the intervention demands. Returns whether the message is received now.
+bool MessageExchange::passes(Target& target) {
+  const Intervention& disturbance = *target.disturbance;
+  switch (disturbance.kind) {
+    case Intervention::Kind::Drop:
+      participants_.report_disturbed(disturbance.id, "dropped");
+      return false;
+    case Intervention::Kind::Delay: {
+      const Time due = later(time_, disturbance.delay);
+      participants_.report_disturbed(disturbance.id,
+                                     fmt::format("delayed until {} s", to_text(due)));
+      delay(target, due);
+      return false;
+    }
+    default:
+      corrupt(target);
+      return true;
+  }
+}
+
+void MessageExchange::corrupt(Target& target) {
+  const Intervention& disturbance = *target.disturbance;
+  const bool is_whole = disturbance.id == disturbance.clock;
+  std::vector<std::span<std::uint8_t>> values;
+  for (Receiver& receiver : target.receivers) {
+    if (receiver.block.type() != ValueType::Binary) continue;
+    if (!is_whole && receiver.id != disturbance.id) continue;
+    for (Binary& value : receiver.block.binaries()) {
+      values.push_back(std::span(value).subspan(std::min(disturbance.header, value.size())));
+    }
+  }
+  const std::size_t inverted =
+      invert_bits(values, disturbance.bits, {disturbance.seed, target.corrupted++});
+  participants_.report_disturbed(
+      disturbance.id, fmt::format("{} bit{} inverted", inverted, inverted == 1 ? "" : "s"));
+}
+
+void MessageExchange::delay(Target& target, Time due) {
+  std::vector<ValueBlock> values;
+  for (const Receiver& receiver : target.receivers) values.push_back(receiver.block);
+  const auto after = std::ranges::upper_bound(delayed_, due, {}, &Delayed::due);
+  delayed_.insert(after, {due, &target, std::move(values)});
+}
+
+void MessageExchange::deliver(Target& target) {
+  target.has_ticked = true;
+  participants_.receive(target.clock.component);
+  set(target.clock, tick_);
+  if (target.receivers.empty()) participants_.report(target.clock, true, nullptr);
+  for (const Receiver& receiver : target.receivers) {
+    set(receiver.id, receiver.block);
+    participants_.report(receiver.id, true, &receiver.block);
+  }
+}
+
+void MessageExchange::set(VariableId id, const ValueBlock& value) {
+  units_[id.component]->set({&system_.variable(id).reference, 1}, value);
 }
 
 }  // namespace stride::core

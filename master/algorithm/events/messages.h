@@ -2,14 +2,18 @@
 #ifndef STRIDE_MASTER_ALGORITHM_EVENTS_MESSAGES_H
 #define STRIDE_MASTER_ALGORITHM_EVENTS_MESSAGES_H
 
-#include <algorithm>
+#include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <memory>
+#include <optional>
 #include <span>
-#include <utility>
+#include <string>
 #include <vector>
 
-#include "master/algorithm/observer.h"
+#include <stride/time.h>
+
+#include "master/algorithm/intervention.h"
 #include "master/algorithm/unit.h"
 #include "master/model/system.h"
 
@@ -19,53 +23,74 @@ namespace stride::core {
 /// clocked variables of each, and the connected inputs.
 class MessageExchange {
  public:
-  MessageExchange(const System& system, std::span<const std::unique_ptr<Unit>> units);
+  /// What happens around a message.
+  class Participants {
+   public:
+    /// Before anything is set in this component: it must be in Event Mode then.
+    virtual void receive(std::size_t component) = 0;
+    /// A message, or a tick without a value, was sent or received.
+    virtual void report(VariableId id, bool received, const ValueBlock* block) = 0;
+    /// A message was not received as it was sent.
+    virtual void report_disturbed(VariableId id, const std::string& text) = 0;
+
+   protected:
+    ~Participants() = default;
+  };
+
+  /// All must outlive this object.
+  MessageExchange(const System& system, std::span<const std::unique_ptr<Unit>> units,
+                  Participants& participants);
 
   /// A new super-dense instant begins: each clock may tick once in it.
-  void begin_instant();
+  void begin_instant(Time time);
 
+  /// Hands over the messages whose delay is over.
+  void deliver_delayed();
   /// Reads the output clocks of a unit in Event Mode and hands over those that tick and were not
-  /// handed over in this instant. `prepare` is called with each receiving component before anything
-  /// is set there (it must be in Event Mode then), `report` with each message sent or received.
-  template <class Prepare, class Report>
-  void transmit(std::size_t component, Prepare&& prepare, Report&& report) {
-    if (!poll(component)) return;
-    Sender& sender = senders_[component];
-    for (std::size_t i = 0; i < sender.triggered.size(); ++i) {
-      if (!sender.ticked.numbers<bool>()[i]) continue;
-      forward(component, sender.triggered[i], prepare, report);
-    }
-  }
-
+  /// handed over in this instant.
+  void transmit(std::size_t component);
   /// Likewise for the unit's time-based clocks that tick.
-  template <class Prepare, class Report>
-  void transmit_ticks(std::size_t component, std::span<const ValueReference> ticking,
-                      Prepare&& prepare, Report&& report) {
-    for (SourceClock& clock : senders_[component].time_based) {
-      if (std::ranges::find(ticking, clock.reference) == ticking.end()) continue;
-      forward(component, clock, prepare, report);
-    }
+  void transmit_ticks(std::size_t component, std::span<const ValueReference> ticking);
+
+  /// From now on, what the intervention's clock would receive is dropped, delayed or corrupted. The
+  /// intervention must outlive this object, or the call of release().
+  void disturb(const Intervention& intervention);
+  void release(const Intervention& intervention);
+
+  /// When the next delayed message arrives.
+  std::optional<Time> next_delivery() const {
+    if (delayed_.empty()) return std::nullopt;
+    return delayed_.front().due;
   }
+  bool has_delivery(Time time) const { return !delayed_.empty() && delayed_.front().due <= time; }
 
  private:
   /// A connected input, and the converted value.
   struct Receiver {
     VariableId id;
     const Connection* connection;
+    std::size_t payload;  ///< the index of what it receives
     ValueBlock block;
   };
-  /// A variable that belongs to such a clock.
+  /// An input clock, and the inputs that belong to it.
+  struct Target {
+    VariableId clock;
+    std::vector<Receiver> receivers;
+    const Intervention* disturbance = nullptr;
+    std::uint64_t corrupted = 0;  ///< messages in this run
+    bool has_ticked = false;      ///< in this instant
+  };
+  /// A variable that belongs to a source clock.
   struct Payload {
     VariableId id;
     ValueReference reference;
     ValueBlock block;
-    std::vector<Receiver> receivers;
   };
   struct SourceClock {
     VariableId id;
     ValueReference reference;
     std::vector<Payload> payloads;
-    std::vector<VariableId> targets;
+    std::vector<Target> targets;
     bool is_forwarded = false;  ///< in this instant
   };
   /// A component with its clocks.
@@ -75,39 +100,34 @@ class MessageExchange {
     std::vector<ValueReference> references;  ///< of the triggered ones
     ValueBlock ticked{ValueType::Clock, 0};
   };
+  /// A message on its way.
+  struct Delayed {
+    Time due;
+    Target* target;
+    std::vector<ValueBlock> values;  ///< of its receivers
+  };
 
   void add_clock(VariableId id);
+  Target make_target(VariableId clock, std::span<const Payload> payloads) const;
+  Target& target_of(const Intervention& intervention);
+  template <class Function>
+  void for_each_target(Function&& function);
   bool poll(std::size_t component);
-  void read_payload(std::size_t component, Payload& payload);
-  void set_clock(VariableId target);
-  void set_payload(Receiver& receiver, const ValueBlock& payload);
-  std::vector<Receiver> receivers_of(VariableId value,
-                                     std::span<const VariableId> clock_targets) const;
-
-  template <class Prepare, class Report>
-  void forward(std::size_t component, SourceClock& clock, Prepare& prepare, Report& report) {
-    if (std::exchange(clock.is_forwarded, true)) return;
-    for (Payload& payload : clock.payloads) {
-      read_payload(component, payload);
-      report(payload.id, false, &payload.block);
-    }
-    if (clock.payloads.empty()) report(clock.id, false, static_cast<const ValueBlock*>(nullptr));
-    for (const VariableId target : clock.targets) {
-      prepare(target.component);
-      set_clock(target);
-      if (clock.payloads.empty()) report(target, true, static_cast<const ValueBlock*>(nullptr));
-    }
-    for (Payload& payload : clock.payloads) {
-      for (Receiver& receiver : payload.receivers) {
-        set_payload(receiver, payload.block);
-        report(receiver.id, true, &receiver.block);
-      }
-    }
-  }
+  void forward(SourceClock& clock);
+  void send(SourceClock& clock);
+  void convert(Target& target, std::span<const Payload> payloads);
+  bool passes(Target& target);
+  void corrupt(Target& target);
+  void delay(Target& target, Time due);
+  void deliver(Target& target);
+  void set(VariableId id, const ValueBlock& value);
 
   const System& system_;
   std::span<const std::unique_ptr<Unit>> units_;
+  Participants& participants_;
   std::vector<Sender> senders_;
+  std::deque<Delayed> delayed_;  ///< by the time at which they arrive
+  Time time_{};
   ValueBlock tick_{ValueType::Clock, 1};
 };
 

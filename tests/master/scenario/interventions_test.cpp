@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "tests/at.h"
+#include "tests/master/algorithm/scripted_unit.h"
 #include "tests/master/ssp/support.h"
 
 using namespace stride;
@@ -117,4 +118,90 @@ TEST_CASE("interventions that contradict each other are an error") {
 TEST_CASE("all mistakes are told at once") {
   CHECK_THAT(mistake({"unit.y=3@4", "unit.fixed=3@4"}, {"unit.open@1.."}),
              Contains("3 things do not fit"));
+}
+
+namespace {
+
+/// A sender, and a receiver with two clocks.
+System talking_system() {
+  auto sender = Describe("sender")
+                    .add("tick", ValueType::Clock, Causality::Output)
+                    .add("bytes", ValueType::Binary, Causality::Output)
+                    .clocked_by(0)
+                    .add("number", ValueType::Int32, Causality::Output)
+                    .clocked_by(0)
+                    .done();
+  auto receiver = Describe("receiver")
+                      .add("tick", ValueType::Clock, Causality::Input)
+                      .add("bytes", ValueType::Binary, Causality::Input)
+                      .clocked_by(0)
+                      .add("number", ValueType::Int32, Causality::Input)
+                      .clocked_by(0)
+                      .add("open", ValueType::Clock, Causality::Input)
+                      .add("unheard", ValueType::Binary, Causality::Input)
+                      .clocked_by(3)
+                      .input("u")
+                      .done();
+  SystemDeclaration declaration;
+  declaration.components.push_back({"a", sender, {}, {}});
+  declaration.components.push_back({"b", receiver, {}, {}});
+  for (const char* name : {"tick", "bytes", "number"}) {
+    declaration.connections.push_back({"a", name, "b", name, false, {}});
+  }
+  return System(declaration);
+}
+
+std::vector<Intervention> disturbed(const std::vector<InterventionDeclaration>& declared) {
+  return resolve_interventions(talking_system(), declared, {at(0), at(10)});
+}
+
+}  // namespace
+
+TEST_CASE("messages are disturbed by their inputs or their clocks") {
+  const auto found = disturbed({parse_drop("b.number@1..2"), parse_delay("b.tick=0.25@2..3"),
+                                parse_corrupt("b.bytes@3..4"), parse_corrupt("b.tick=12,16@4..")});
+  REQUIRE(found.size() == 4);
+  for (const Intervention& intervention : found) CHECK(intervention.clock == VariableId{1, 0});
+  CHECK(found[0].kind == Intervention::Kind::Drop);
+  CHECK(found[0].id == VariableId{1, 2});
+  CHECK(found[1].kind == Intervention::Kind::Delay);
+  CHECK(found[1].delay == duration_from_seconds(0.25));
+  CHECK(found[2].bits == 1);
+  CHECK(found[2].header == 0);
+  CHECK(found[3].bits == 12);
+  CHECK(found[3].header == 16);
+  CHECK(!found[3].until);
+}
+
+TEST_CASE("messages that cannot be disturbed so are an error") {
+  const auto error = [](const InterventionDeclaration& declared) {
+    return error_of([&] { disturbed({declared}); });
+  };
+  CHECK_THAT(error(parse_drop("b.u@1..")),
+             Contains("it cannot be disturbed, since it receives no messages") &&
+                 Contains("choose an input clock"));
+  CHECK_THAT(error(parse_drop("a.bytes@1..")), Contains("it receives no messages"));
+  CHECK_THAT(error(parse_drop("b.open@1..")), Contains("it is not connected"));
+  CHECK_THAT(error(parse_drop("b.unheard@1..")), Contains("it is not connected"));
+  CHECK_THAT(error(parse_corrupt("b.number@1..")), Contains("it receives no Binary values"));
+  CHECK_THAT(error(parse_delay("b.bytes=0@1..")), Contains("a delay of 0 s is not above 0 s"));
+  CHECK_THAT(error(parse_delay("b.bytes=soon@1..")), Contains("soon"));
+  CHECK_THAT(error(parse_corrupt("b.bytes=0@1..")), Contains("0 bits leave messages as they are"));
+  CHECK_THAT(error(parse_corrupt("b.bytes=1,-2@1..")),
+             Contains("'-2' is not a number of bytes of a header: expected a whole number"));
+  CHECK_THAT(error(parse_force("b.bytes=00@1..")),
+             Contains("it cannot be forced, since it is a message") &&
+                 Contains("disturb it: <stride:Drop>"));
+  CHECK_THAT(error_of([] { parse_drop("b.bytes=1@1.."); }),
+             Contains("--drop b.bytes=1@1..: expected COMPONENT.VARIABLE@FROM..[UNTIL]"));
+  CHECK_THAT(error_of([] { parse_delay("b.bytes@1.."); }),
+             Contains("expected COMPONENT.VARIABLE=SECONDS@"));
+}
+
+TEST_CASE("two interventions on the messages of one clock contradict each other") {
+  CHECK_THAT(error_of([] {
+               disturbed({parse_drop("b.bytes@1..3"), parse_delay("b.number=1@2.5..")});
+             }),
+             Contains("contradicts this one"));
+  CHECK(disturbed({parse_drop("b.bytes@1..3"), parse_delay("b.number=1@3..")}).size() == 2);
 }

@@ -1,7 +1,10 @@
 #include "master/algorithm/events/interventions.h"
 
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <catch2/catch.hpp>
@@ -52,8 +55,10 @@ struct Intervening : ScriptedSystem {
 /// What observers are told.
 struct Told : Observer {
   std::vector<std::string> texts;
-  void on_intervention(Time time, VariableId id, std::string_view text) override {
-    texts.push_back(fmt::format("{} {}.{} {}", to_text(time), id.component, id.variable, text));
+  void on_intervention(Time time, std::uint32_t index, VariableId id,
+                       std::string_view text) override {
+    texts.push_back(
+        fmt::format("{} {} {}.{} {}", to_text(time), index, id.component, id.variable, text));
   }
 };
 
@@ -117,8 +122,8 @@ TEST_CASE(
   f.build(1, 100ms).add_observer(told);
   f.simulation->run();
   CHECK(unit.number(kIntegral) == Approx(0.5 * 1 + 0.5 * 2));
-  CHECK(told.texts == std::vector<std::string>{"0 1.0 forced to 1 until 0.5 s", "0.5 1.0 released",
-                                               "0.5 1.0 forced to 2"});
+  CHECK(told.texts == std::vector<std::string>{"0 0 1.0 forced to 1 until 0.5 s",
+                                               "0.5 0 1.0 released", "0.5 0 1.0 forced to 2"});
 }
 
 TEST_CASE("a unit with Event Mode is in it where one of its variables changes") {
@@ -222,4 +227,131 @@ TEST_CASE("an input stays forced where a unit is rolled back") {
   f.intervene(Intervention::Kind::Force, {1, kRate}, 0.25, 0.55, 1);
   f.run();
   CHECK(unit.number(kIntegral) == Approx(0.3));
+}
+
+namespace {
+
+constexpr ValueReference kTick = 0, kBytes = 1;
+
+/// One that sends its number at each multiple of a tenth of a second, and one that notes what it
+/// receives.
+struct Talking : Intervening {
+  ScriptedUnit& sender = add("sender", Describe("sender")
+                                           .add("tick", ValueType::Clock, Causality::Output)
+                                           .add("bytes", ValueType::Binary, Causality::Output)
+                                           .clocked_by(kTick)
+                                           .done());
+  ScriptedUnit& receiver = add("receiver", Describe("receiver")
+                                               .add("tick", ValueType::Clock, Causality::Input)
+                                               .add("bytes", ValueType::Binary, Causality::Input)
+                                               .clocked_by(kTick)
+                                               .done());
+  Time now{};
+  std::uint8_t sent = 0;
+  std::vector<std::pair<Time, Binary>> received;
+
+  Talking() {
+    wire("sender", "tick", "receiver", "tick");
+    wire("sender", "bytes", "receiver", "bytes");
+    sender.on_step = [this](ScriptedUnit& self, Time, Time to) {
+      now = to;
+      StepResult result = reached(to);
+      self.clock(kTick) = result.event_handling_needed = to.time_since_epoch() % 100ms == 0ms;
+      if (self.clock(kTick)) self.binary(kBytes) = {++sent, 0, 0, 0};
+      return result;
+    };
+    sender.on_event = [](ScriptedUnit& self) {
+      self.clock(kTick) = false;
+      return EventResult{};
+    };
+    receiver.on_event = [this](ScriptedUnit& self) {
+      if (std::exchange(self.clock(kTick), false)) received.emplace_back(now, self.binary(kBytes));
+      return EventResult{};
+    };
+  }
+  void disturb(Intervention::Kind kind, double from, std::optional<double> until,
+               Duration delay = {}) {
+    Intervention intervention{kind, {1, kBytes}, at(from), {}, {}, {1, kTick}, delay, 3, 1, 7};
+    if (until) intervention.until = at(*until);
+    options.interventions.push_back(std::move(intervention));
+  }
+  /// The numbers that have arrived, each with its time in milliseconds.
+  std::vector<std::pair<std::int64_t, int>> arrivals() const {
+    std::vector<std::pair<std::int64_t, int>> all;
+    for (const auto& [time, bytes] : received) {
+      all.emplace_back(time.time_since_epoch() / 1ms, bytes.at(0));
+    }
+    return all;
+  }
+};
+
+using Arrivals = std::vector<std::pair<std::int64_t, int>>;
+
+}  // namespace
+
+TEST_CASE("messages are dropped for a time, and others see them") {
+  struct Messages : Observer {
+    int sent = 0, received = 0;
+    void on_message(const Message& message) override { ++(message.received ? received : sent); }
+  };
+  Talking f;
+  f.disturb(Intervention::Kind::Drop, 0.2, 0.4);
+  Messages messages;
+  Told told;
+  f.build(0.5, 50ms).add_observer(messages);
+  f.simulation->add_observer(told);
+  f.simulation->run();
+  CHECK(f.arrivals() == Arrivals{{100, 1}, {400, 4}, {500, 5}});
+  CHECK(messages.sent == 5);
+  CHECK(messages.received == 3);
+  CHECK(told.texts == std::vector<std::string>{"0.2 0 1.1 messages are dropped until 0.4 s",
+                                               "0.2 0 1.1 dropped", "0.3 0 1.1 dropped",
+                                               "0.4 0 1.1 messages are received as they are sent"});
+}
+
+TEST_CASE("messages are delayed, and arrive at their instants, one at a time") {
+  Talking f;
+  SECTION("between communication points") {
+    f.disturb(Intervention::Kind::Delay, 0.2, 0.3, 33ms);
+    f.run(0.5, 50ms);
+    CHECK(f.arrivals() == Arrivals{{100, 1}, {233, 2}, {300, 3}, {400, 4}, {500, 5}});
+  }
+  SECTION("where others arrive") {
+    f.disturb(Intervention::Kind::Delay, 0.2, 0.3, 100ms);
+    f.run(0.5, 50ms);
+    CHECK(f.arrivals() == Arrivals{{100, 1}, {300, 2}, {300, 3}, {400, 4}, {500, 5}});
+  }
+  SECTION("two at one instant") {
+    f.disturb(Intervention::Kind::Delay, 0.1, 0.2, 300ms);
+    f.disturb(Intervention::Kind::Delay, 0.2, 0.3, 200ms);
+    f.run(0.5, 50ms);
+    CHECK(f.arrivals() == Arrivals{{300, 3}, {400, 1}, {400, 2}, {400, 4}, {500, 5}});
+  }
+  SECTION("after the end of the run") {
+    f.disturb(Intervention::Kind::Delay, 0.2, {}, 301ms);
+    f.run(0.5, 50ms);
+    CHECK(f.arrivals() == Arrivals{{100, 1}});
+  }
+}
+
+TEST_CASE("messages have bit errors, behind their headers, the same in each run") {
+  Talking f, again;
+  for (Talking* system : {&f, &again}) {
+    system->disturb(Intervention::Kind::Corrupt, 0.2, 0.4);
+    system->run(0.5, 50ms);
+  }
+  CHECK(f.received == again.received);
+  REQUIRE(f.received.size() == 5);
+  const auto wrong_bits = [&](std::size_t i) {
+    int bits = 0;
+    const Binary& bytes = f.received[i].second;
+    CHECK(bytes.at(0) == i + 1);
+    for (std::size_t b = 1; b < bytes.size(); ++b) bits += std::popcount(bytes[b]);
+    return bits;
+  };
+  CHECK(wrong_bits(0) == 0);
+  CHECK(wrong_bits(1) == 3);
+  CHECK(wrong_bits(2) == 3);
+  CHECK(wrong_bits(3) == 0);
+  CHECK(f.received[1].second != f.received[2].second);
 }
