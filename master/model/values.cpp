@@ -13,6 +13,7 @@
 #include "master/util/hex.h"
 #include "master/util/message_text.h"
 #include "master/util/number_text.h"
+#include "master/util/state_archive.h"
 #include "master/util/words.h"
 
 namespace stride::core {
@@ -104,6 +105,18 @@ ValueBlock::ValueBlock(ValueType type, std::size_t size) : type_(type), size_(si
     default:
       data_ = Bytes(size * element_size(type));
   }
+}
+
+void persist(StateArchive& state, ValueBlock& block) {
+  visit(block, [&]<class T>(std::span<T> elements) {
+    if constexpr (std::is_same_v<T, Binary>) {
+      state.fixed(elements, [&](Binary& element) { state.values(element); });
+    } else if constexpr (std::is_same_v<T, std::string> || std::is_same_v<T, bool>) {
+      state.fixed(elements);
+    } else {
+      state.fixed_bytes(std::as_writable_bytes(elements));
+    }
+  });
 }
 
 bool copy_elements(ValueBlock& to, std::size_t to_first, const ValueBlock& from,

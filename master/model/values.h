@@ -18,6 +18,7 @@
 
 namespace stride::core {
 
+class StateArchive;
 using stride::Binary;
 
 /// The bytes of one element of a numeric type (Boolean and Clock: 1); 0 for String and Binary.
@@ -75,6 +76,9 @@ decltype(auto) visit(Block& block, Visitor&& visitor) {
     }
   });
 }
+
+/// The elements, of a block of the same type and size.
+void persist(StateArchive& state, ValueBlock& block);
 
 /// Copies elements, converted, to a block of the same type or of one that System lets be connected
 /// to it; returns whether the target changes. NaN is another value each time.

@@ -1,9 +1,13 @@
 #include "master/model/values.h"
 
+#include <cmath>
+#include <cstring>
 #include <stdexcept>
+#include <vector>
 
 #include <catch2/catch.hpp>
 
+#include "master/util/state_archive.h"
 #include "tests/master/algorithm/scripted_unit.h"
 
 using namespace stride::core;
@@ -78,4 +82,34 @@ TEST_CASE("the error of an invalid value has what was expected") {
   CHECK_THAT(reason(variable(ValueType::Binary), "abc"), Contains("even number"));
   CHECK_THAT(reason(variable(ValueType::Binary), "zz"), Contains("hexadecimal"));
   CHECK_THAT(reason(variable(ValueType::Float64, 2), "1"), Contains("2 Float64 values"));
+}
+
+TEST_CASE("the state of a block is its elements") {
+  ValueBlock texts(ValueType::String, 2);
+  texts.strings()[0] = "one";
+  ValueBlock bytes(ValueType::Binary, 1);
+  bytes.binaries()[0] = {1, 2, 3};
+  ValueBlock truths(ValueType::Boolean, 3);
+  truths.numbers<bool>()[2] = true;
+  ValueBlock numbers(ValueType::Float64, 2);
+  numbers.numbers<double>()[1] = std::nan("");
+  std::vector<ValueBlock> blocks{texts, bytes, truths, numbers};
+
+  stride::core::StateArchive written;
+  for (ValueBlock& block : blocks) persist(written, block);
+  stride::core::StateArchive read(written.bytes());
+  for (const ValueBlock& block : blocks) {
+    ValueBlock copy(block.type(), block.size());
+    persist(read, copy);
+    if (block.type() == ValueType::Float64) {
+      CHECK(std::memcmp(copy.bytes(), block.bytes(), 2 * sizeof(double)) == 0);
+    } else {
+      CHECK(copy == block);
+    }
+  }
+  read.end();
+
+  stride::core::StateArchive again(written.bytes());
+  ValueBlock longer(ValueType::String, 3);
+  CHECK_THROWS_AS(persist(again, longer), stride::core::BadState);
 }
