@@ -31,7 +31,8 @@ std::size_t find_component(const core::System& system, const CaptureRequest& req
 }  // namespace
 
 Capture::Capture(const core::System& system, const std::string& system_name,
-                 const core::RunOptions& options, std::span<const CaptureRequest> requests)
+                 const core::RunOptions& options, std::span<const CaptureRequest> requests,
+                 core::OutputFile::Existing existing)
     : system_(system) {
   if (!requests.empty() && options.sets_inputs_in_steps()) {
     refuse(requests.front(),
@@ -41,12 +42,13 @@ Capture::Capture(const core::System& system, const std::string& system_name,
            "use --coupling jacobi --extrapolation hold");
   }
   for (std::size_t i = 0; i < requests.size(); ++i) {
-    open(system, system_name, requests[i], requests.first(i));
+    open(system, system_name, requests[i], requests.first(i), existing);
   }
 }
 
 void Capture::open(const core::System& system, const std::string& system_name,
-                   const CaptureRequest& request, std::span<const CaptureRequest> earlier) {
+                   const CaptureRequest& request, std::span<const CaptureRequest> earlier,
+                   core::OutputFile::Existing existing) {
   const std::size_t component = find_component(system, request);
   for (const CaptureRequest& other : earlier) {
     if (other.component == request.component) refuse(request, "the component is captured twice");
@@ -56,7 +58,7 @@ void Capture::open(const core::System& system, const std::string& system_name,
   }
   const Origin origin{request.component, system_name,
                       system.components()[component].description.get()};
-  files_.push_back({component, std::make_unique<StimuliFile>(request.file, origin)});
+  files_.push_back({component, std::make_unique<StimuliFile>(request.file, origin, existing)});
 }
 
 void Capture::wrap(std::vector<std::unique_ptr<core::Unit>>& units, core::RunOptions& options) {
@@ -77,6 +79,12 @@ void Capture::follow(const core::Simulation& simulation) {
 void Capture::on_communication_point(Time time) {
   index_.on_communication_point(time);
   for (File& file : files_) file.unit->commit();
+}
+
+void Capture::persist(core::StateArchive& state) {
+  state.mark("captures");
+  index_.persist(state);
+  state.fixed(files_, [&](File& file) { file.unit->persist(state); });
 }
 
 void Capture::on_finish() {

@@ -25,11 +25,12 @@ struct CaptureRequest {
 /// files hold all up to the last communication point that was reached, whatever ended the run.
 class Capture final : public core::Observer {
  public:
-  /// Creates the files. Throws core::Error (Input) for a component that the system has not, one
-  /// that is named twice, a file that is named twice or cannot be created, and options with which
-  /// inputs change within a step.
+  /// Creates the files, or goes on with those that are there. Throws core::Error (Input) for a
+  /// component that the system has not, one that is named twice, a file that is named twice or
+  /// cannot be created, and options with which inputs change within a step.
   Capture(const core::System& system, const std::string& system_name,
-          const core::RunOptions& options, std::span<const CaptureRequest> requests);
+          const core::RunOptions& options, std::span<const CaptureRequest> requests,
+          core::OutputFile::Existing existing = core::OutputFile::Existing::Emptied);
 
   bool is_empty() const { return files_.empty(); }
   /// Puts a CapturedUnit around each unit that is to be captured; the others stay as they are. The
@@ -39,6 +40,9 @@ class Capture final : public core::Observer {
   void follow(const core::Simulation& simulation);
 
   void on_communication_point(Time time) override;
+  /// At a communication point, of the captured units and their files, which a run that goes on was
+  /// constructed to keep.
+  void persist(core::StateArchive& state);
   void on_finish() override;
 
   /// Writes the end mark: why the run ended. Throws core::Error (Run) if that fails.
@@ -52,7 +56,8 @@ class Capture final : public core::Observer {
   };
 
   void open(const core::System& system, const std::string& system_name,
-            const CaptureRequest& request, std::span<const CaptureRequest> earlier);
+            const CaptureRequest& request, std::span<const CaptureRequest> earlier,
+            core::OutputFile::Existing existing);
 
   const core::System& system_;
   std::vector<File> files_;

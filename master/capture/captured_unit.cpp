@@ -174,6 +174,20 @@ void CapturedUnit::enter_step_mode() {
 
 // ---- States, idle time, the end ----
 
+void CapturedUnit::persist(core::StateArchive& state) {
+  state.value(mode_, Mode::Step);
+  state.value(time_);
+  state.value(next_index_);
+  state.fixed(inputs_, [&](Input& input) {
+    bool has_value = input.latest.has_value();
+    state.value(has_value);
+    if (!has_value) return input.latest.reset();
+    if (!input.latest) input.latest.emplace(input.variable->type, input.variable->size);
+    core::persist(state, *input.latest);
+  });
+  file_.persist(state);
+}
+
 void CapturedUnit::save_state() {
   state_->save_state();
   saved_ = {file_.mark(), time_, mode_, inputs_};

@@ -12,6 +12,7 @@
 #include "master/algorithm/forwarding_unit.h"
 #include "master/algorithm/unit.h"
 #include "master/capture/stimuli_file.h"
+#include "master/util/state_archive.h"
 
 namespace stride::capture {
 
@@ -27,6 +28,11 @@ class SuperDenseIndex {
   }
   /// Whether all units have reached this time.
   bool has_reached(Time time) const { return time <= point_; }
+  void persist(core::StateArchive& state) {
+    state.value(point_);
+    state.value(first_);
+    state.value(next_first_);
+  }
   /// Of the iteration at `time` that goes on now.
   std::uint64_t at(Time time) const {
     return count() - 1 - (time == point_ ? first_ : next_first_);
@@ -59,6 +65,10 @@ class CapturedUnit final : public core::ForwardingUnit,
 
   /// All units have reached a communication point: what was written is final.
   void commit() { file_.commit(time_); }
+  /// At a communication point that all units have reached, with the file. Reading: the unit is what
+  /// it was, and no function of this object was called. No state can be restored before another one
+  /// was saved.
+  void persist(core::StateArchive& state);
 
   void enter_initialization(Time start, std::optional<Time> stop) override;
   void exit_initialization() override;

@@ -9,6 +9,7 @@
 #include <fmt/ranges.h>
 
 #include "master/recorders/signal_text.h"
+#include "master/util/state_archive.h"
 #include "master/util/time_text.h"
 
 namespace stride::capture {
@@ -47,8 +48,9 @@ bool is_stimulus(const core::Variable& variable) {
   return variable.causality == core::Causality::Input && !variable.is_time_based_clock();
 }
 
-StimuliFile::StimuliFile(std::filesystem::path path, const Origin& origin)
-    : file_(std::move(path), kHints) {
+StimuliFile::StimuliFile(std::filesystem::path path, const Origin& origin,
+                         core::OutputFile::Existing existing)
+    : file_(std::move(path), kHints, existing) {
   const core::UnitDescription& description = *origin.description;
   fmt::format_to(std::back_inserter(pending_),
                  "stride stimuli,1\nunit,{}\ncomponent,{}\nsystem,{}\n",
@@ -143,6 +145,13 @@ void StimuliFile::commit(Time time) {
   file_.set_time(time);
   file_.write(pending_);
   pending_.clear();
+}
+
+void StimuliFile::persist(core::StateArchive& state) {
+  file_.persist(state);
+  state.value(pending_);
+  state.value(has_head_);
+  state.value(committed_);
 }
 
 void StimuliFile::close(std::string_view ending) {

@@ -31,7 +31,8 @@ bool is_stimulus(const core::Variable& variable);
 class StimuliFile {
  public:
   /// Creates the file and begins its head. Throws core::Error (Input) if it cannot be created.
-  StimuliFile(std::filesystem::path path, const Origin& origin);
+  StimuliFile(std::filesystem::path path, const Origin& origin,
+              core::OutputFile::Existing existing = core::OutputFile::Existing::Emptied);
 
   // The head, in any order.
   void add_start_value(const core::Variable& variable, const core::ValueBlock& values,
@@ -55,6 +56,8 @@ class StimuliFile {
   }
   /// What waits is final. `time`: the unit's present time.
   void commit(Time time);
+  /// When all is committed: as core::OutputFile::persist(), for a file that is kept.
+  void persist(core::StateArchive& state);
   /// Hands all that is committed to the system.
   void flush() { file_.flush(); }
   /// Drops what waits, writes the end mark, at the time of the last commit, and closes the file.

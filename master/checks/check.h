@@ -11,6 +11,7 @@
 #include "master/algorithm/observer.h"
 #include "master/algorithm/verdict.h"
 #include "master/checks/definition.h"
+#include "master/util/state_archive.h"
 #include "master/util/time_text.h"
 
 namespace stride::checks {
@@ -34,6 +35,8 @@ class Check {
   virtual void on_message(const core::Message& /*message*/) {}
   /// All messages of that time have been seen.
   virtual void on_point(Time time) = 0;
+  /// What it has seen, between two communication points.
+  virtual void persist(core::StateArchive& state) = 0;
   /// After the run.
   virtual core::Verdict verdict(const Ending& ending) const = 0;
 

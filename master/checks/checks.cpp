@@ -41,6 +41,11 @@ void Checks::on_communication_point(Time time) {
   for (const auto& check : checks_) check->on_point(time);
 }
 
+void Checks::persist(core::StateArchive& state) {
+  state.mark("checks");
+  state.fixed(checks_, [&](const std::unique_ptr<Check>& check) { check->persist(state); });
+}
+
 std::vector<core::Verdict> Checks::verdicts(const Ending& ending) const {
   std::vector<core::Verdict> verdicts;
   for (const auto& check : checks_) verdicts.push_back(check->verdict(ending));

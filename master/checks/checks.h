@@ -28,6 +28,10 @@ class Checks final : public core::Observer {
   void on_message(const core::Message& message) override;
   void on_communication_point(Time time) override;
 
+  /// What the checks have seen, at a communication point, behind on_start(). Reading throws
+  /// core::BadState for the state of other checks.
+  void persist(core::StateArchive& state);
+
   /// In the order of the definitions; after the run, also where it never began.
   std::vector<core::Verdict> verdicts(const Ending& ending) const;
 

@@ -53,6 +53,15 @@ void AnswerCheck::add_reply(Time time) {
   open_.erase(open_.begin());
 }
 
+void AnswerCheck::persist(core::StateArchive& state) {
+  state.values(open_);
+  state.value(requests_);
+  state.value(answered_);
+  state.value(slowest_);
+  state.value(unanswered_);
+  state.value(last_);
+}
+
 core::Verdict AnswerCheck::verdict(const Ending& ending) const {
   if (unanswered_) return unanswered_verdict();
   if (!open_.empty()) {
@@ -80,6 +89,12 @@ void CountCheck::on_message(const core::Message& message) {
   if (message.id != demand_.event || !window().contains(message.time)) return;
   ++count_;
   if (!exceeded_at_ && demand_.max && count_ > *demand_.max) exceeded_at_ = message.time;
+}
+
+void CountCheck::persist(core::StateArchive& state) {
+  state.value(count_);
+  state.value(exceeded_at_);
+  state.value(last_);
 }
 
 core::Verdict CountCheck::verdict(const Ending& ending) const {

@@ -18,6 +18,7 @@ class AnswerCheck final : public Check {
   explicit AnswerCheck(const Definition& definition);
 
   void on_message(const core::Message& message) override;
+  void persist(core::StateArchive& state) override;
   void on_point(Time time) override;
   core::Verdict verdict(const Ending& ending) const override;
 
@@ -45,6 +46,7 @@ class CountCheck final : public Check {
   explicit CountCheck(const Definition& definition);
 
   void on_message(const core::Message& message) override;
+  void persist(core::StateArchive& state) override;
   void on_point(Time time) override { last_ = time; }
   core::Verdict verdict(const Ending& ending) const override;
 

@@ -67,6 +67,25 @@ void SignalCheck::extend_range() {
   });
 }
 
+void SignalCheck::persist(core::StateArchive& state) {
+  const auto persist_truth = [&](std::optional<Truth>& truth) {
+    bool is_known = truth.has_value();
+    state.value(is_known);
+    if (!is_known) return truth.reset();
+    if (!truth) truth = Truth::False;
+    state.value(*truth, Truth::NotANumber);
+  };
+  persist_truth(before_);
+  persist_truth(after_);
+  state.value(points_);
+  state.value(decided_at_);
+  state.value(last_);
+  core::persist(state, kept_);
+  state.value(kept_truth_, Truth::NotANumber);
+  state.value(least_);
+  state.value(most_);
+}
+
 core::Verdict SignalCheck::verdict(const Ending& ending) const {
   switch (definition().kind) {
     case Kind::Final:

@@ -23,6 +23,8 @@ class SignalCheck final : public Check {
   void attach(const core::Signal& signal);
 
   void on_point(Time time) override;
+  /// Behind attach().
+  void persist(core::StateArchive& state) override;
   core::Verdict verdict(const Ending& ending) const override;
 
  private:

@@ -88,6 +88,28 @@ void Summary::on_communication_point(Time) {
   }
 }
 
+void Summary::persist(core::StateArchive& state) {
+  state.mark("summary");
+  state.fixed(ranges_, [&](Range& range) {
+    state.value(range.least);
+    state.value(range.most);
+  });
+  state.sequence(messages_, [&](Sent& sent) {
+    state.value(sent.id.component);
+    state.value(sent.id.variable);
+    state.value(sent.time);
+    state.value(sent.text);
+    state.values(sent.receivers);
+    const auto has = [&](std::size_t component) { return component < system_.components().size(); };
+    if (!has(sent.id.component) || !std::ranges::all_of(sent.receivers, has)) {
+      state.fail("there is no such component");
+    }
+    const auto& variables = system_.components()[sent.id.component].description->variables;
+    if (sent.id.variable >= variables.size()) state.fail("there is no such variable");
+  });
+  state.value(message_count_);
+}
+
 std::string Summary::text(const core::RunStatistics& statistics) const {
   const double simulated = to_seconds(statistics.reached - statistics.start);
   const double wall = std::chrono::duration<double>(statistics.wall_time).count();

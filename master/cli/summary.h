@@ -8,6 +8,7 @@
 #include "master/algorithm/observer.h"
 #include "master/algorithm/statistics.h"
 #include "master/model/system.h"
+#include "master/util/state_archive.h"
 
 namespace stride::cli {
 
@@ -24,6 +25,8 @@ class Summary : public core::Observer {
   bool wants_content() const override;
   void on_message(const core::Message& message) override;
   void on_communication_point(Time time) override;
+  /// At a communication point, behind on_start().
+  void persist(core::StateArchive& state);
 
   std::string text(const core::RunStatistics& statistics) const;
 

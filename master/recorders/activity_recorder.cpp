@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "master/recorders/signal_text.h"
+#include "master/util/state_archive.h"
 
 namespace stride::recorders {
 
@@ -26,8 +27,9 @@ const char* name(core::Activity::Kind kind) {
   return "";
 }
 
-ActivityRecorder::ActivityRecorder(const core::System& system, std::filesystem::path file)
-    : system_(system), file_(std::move(file)) {}
+ActivityRecorder::ActivityRecorder(const core::System& system, std::filesystem::path file,
+                                   core::OutputFile::Existing existing)
+    : system_(system), file_(std::move(file), {}, existing) {}
 
 void ActivityRecorder::on_start(std::span<const core::Signal> /*signals*/) {
   file_.write("time,until,component,kind\n");
@@ -44,6 +46,11 @@ void ActivityRecorder::on_activity(const core::Activity& activity) {
   file_.write(fields_[activity.component]);
   file_.write(std::string_view(name(activity.kind)));
   file_.write('\n');
+}
+
+void ActivityRecorder::persist(core::StateArchive& state) {
+  state.mark("activity");
+  file_.persist(state);
 }
 
 void ActivityRecorder::on_finish() { file_.close(); }

@@ -19,7 +19,11 @@ const char* name(core::Activity::Kind kind);
 class ActivityRecorder : public core::Observer {
  public:
   /// As CsvRecorder.
-  ActivityRecorder(const core::System& system, std::filesystem::path file);
+  ActivityRecorder(const core::System& system, std::filesystem::path file,
+                   core::OutputFile::Existing existing = core::OutputFile::Existing::Emptied);
+
+  /// At a communication point, behind on_start(): as core::OutputFile::persist().
+  void persist(core::StateArchive& state);
 
   void on_start(std::span<const core::Signal> signals) override;
   bool watches_activities() const override { return true; }

@@ -5,11 +5,13 @@
 #include <fmt/format.h>
 
 #include "master/recorders/signal_text.h"
+#include "master/util/state_archive.h"
 
 namespace stride::recorders {
 
-CsvRecorder::CsvRecorder(const core::System& system, std::filesystem::path file)
-    : system_(system), file_(std::move(file)) {}
+CsvRecorder::CsvRecorder(const core::System& system, std::filesystem::path file,
+                         core::OutputFile::Existing existing)
+    : system_(system), file_(std::move(file), {}, existing) {}
 
 void CsvRecorder::on_start(std::span<const core::Signal> signals) {
   file_.write("time");
@@ -33,6 +35,11 @@ void CsvRecorder::on_communication_point(Time time) {
     write_csv(file_, *column.block, column.element);
   }
   file_.write('\n');
+}
+
+void CsvRecorder::persist(core::StateArchive& state) {
+  state.mark("signals");
+  file_.persist(state);
 }
 
 void CsvRecorder::on_finish() { file_.close(); }

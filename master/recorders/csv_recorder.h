@@ -17,7 +17,11 @@ class CsvRecorder : public core::Observer {
  public:
   /// The system must outlive the recorder. Throws core::Error if the file cannot be created; later
   /// calls throw it if it cannot be written.
-  CsvRecorder(const core::System& system, std::filesystem::path file);
+  CsvRecorder(const core::System& system, std::filesystem::path file,
+              core::OutputFile::Existing existing = core::OutputFile::Existing::Emptied);
+
+  /// At a communication point, behind on_start(): as core::OutputFile::persist().
+  void persist(core::StateArchive& state);
 
   void on_start(std::span<const core::Signal> signals) override;
   void on_communication_point(Time time) override;

@@ -7,11 +7,13 @@
 #include <fmt/ranges.h>
 
 #include "master/recorders/signal_text.h"
+#include "master/util/state_archive.h"
 
 namespace stride::recorders {
 
-EventRecorder::EventRecorder(const core::System& system, std::filesystem::path file)
-    : system_(system), file_(std::move(file)) {}
+EventRecorder::EventRecorder(const core::System& system, std::filesystem::path file,
+                             core::OutputFile::Existing existing)
+    : system_(system), file_(std::move(file), {}, existing) {}
 
 void EventRecorder::on_start(std::span<const core::Signal> /*signals*/) {
   file_.write("time,index,component,variable,direction,payload,content\n");
@@ -58,6 +60,11 @@ void EventRecorder::write_payload(const core::Message& message) {
     if (i > 0) file_.write(' ');
     write_csv(file_, *message.block, message.first + i);
   }
+}
+
+void EventRecorder::persist(core::StateArchive& state) {
+  state.mark("events");
+  file_.persist(state);
 }
 
 void EventRecorder::on_finish() { file_.close(); }

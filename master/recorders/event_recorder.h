@@ -19,7 +19,11 @@ namespace stride::recorders {
 class EventRecorder : public core::Observer {
  public:
   /// As CsvRecorder.
-  EventRecorder(const core::System& system, std::filesystem::path file);
+  EventRecorder(const core::System& system, std::filesystem::path file,
+                core::OutputFile::Existing existing = core::OutputFile::Existing::Emptied);
+
+  /// At a communication point, behind on_start(): as core::OutputFile::persist().
+  void persist(core::StateArchive& state);
 
   void on_start(std::span<const core::Signal> signals) override;
   bool wants_content() const override { return true; }

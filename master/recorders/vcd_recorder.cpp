@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "master/model/array_element.h"
+#include "master/util/state_archive.h"
 #include "master/util/vcd_code.h"
 
 namespace stride::recorders {
@@ -141,8 +142,9 @@ void VcdScope::write(core::OutputFile& file) const {
   }
 }
 
-VcdRecorder::VcdRecorder(const core::System& system, std::filesystem::path file)
-    : system_(system), file_(std::move(file)) {}
+VcdRecorder::VcdRecorder(const core::System& system, std::filesystem::path file,
+                         core::OutputFile::Existing existing)
+    : system_(system), file_(std::move(file), {}, existing) {}
 
 std::string VcdRecorder::next_code() { return core::vcd_code(codes_++); }
 
@@ -241,6 +243,18 @@ void VcdRecorder::on_communication_point(Time time) {
   file_.write("$dumpvars\n");
   write_changes(true);
   file_.write("$end\n");
+}
+
+void VcdRecorder::persist(core::StateArchive& state) {
+  state.mark("trace");
+  file_.persist(state);
+  state.fixed(recorded_, [&](VcdVariable& variable) {
+    state.value(variable.bits);
+    state.value(variable.text);
+  });
+  state.value(written_time_);
+  state.value(last_point_);
+  state.value(is_first_point_);
 }
 
 void VcdRecorder::on_finish() {

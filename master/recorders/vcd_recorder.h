@@ -43,7 +43,11 @@ class VcdScope {
 class VcdRecorder : public core::Observer {
  public:
   /// As CsvRecorder.
-  VcdRecorder(const core::System& system, std::filesystem::path file);
+  VcdRecorder(const core::System& system, std::filesystem::path file,
+              core::OutputFile::Existing existing = core::OutputFile::Existing::Emptied);
+
+  /// At a communication point, behind on_start(): as core::OutputFile::persist().
+  void persist(core::StateArchive& state);
 
   void on_start(std::span<const core::Signal> signals) override;
   void on_message(const core::Message& message) override;

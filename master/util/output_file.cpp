@@ -1,5 +1,6 @@
 #include "master/util/output_file.h"
 
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <system_error>
@@ -13,6 +14,7 @@
 
 #include "master/util/error.h"
 #include "master/util/hex.h"
+#include "master/util/state_archive.h"
 #include "master/util/time_text.h"
 
 namespace stride::core {
@@ -43,14 +45,30 @@ constexpr int kMostTries = 100;
 constexpr const char* kTakenHint =
     "a unit may close its own files only; with --isolate it has no others";
 
+constexpr const char* kKeepHint =
+    "results can be continued only as they were left; let the whole run be made again";
+
+/// Enough to tell the file from another one.
+constexpr std::int64_t kLastBytes = 256;
+
 /// Opens it without waiting for the reader of a pipe; writing waits as usual.
 int open_without_waiting(const std::filesystem::path& path, int how) {
   constexpr mode_t kEverybodyMayRead = 0666;  // less the umask
-  const int file =
-      ::open(path.c_str(), O_WRONLY | O_CREAT | O_NONBLOCK | O_NOCTTY | O_CLOEXEC | how,
-             kEverybodyMayRead);
+  const int file = ::open(path.c_str(), O_NONBLOCK | O_NOCTTY | O_CLOEXEC | how, kEverybodyMayRead);
   if (file >= 0) ::fcntl(file, F_SETFL, ::fcntl(file, F_GETFL) & ~O_NONBLOCK);
   return file;
+}
+
+int flags(OutputFile::Existing existing) {
+  switch (existing) {
+    case OutputFile::Existing::Emptied:
+      return O_WRONLY | O_CREAT | O_TRUNC;
+    case OutputFile::Existing::Refused:
+      return O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW;
+    case OutputFile::Existing::Kept:
+      return O_RDWR;
+  }
+  return 0;
 }
 
 bool is_regular(int descriptor) {
@@ -67,8 +85,7 @@ bool is_pipe(const std::filesystem::path& path) {
 
 OutputFile::OutputFile(std::filesystem::path path, Hints hints, Existing existing)
     : path_(std::move(path)), hints_(hints) {
-  descriptor_ =
-      open_without_waiting(path_, existing == Existing::Emptied ? O_TRUNC : O_EXCL | O_NOFOLLOW);
+  descriptor_ = open_without_waiting(path_, flags(existing));
   if (descriptor_ >= 0) {
     identity_ = FileIdentity::of(descriptor_);
     std::error_code ignored;  // then it cannot be opened again
@@ -82,6 +99,12 @@ OutputFile::OutputFile(std::filesystem::path path, Hints hints, Existing existin
   if (error == ENXIO && is_pipe(path_)) {
     fail_input(where, "this is a pipe (FIFO) that no program reads",
                "start the program that reads it first, or choose a file");
+  }
+  if (existing == Existing::Kept) {
+    fail_input(
+        where,
+        fmt::format("cannot write on in this file: {}", std::generic_category().message(error)),
+        kKeepHint);
   }
   const std::string message =
       fmt::format("cannot create the file: {}", std::generic_category().message(error));
@@ -243,6 +266,53 @@ void OutputFile::check_path() {
       "written",
       "leave the results where they are until the run has ended; a unit may change its own "
       "files only");
+}
+
+void OutputFile::persist(StateArchive& state) {
+  if (!state.is_reading()) {
+    flush();
+    if (!absolute_path_.empty() && ::fdatasync(descriptor_) != 0) fail(errno);
+  }
+  std::int64_t place = taken_;
+  state.value(place);
+  std::string last = state.is_reading() ? "" : last_bytes(place);
+  state.value(last);
+  if (!state.is_reading()) return;
+  if (place < 0) state.fail("the place in a file is negative");
+  continue_at(place, last);
+}
+
+void OutputFile::continue_at(std::int64_t place, const std::string& last) {
+  const Context where{.where = {path_.string(), 0}};
+  if (absolute_path_.empty()) {
+    fail_input(where, "this is no regular file, so nothing can be written on in it", kKeepHint);
+  }
+  struct stat status {};
+  if (::fstat(descriptor_, &status) != 0) fail(errno);
+  if (status.st_size < place) {
+    fail_input(where,
+               fmt::format("the file has {} bytes, and {} of the run had been written",
+                           status.st_size, place),
+               kKeepHint);
+  }
+  if (last_bytes(place) != last) {
+    fail_input(where, "the file is not the one that the run had written", kKeepHint);
+  }
+  if (::ftruncate(descriptor_, place) != 0) fail(errno);
+  rest_->size = 0;
+  taken_ = rest_->place = rest_->line_end = place;
+}
+
+/// Before this place; nothing of what cannot be read again.
+std::string OutputFile::last_bytes(std::int64_t place) const {
+  if (absolute_path_.empty()) return "";
+  const int file = ::open(absolute_path_.c_str(), O_RDONLY | O_CLOEXEC);
+  std::string bytes(static_cast<std::size_t>(std::min(place, kLastBytes)), '\0');
+  const auto size = static_cast<std::int64_t>(bytes.size());
+  const ssize_t count = file < 0 ? 0 : ::pread(file, bytes.data(), bytes.size(), place - size);
+  if (file >= 0) ::close(file);
+  bytes.resize(static_cast<std::size_t>(std::max<ssize_t>(count, 0)));
+  return bytes;
 }
 
 void OutputFile::close() {

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <utility>
 
@@ -20,6 +21,8 @@
 #include "master/util/unwritten_rest.h"
 
 namespace stride::core {
+
+class StateArchive;
 
 /// Other code in this process has closed an open file, or put another one in its place. It may go
 /// on with that.
@@ -43,8 +46,9 @@ class OutputFile {
     const char* write = nullptr;  ///< what suits the error, for results, where there is none
   };
 
-  /// What becomes of a file of this name: a refused one, or a link, is an error.
-  enum class Existing { Emptied, Refused };
+  /// What becomes of a file of this name: a refused one, or a link, is an error; a kept one has to
+  /// be there, and is written on where persist() says.
+  enum class Existing { Emptied, Refused, Kept };
 
   /// Creates the file or empties it. Throws Error (Input) if that is not possible, and Error (Run)
   /// if the disk is full, or the process has too many open files.
@@ -81,6 +85,11 @@ class OutputFile {
 
   /// Hands everything to the system.
   void flush();
+  /// Writing: flushes the file to the disk, and notes how far it goes. Reading: cuts the file,
+  /// which was kept, behind that, and goes on there; what was written since it was opened is
+  /// dropped. Throws Error (Run), Error (Input) for a file that does not go so far or has other
+  /// bytes there, and for a pipe, and BadState.
+  void persist(StateArchive& state);
   /// Flushes and closes. Does nothing if it was closed, or failed, before.
   void close();
 
@@ -108,6 +117,8 @@ class OutputFile {
   long write_piece(const char* bytes, std::size_t size) const noexcept;
   void check_size();
   void check_path();
+  void continue_at(std::int64_t place, const std::string& last);
+  std::string last_bytes(std::int64_t place) const;
   [[noreturn]] void fail(int error);
   [[noreturn]] void fail_taken(bool is_back);
 

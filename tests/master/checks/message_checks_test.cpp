@@ -13,6 +13,28 @@ using Limit = std::optional<std::uint64_t>;
 
 namespace {
 
+/// A millisecond of a course.
+void pass(Check& check, char letter, std::int64_t time) {
+  if (letter == '-') return;
+  if (letter == 'q' || letter == 'o') check.on_message(message(time, 1));
+  if (letter != 'q' && letter != ' ') check.on_message(message(time, 2));
+  if (letter == 'b') check.on_message(message(time, 1));
+  check.on_message(message(time, 3));
+  check.on_point(at(time));
+}
+
+/// Of a run that is resumed at this millisecond.
+template <class OneCheck>
+core::Verdict judged(const Definition& definition, const std::string& course, const Ending& ending,
+                     std::size_t resumed_at) {
+  OneCheck first(definition), second(definition);
+  for (std::size_t i = 0; i < course.size(); ++i) {
+    if (i == resumed_at) take_over(second, first);
+    pass(i < resumed_at ? first : second, course[i], static_cast<std::int64_t>(i));
+  }
+  return (resumed_at < course.size() ? second : first).verdict(ending);
+}
+
 /// A course in words: each letter is a millisecond, 'q' a request, 'r' a reply, 'b' a reply and
 /// then a request, 'o' a request and its reply in the same instant; a blank is a communication
 /// point where neither comes, '-' is none.
@@ -21,17 +43,12 @@ core::Verdict judged(const std::string& course, int within, bool repeats = false
   const Definition definition{
       Kind::Answer, "answers", "",
       of,           {},        AnswerDemand{{0, 1}, {0, 2}, at(within) - Time{}, repeats}};
-  AnswerCheck check(definition);
+  const Ending ending{at(static_cast<std::int64_t>(course.size()) - 1), is_complete};
+  core::Verdict verdict = judged<AnswerCheck>(definition, course, ending, course.size());
   for (std::size_t i = 0; i < course.size(); ++i) {
-    const auto time = static_cast<std::int64_t>(i);
-    if (course[i] == '-') continue;
-    if (course[i] == 'q' || course[i] == 'o') check.on_message(message(time, 1));
-    if (course[i] != 'q' && course[i] != ' ') check.on_message(message(time, 2));
-    if (course[i] == 'b') check.on_message(message(time, 1));
-    check.on_message(message(time, 3));
-    check.on_point(at(time));
+    CHECK(text_of(judged<AnswerCheck>(definition, course, ending, i)) == text_of(verdict));
   }
-  return check.verdict({at(static_cast<std::int64_t>(course.size()) - 1), is_complete});
+  return verdict;
 }
 
 }  // namespace
@@ -97,14 +114,22 @@ namespace {
 /// Messages at 1, 2, 3 and 4 ms, with others between, and communication points there and at 5 ms.
 core::Verdict counted(Limit min, Limit max, Window of = {}, const Ending& ending = ended(5)) {
   const Definition definition{Kind::Count, "frames", "", of, {}, CountDemand{{0, 3}, min, max}};
-  CountCheck check(definition);
+  CountCheck check(definition), resumed(definition);
   check.on_point(at(0));
-  for (int time = 1; time <= 4; ++time) {
-    check.on_message(message(time, 3));
-    check.on_message(message(time, 4));
-    check.on_point(at(time));
+  const auto go_on = [](CountCheck& one, int first, int last) {
+    for (int time = first; time <= last; ++time) {
+      one.on_message(message(time, 3));
+      one.on_message(message(time, 4));
+      one.on_point(at(time));
+    }
+  };
+  go_on(check, 1, 2);
+  take_over(resumed, check);
+  for (CountCheck* one : {&check, &resumed}) {
+    go_on(*one, 3, 4);
+    one->on_point(at(5));
   }
-  check.on_point(at(5));
+  CHECK(text_of(resumed.verdict(ending)) == text_of(check.verdict(ending)));
   return check.verdict(ending);
 }
 

@@ -1,6 +1,7 @@
 #include "master/checks/signal_check.h"
 
 #include <cmath>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -24,15 +25,31 @@ Definition demand(Kind kind, Window of, const std::string& min) {
           of,   {"x.ssd", 7}, SignalDemand{{0, 0}, 1, "a.x", "V", Condition(voltage, text)}};
 }
 
-core::Verdict judged(const Definition& definition, const Course& course, const Ending& ending) {
-  SignalCheck check(definition);
+/// In one run, or resumed at each point.
+core::Verdict judged(const Definition& definition, const Course& course, const Ending& ending,
+                     bool is_resumed) {
   core::ValueBlock block(ValueType::Float64, 3);
-  check.attach({check.id(), &block, 1});
+  const auto make = [&] {
+    auto check = std::make_unique<SignalCheck>(definition);
+    check->attach({check->id(), &block, 1});
+    return check;
+  };
+  auto check = make();
   for (const auto& [time, value] : course) {
     block.numbers<double>()[2] = value;
-    check.on_point(at(time));
+    check->on_point(at(time));
+    if (!is_resumed) continue;
+    auto other = make();
+    take_over(*other, *check);
+    check = std::move(other);
   }
-  return check.verdict(ending);
+  return check->verdict(ending);
+}
+
+core::Verdict judged(const Definition& definition, const Course& course, const Ending& ending) {
+  core::Verdict verdict = judged(definition, course, ending, false);
+  CHECK(text_of(judged(definition, course, ending, true)) == text_of(verdict));
+  return verdict;
 }
 
 const Course kFalls{{0, 3}, {10, 2}, {20, 1.5}, {30, 1}, {40, 4}};

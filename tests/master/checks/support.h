@@ -9,6 +9,9 @@
 
 #include "master/checks/check.h"
 #include "master/model/description.h"
+#include "master/model/values.h"
+#include "master/util/state_archive.h"
+#include "master/util/time_text.h"
 
 namespace stride::checks {
 
@@ -39,6 +42,24 @@ inline core::Message message(std::int64_t milliseconds, std::size_t place) {
 /// Of a run that went to its end there, and of one that did not.
 inline Ending ended(std::int64_t milliseconds) { return {at(milliseconds), true}; }
 inline Ending broke(std::int64_t milliseconds) { return {at(milliseconds), false}; }
+
+/// A check that goes on where another one is.
+template <class OneCheck>
+void take_over(OneCheck& check, OneCheck& other) {
+  core::StateArchive written;
+  other.persist(written);
+  core::StateArchive read(written.bytes());
+  check.persist(read);
+  read.end();
+}
+
+/// All of a verdict that can differ.
+inline std::string text_of(const core::Verdict& verdict) {
+  std::string text = verdict.text + (verdict.time ? core::to_text(*verdict.time) : "-");
+  text += verdict.passed ? (*verdict.passed ? " passed" : " failed") : " undecided";
+  for (const auto& value : verdict.values) text += " " + core::element_text(value.value, 0);
+  return text;
+}
 
 }  // namespace stride::checks
 

@@ -39,3 +39,11 @@ TEST_CASE("activity.csv of a run without any has its header") {
   recorder.on_finish();
   CHECK(content(folder / "activity.csv") == "time,until,component,kind\n");
 }
+
+TEST_CASE("activity.csv goes on where it was") {
+  const TemporaryFolder folder;
+  ContinuedRecorder<ActivityRecorder> recorder(folder / "activity.csv");
+  const std::string whole = recorder.whole();
+  CHECK(whole.size() > 70);
+  CHECK(recorder.in_two_parts() == whole);
+}

@@ -55,3 +55,11 @@ TEST_CASE("A full disk ends the run with the simulated time") {
                     Contains("/dev/full: at ") && Contains(" s: cannot write the file"));
   CHECK_NOTHROW(recorder.on_finish());
 }
+
+TEST_CASE("signals.csv goes on where it was") {
+  const TemporaryFolder folder;
+  ContinuedRecorder<CsvRecorder> recorder(folder / "signals.csv");
+  const std::string whole = recorder.whole();
+  CHECK(whole.size() > 70);
+  CHECK(recorder.in_two_parts() == whole);
+}

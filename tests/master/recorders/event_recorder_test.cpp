@@ -55,3 +55,11 @@ TEST_CASE("The elements of a clocked array are separated by blanks, and text is 
         "0,0,a,position,sent,1 -0.5 1e-09,\n"
         "0,0,a,label,sent,\"one, two three\",\n");
 }
+
+TEST_CASE("events.csv goes on where it was") {
+  const TemporaryFolder folder;
+  ContinuedRecorder<EventRecorder> recorder(folder / "events.csv");
+  const std::string whole = recorder.whole();
+  CHECK(whole.size() > 70);
+  CHECK(recorder.in_two_parts() == whole);
+}

@@ -2,10 +2,15 @@
 #ifndef STRIDE_TESTS_MASTER_RECORDERS_RECORDER_SUPPORT_H
 #define STRIDE_TESTS_MASTER_RECORDERS_RECORDER_SUPPORT_H
 
+#include <cstddef>
+#include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "master/algorithm/observer.h"
+#include "master/util/output_file.h"
+#include "master/util/state_archive.h"
 #include "tests/master/ssp/support.h"
 
 namespace stride::tests {
@@ -45,6 +50,71 @@ struct SampleRun {
     count.numbers<std::int32_t>()[0] = -3;
     label.strings()[0] = "";
   }
+};
+
+/// The file of a recorder that sees the run of this helper.
+template <class Recorder>
+class ContinuedRecorder {
+ public:
+  explicit ContinuedRecorder(std::filesystem::path file) : file_(std::move(file)) {}
+
+  std::string whole() {
+    Recorder recorder(run_.system, file_);
+    recorder.on_start(run_.signals());
+    make_first_part(recorder);
+    make_second_part(recorder);
+    recorder.on_finish();
+    return content(file_);
+  }
+  /// Of two recorders, between which the file has grown.
+  std::string in_two_parts() {
+    const std::vector<std::byte> bytes = state_behind_first_part();
+    Recorder recorder(run_.system, file_, core::OutputFile::Existing::Kept);
+    recorder.on_start(run_.signals());
+    core::StateArchive state(bytes);
+    recorder.persist(state);
+    state.end();
+    make_second_part(recorder);
+    recorder.on_finish();
+    return content(file_);
+  }
+
+ private:
+  std::vector<std::byte> state_behind_first_part() {
+    Recorder recorder(run_.system, file_);
+    recorder.on_start(run_.signals());
+    make_first_part(recorder);
+    core::StateArchive state;
+    recorder.persist(state);
+    make_second_part(recorder);
+    make_second_part(recorder);
+    recorder.on_finish();
+    return state.bytes();
+  }
+  void make_first_part(Recorder& recorder) {
+    run_.led.numbers<bool>()[0] = false;
+    run_.count.numbers<std::int32_t>()[0] = 0;
+    run_.set_first();
+    recorder.on_communication_point(Time{});
+    run_.set_second();
+    run_.frame.binaries()[0] = {1, 2};
+    recorder.on_message(run_.frame_at(milliseconds(1), false, 0));
+    report_activity(recorder, milliseconds(1));
+    recorder.on_communication_point(milliseconds(1));
+  }
+  void make_second_part(Recorder& recorder) {
+    run_.numbers.numbers<double>()[3] = 7;
+    recorder.on_message(run_.frame_at(milliseconds(2), true, 1));
+    report_activity(recorder, milliseconds(2));
+    recorder.on_communication_point(milliseconds(2));
+    recorder.on_communication_point(milliseconds(3));
+  }
+  static void report_activity(core::Observer& recorder, Time time) {
+    recorder.on_activity({1, core::Activity::Kind::Event, time, time});
+  }
+
+  std::filesystem::path file_;
+  SampleRun run_;
 };
 
 }  // namespace stride::tests

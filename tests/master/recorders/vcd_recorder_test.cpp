@@ -172,3 +172,11 @@ TEST_CASE("What is sampled at the ticks of a time-based clock is declared once, 
   CHECK_THAT(text, Contains("$var real 64 ! y $end"));
   CHECK(text.find("$var", text.find("$var") + 1) == std::string::npos);
 }
+
+TEST_CASE("signals.vcd goes on where it was") {
+  const TemporaryFolder folder;
+  ContinuedRecorder<VcdRecorder> recorder(folder / "signals.vcd");
+  const std::string whole = recorder.whole();
+  CHECK(whole.size() > 70);
+  CHECK(recorder.in_two_parts() == whole);
+}

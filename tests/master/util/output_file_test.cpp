@@ -1,6 +1,8 @@
 #include "master/util/output_file.h"
 
 #include <limits>
+#include <string>
+#include <vector>
 
 #include <catch2/catch.hpp>
 #include <fcntl.h>
@@ -8,6 +10,7 @@
 #include <unistd.h>
 
 #include "master/util/error.h"
+#include "master/util/state_archive.h"
 #include "master/util/time_text.h"
 #include "tests/master/ssp/support.h"
 #include "tests/master/util/file_size_limit.h"
@@ -267,4 +270,52 @@ TEST_CASE("A file that is cut off while it is written is an error") {
   std::filesystem::resize_file(folder / "x", 2);
   file.write("second\n");
   CHECK_THROWS_WITH(file.close(), Contains("cut the file off") && Contains("2 bytes of 6"));
+}
+
+namespace {
+
+/// Written by a process that has gone on, and was then killed.
+std::vector<std::byte> place_behind(const std::string& text, const std::filesystem::path& path) {
+  OutputFile file(path);
+  file.write(text);
+  StateArchive state;
+  file.persist(state);
+  file.write("what was written behind it\n");
+  return state.bytes();
+}
+
+void go_on(const std::vector<std::byte>& bytes, const std::filesystem::path& path) {
+  OutputFile file(path, {}, OutputFile::Existing::Kept);
+  file.write("a head that is there already\n");
+  StateArchive state(bytes);
+  file.persist(state);
+  file.write("second\n");
+  file.close();
+}
+
+}  // namespace
+
+TEST_CASE("A file goes on where another process was") {
+  const TemporaryFolder folder;
+  const std::vector<std::byte> place = place_behind("first\n", folder / "x");
+  CHECK(content(folder / "x") == "first\nwhat was written behind it\n");
+  go_on(place, folder / "x");
+  CHECK(content(folder / "x") == "first\nsecond\n");
+
+  const std::string long_text(200'000, 'x');
+  go_on(place_behind(long_text + "\n", folder / "long"), folder / "long");
+  CHECK(content(folder / "long") == long_text + "\nsecond\n");
+}
+
+TEST_CASE("A file does not go on in one that is shorter, another one or none") {
+  const TemporaryFolder folder;
+  const std::vector<std::byte> place = place_behind("first\n", folder / "x");
+  std::filesystem::resize_file(folder / "x", 3);
+  CHECK_THROWS_WITH(go_on(place, folder / "x"),
+                    Contains("x: the file has 3 bytes, and 6 of the run"));
+  folder.write("x", "other\nand longer\n");
+  CHECK_THROWS_WITH(go_on(place, folder / "x"), Contains("is not the one that the run"));
+  std::filesystem::remove(folder / "x");
+  CHECK_THROWS_WITH(go_on(place, folder / "x"), Contains("cannot write on in this file: No such"));
+  CHECK_THROWS_WITH(go_on(place, "/dev/null"), Contains("no regular file"));
 }
