@@ -1,0 +1,74 @@
+#include "master/cli/run_arguments.h"
+
+#include <CLI/CLI.hpp>
+
+#include "master/cli/scenario_options.h"
+#include "master/scenario/scenario.h"
+#include "master/util/error.h"
+
+namespace stride::cli {
+namespace {
+
+constexpr int kMostThreads = 1024;
+
+void add_recording_options(CLI::App& command, RunArguments& arguments) {
+  command
+      .add_option("--out,--output,-o", arguments.out,
+                  "Results folder; otherwise results/ and the scenario's name")
+      ->type_name("FOLDER");
+  command
+      .add_option("--threads", arguments.threads,
+                  "Step units on up to N threads where that is faster; the results are the same")
+      ->type_name("N")
+      ->check(CLI::Range(1, kMostThreads));
+  command
+      .add_option("--capture", arguments.captures,
+                  "Write all inputs of a component to a file that can be replayed to it alone; may "
+                  "be given several times")
+      ->type_name("COMPONENT=FILE")
+      ->allow_extra_args(false);
+  // a flag, so that what follows a blank is the scenario; the value of a flag without one is
+  // "true", kUnspecifiedFilmInterval
+  command.add_flag("--film", arguments.scenario.film,
+                   "Pictures of the MuJoCo worlds in units/COMPONENT/film/, every 0.1 s of "
+                   "simulated time, or as in --film=SECONDS");
+  command
+      .add_option_function<std::string>(
+          "--junit",
+          [&](const std::string& file) {
+            if (file.empty()) core::fail_input({}, "--junit: no file is named");
+            arguments.junit = file;
+          },
+          "Write a test report in the XML of JUnit, with a test case for the run, each "
+          "check and each unit's verdict")
+      ->type_name("FILE");
+  command.add_flag("--no-trace", arguments.no_trace, "Write no signals.vcd");
+}
+
+void add_display_options(CLI::App& command, RunArguments& arguments) {
+  command
+      .add_option_function<std::string>(
+          "--progress",
+          [&](const std::string& text) { arguments.progress = read_progress_style(text); },
+          "How to show progress: automatically (on a terminal a line that is rewritten, elsewhere "
+          "a line now and then), in plain lines, in JSON objects for programs, or not at all")
+      ->type_name("auto|plain|json|none");
+  command.add_flag("--no-report", arguments.no_report, "Write no report.html");
+  command.add_flag("--open", arguments.open, "Open the report in a browser when the run is over");
+  command.add_flag("--quiet,-q", arguments.quiet, "Print nothing but warnings and errors");
+}
+
+}  // namespace
+
+std::filesystem::path results_folder(const RunArguments& arguments) {
+  if (!arguments.out.empty()) return arguments.out;
+  return std::filesystem::path("results") / scenario::stem(arguments.scenario.scenario);
+}
+
+void add_run_options(CLI::App& command, RunArguments& arguments) {
+  add_scenario_options(command, arguments.scenario);
+  add_recording_options(command, arguments);
+  add_display_options(command, arguments);
+}
+
+}  // namespace stride::cli
