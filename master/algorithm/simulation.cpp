@@ -114,7 +114,7 @@ class Simulation::Run {
   std::vector<std::unique_ptr<Unit>> coasting(const System& system,
                                               std::vector<std::unique_ptr<Unit>> units,
                                               const RunOptions& options) {
-    const auto& [each_step, most_steps, always] = options.checkpoints;
+    const auto& [each_step, most_steps, always] = options.state_saving;
     coasting_.resize(units.size());
     const auto saved =
         static_cast<std::size_t>(std::ranges::count_if(order_, &StepOrderEntry::saves_state));
@@ -124,7 +124,7 @@ class Simulation::Run {
       const std::size_t most = std::ranges::count(each_step, i) > 0 ? 1 : most_steps;
       auto unit =
           std::make_unique<CoastingUnit>(std::move(units[i]), *system.components()[i].description,
-                                         CheckpointInterval(most, !always), kNoteCache / saved);
+                                         SaveInterval(most, !always), kNoteCache / saved);
       coasting_[i] = unit.get();
       units[i] = std::move(unit);
     }

@@ -94,7 +94,7 @@ TEST_CASE("interventions are the same on threads and with states saved before ea
     RunOptions threads = options;
     threads.threads = {2, {}, true};
     check_same_bytes(run(system, threads), expected);
-    options.checkpoints.most_steps = 1;
+    options.state_saving.most_steps = 1;
     check_same_bytes(run(system, options), expected);
   }
   CHECK(changed > systems / 2);

@@ -15,7 +15,7 @@ constexpr std::size_t kMostBytes = std::size_t{64} << 10;
 }  // namespace
 
 CoastingUnit::CoastingUnit(std::unique_ptr<Unit> unit, const UnitDescription& description,
-                           CheckpointInterval interval, std::size_t cache)
+                           SaveInterval interval, std::size_t cache)
     : ForwardingUnit(std::move(unit)),
       state_(inner().require_capability<StateSaving>()),
       concurrent_(inner().capability<ConcurrentSteps>()),
