@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "master/util/state_archive.h"
 #include "master/util/wall_clock.h"
 
 namespace stride::core {
@@ -29,6 +30,21 @@ Capability* CoastingUnit::find_capability(CapabilityId id) {
 
 void CoastingUnit::select_state(std::size_t) {
   throw std::logic_error("this kind of unit keeps one state only");
+}
+
+void CoastingUnit::persist(StateArchive& state) {
+  state.value(counts_.saves);
+  state.value(counts_.repeated_steps);
+  bool is_inexact = counts_.inexact_repetition.has_value();
+  state.value(is_inexact);
+  if (!is_inexact) return counts_.inexact_repetition.reset();
+  if (!counts_.inexact_repetition) counts_.inexact_repetition.emplace();
+  InexactRepetition& repetition = *counts_.inexact_repetition;
+  state.value(repetition.time);
+  state.value(repetition.variable);
+  state.value(repetition.first);
+  state.value(repetition.second);
+  interval_.limit(1);
 }
 
 // ---- What the unit is given ----

@@ -17,6 +17,8 @@
 
 namespace stride::core {
 
+class StateArchive;
+
 /// Saves the state of its unit before some of the steps only, and notes in between what the unit is
 /// given. restore_state() restores the last state that was saved, and makes the unit repeat the
 /// steps up to the last save_state(): it coasts forward, as optimistic parallel simulation calls
@@ -45,6 +47,8 @@ class CoastingUnit : public ForwardingUnit, public StateSaving, public Concurren
                SaveInterval interval, std::size_t cache);
 
   const Counts& counts() const { return counts_; }
+  /// The counts. What was saved is none of it: a run that is resumed begins a new stretch.
+  void persist(StateArchive& state);
 
   /// The references must stay where they are until the next save of the state.
   void set(std::span<const ValueReference> references, const ValueBlock& values) override;

@@ -5,6 +5,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "master/util/state_archive.h"
 #include "master/util/time_text.h"
 #include "tests/master/algorithm/scripted_system.h"
 
@@ -112,10 +113,20 @@ TEST_CASE("a million ticks of a third of a millisecond do not drift") {
   CHECK(wrong == 0);
 }
 
-TEST_CASE("clocks that resume tick when those would have that they continue") {
+TEST_CASE("clocks that go on from a state tick when those would have that wrote it") {
   ScriptedSystem f;
-  f.add("a",
+  const bool is_described = GENERATE(true, false);
+  if (is_described) {
+    f.add(
+        "a",
         Describe("a").clock("tick", IntervalVariability::Constant, every(3ms), every(1ms)).done());
+  } else {
+    auto& a = f.add("a", Describe("a").clock("tick", IntervalVariability::Fixed).done());
+    a.on_clock_interval = [](ScriptedUnit&, ValueReference) {
+      return ClockInterval{ClockInterval::State::Changed, every(3ms)};
+    };
+    a.on_clock_shift = [](ScriptedUnit&, ValueReference) { return every(1ms); };
+  }
   const System system(f.declaration);
   Clocks clocks(system, f.units);
   clocks.begin({});
@@ -126,8 +137,12 @@ TEST_CASE("clocks that resume tick when those would have that they continue") {
     ticking.due(time);
   };
   tick(clocks, Time(1ms));
+  StateArchive written;
+  clocks.persist(written, {}, Time(1ms));
   Clocks other(system, f.units);
-  other.resume(clocks);
+  StateArchive read(written.bytes());
+  other.persist(read, {}, Time(1ms));
+  read.end();
   CHECK(other.next() == Time(4ms));
   tick(clocks, Time(4ms));
   CHECK(other.next() == Time(4ms));
