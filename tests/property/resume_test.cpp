@@ -1,10 +1,12 @@
 // A run that goes on from its state in another simulation is, bit for bit, the run that was never
 // interrupted.
+#include <algorithm>
 #include <random>
+#include <utility>
 
 #include <catch2/catch.hpp>
 
-#include "tests/property/cut_run.h"
+#include "tests/master/algorithm/cut_run.h"
 #include "tests/property/random_interventions.h"
 #include "tests/property/random_system.h"
 
@@ -164,6 +166,24 @@ class ManyPauses : public RunControl {
   std::mt19937 random_;
 };
 
+/// Adds interventions at the last moment.
+class Adder : public RunControl {
+ public:
+  explicit Adder(std::vector<Intervention> interventions)
+      : interventions_(std::move(interventions)),
+        first_(std::ranges::min_element(interventions_, {}, &Intervention::from)->from) {}
+
+  Simulation* simulation = nullptr;
+  std::optional<Pause> next(Time) override {
+    return interventions_.empty() ? std::nullopt : std::optional(Pause{first_, true});
+  }
+  void on_pause(Time) override { simulation->add_interventions(std::exchange(interventions_, {})); }
+
+ private:
+  std::vector<Intervention> interventions_;
+  Time first_;
+};
+
 const unsigned kCutSystems = kSanitized ? 24 : 240;
 
 }  // namespace
@@ -185,7 +205,9 @@ TEST_CASE("a run that was cut is the run that was not, bit for bit") {
                    << assembly.text());
       Trace trace(system);
       CutRun run{system, share(assembly.instantiate()), trace};
-      std::vector<std::byte> state = run.up_to({points[first], random() % 2 == 0}, options);
+      std::vector<std::byte> state = trial == 2
+                                         ? run.up_to_point(first, options)
+                                         : run.up_to({points[first], random() % 2 == 0}, options);
       if (trial % 2 == 1) state = run.up_to({points[second], false}, options, state);
       REQUIRE_FALSE(state.empty());
       const RunStatistics statistics = run.from(state, options);
@@ -218,6 +240,30 @@ TEST_CASE("pauses change nothing") {
     CHECK(counts(simulation.statistics(), true) == counts(whole.statistics, true));
   }
   CHECK(count > 5 * kCutSystems);
+}
+
+TEST_CASE("what is added in a pause has the effect that it would have had from the beginning") {
+  for (unsigned seed = 0; seed < kCutSystems / 2; ++seed) {
+    const Assembly assembly = system_of(seed);
+    const System system(assembly.declaration());
+    RunOptions options = options_of(seed, assembly, system);
+    options.interventions = random_interventions(assembly, seed);
+    if (options.interventions.empty()) continue;
+    INFO("seed " << seed << "\n" << assembly.text());
+    const Whole whole = run_whole(assembly, system, options);
+    Adder adder(std::exchange(options.interventions, {}));
+    Trace trace(system);
+    Simulation simulation(system, assembly.instantiate(), options);
+    adder.simulation = &simulation;
+    simulation.add_observer(trace);
+    simulation.set_control(adder);
+    try {
+      simulation.run();
+    } catch (const Error& error) {
+      trace.note(error);
+    }
+    check_same(trace.text(), whole.trace.text());
+  }
 }
 
 TEST_CASE("a state that is damaged is refused, or is another one, and never crashes") {

@@ -440,6 +440,7 @@ void Exchange::persist(StateArchive& state, Transfer& input) {
   core::persist(state, input.written);
 }
 
+/// What is forced has its value in its block.
 void Exchange::persist_forced(StateArchive& state) {
   std::uint64_t count = forced_.size();
   state.value(count);
@@ -455,7 +456,6 @@ void Exchange::persist_forced(StateArchive& state) {
       }
       forced_.push_back({input, slice(input), value(input)});
     }
-    core::persist(state, forced_[i].value);
   }
 }
 

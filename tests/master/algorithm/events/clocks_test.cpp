@@ -129,26 +129,29 @@ TEST_CASE("clocks that go on from a state tick when those would have that wrote 
   }
   const System system(f.declaration);
   Clocks clocks(system, f.units);
-  clocks.begin({});
+  const Time start(10ms);
+  clocks.begin(start);
   const auto tick = [](Clocks& ticking, Time time) {
     ticking.due(time);
     ticking.tick(time);
     ticking.update(0, time);
     ticking.due(time);
   };
-  tick(clocks, Time(1ms));
+  tick(clocks, start + 1ms);
   StateArchive written;
-  clocks.persist(written, {}, Time(1ms));
+  clocks.persist(written, start, start + 1ms);
   Clocks other(system, f.units);
   StateArchive read(written.bytes());
-  other.persist(read, {}, Time(1ms));
+  other.persist(read, start, start + 1ms);
   read.end();
-  CHECK(other.next() == Time(4ms));
-  tick(clocks, Time(4ms));
-  CHECK(other.next() == Time(4ms));
-  tick(other, Time(4ms));
+  CHECK(other.next() == start + 4ms);
+  tick(clocks, start + 4ms);
+  CHECK(other.next() == start + 4ms);
+  tick(other, start + 4ms);
   CHECK(other.next() == clocks.next());
-  CHECK(other.next() == Time(7ms));
+  CHECK(other.next() == start + 7ms);
+  StateArchive early(written.bytes());
+  CHECK_THROWS_AS(other.persist(early, start, start + 4ms), BadState);
 }
 
 TEST_CASE("a clock that ticks at once, and one that ticks at the end") {

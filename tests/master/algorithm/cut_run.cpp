@@ -1,5 +1,6 @@
-#include "tests/property/cut_run.h"
+#include "tests/master/algorithm/cut_run.h"
 
+#include <csignal>
 #include <stdexcept>
 #include <utility>
 
@@ -70,11 +71,19 @@ struct HandOver {};
 /// Writes the state at its pause.
 class Cutter : public core::RunControl {
  public:
-  Cutter(core::Simulation& simulation, const core::Pause& pause, const Trace& trace)
+  Cutter(core::Simulation& simulation, const std::optional<core::Pause>& pause, const Trace& trace)
       : simulation_(simulation), pause_(pause), trace_(trace) {}
 
   std::optional<core::Pause> next(Time) override { return pause_; }
-  void on_pause(Time) override {
+  void on_pause(Time) override { hand_over(); }
+  void on_interruption(Time) override { hand_over(); }
+
+  std::vector<std::byte> state;
+  std::size_t traced = 0;
+  std::shared_ptr<bool> is_over = std::make_shared<bool>(false);
+
+ private:
+  [[noreturn]] void hand_over() {
     core::StateArchive archive;
     simulation_.persist(archive);
     state = archive.bytes();
@@ -83,14 +92,23 @@ class Cutter : public core::RunControl {
     throw HandOver();
   }
 
-  std::vector<std::byte> state;
-  std::size_t traced = 0;
-  std::shared_ptr<bool> is_over = std::make_shared<bool>(false);
+  core::Simulation& simulation_;
+  std::optional<core::Pause> pause_;
+  const Trace& trace_;
+};
+
+/// Interrupts the run at a point.
+class Interrupter : public core::Observer {
+ public:
+  explicit Interrupter(std::size_t point) : point_(point) {}
+  void on_communication_point(Time) override {
+    if (count_++ == point_) flag = 1;
+  }
+  volatile std::sig_atomic_t flag = 0;
 
  private:
-  core::Simulation& simulation_;
-  core::Pause pause_;
-  const Trace& trace_;
+  std::size_t point_;
+  std::size_t count_ = 0;
 };
 
 void run_or_resume(core::Simulation& simulation, const std::vector<std::byte>& state) {
@@ -138,9 +156,22 @@ SharedUnits share(std::vector<std::unique_ptr<core::Unit>> units) {
 
 std::vector<std::byte> CutRun::up_to(const core::Pause& pause, const core::RunOptions& options,
                                      const std::vector<std::byte>& state) {
+  return cut(pause, options, state, nullptr);
+}
+
+std::vector<std::byte> CutRun::up_to_point(std::size_t point, core::RunOptions options) {
+  Interrupter interrupter(point);
+  options.interrupted = &interrupter.flag;
+  return cut(std::nullopt, options, {}, &interrupter);
+}
+
+std::vector<std::byte> CutRun::cut(const std::optional<core::Pause>& pause,
+                                   const core::RunOptions& options,
+                                   const std::vector<std::byte>& state, core::Observer* observer) {
   const auto is_over = std::make_shared<bool>(false);
   core::Simulation simulation(system, lend(units, is_over), options);
   simulation.add_observer(trace);
+  if (observer != nullptr) simulation.add_observer(*observer);
   Cutter cutter(simulation, pause, trace);
   cutter.is_over = is_over;
   simulation.set_control(cutter);

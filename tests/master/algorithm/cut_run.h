@@ -1,16 +1,16 @@
 // A run that is cut at a communication point: another simulation goes on from its state, with the
 // same instances of the units.
-#ifndef STRIDE_TESTS_PROPERTY_CUT_RUN_H
-#define STRIDE_TESTS_PROPERTY_CUT_RUN_H
+#ifndef STRIDE_TESTS_MASTER_ALGORITHM_CUT_RUN_H
+#define STRIDE_TESTS_MASTER_ALGORITHM_CUT_RUN_H
 
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "master/algorithm/simulation.h"
 #include "master/util/state_archive.h"
-#include "tests/property/assembly.h"
 
 namespace stride::tests {
 
@@ -56,8 +56,15 @@ struct CutRun {
   /// if the run ends before. A unit that is called behind the pause throws.
   std::vector<std::byte> up_to(const core::Pause& pause, const core::RunOptions& options,
                                const std::vector<std::byte>& state = {});
+  /// Likewise, up to the communication point of this number, at which the run is interrupted.
+  std::vector<std::byte> up_to_point(std::size_t point, core::RunOptions options);
   /// From the state to the end, or to a failure, which the trace ends with.
   core::RunStatistics from(const std::vector<std::byte>& state, const core::RunOptions& options);
+
+  /// up_to(), with a further observer.
+  std::vector<std::byte> cut(const std::optional<core::Pause>& pause,
+                             const core::RunOptions& options, const std::vector<std::byte>& state,
+                             core::Observer* observer);
 };
 
 }  // namespace stride::tests
