@@ -74,11 +74,11 @@ class Simulation::Run {
   void set_control(RunControl& control) { pauses_.set_control(control); }
 
   void run() {
-    execute([&] { initialize(); });
+    perform([&] { initialize(); });
   }
 
   void resume(StateArchive& state, const std::function<void()>& started) {
-    execute([&] {
+    perform([&] {
       is_initialized_ = true;
       restore(state);
       start_observers();
@@ -110,7 +110,7 @@ class Simulation::Run {
 
   /// The whole run. `begin` leaves the units in Step Mode.
   template <class Begin>
-  void execute(Begin&& begin) {
+  void perform(Begin&& begin) {
     if (std::exchange(has_run_, true)) throw std::logic_error("a simulation runs once");
     began_ = WallClock::Source::now();
     std::exception_ptr failure;

@@ -28,7 +28,7 @@ PLACEHOLDER = "Class::function"
 # what only builds or reports an error.
 SHOWN = {
     "Run": "abandon note_requested_end add_observer statistics suspended_time verdicts count sets_inputs_in_steps "
-           "coasting add_wall_time finish_suspensions finish_observers execute "
+           "coasting add_wall_time finish_suspensions finish_observers perform "
            "set_control persist add_interventions persist_all persist_statistics "
            "notify_observers start_observers make_input_extrapolator make_idle_scheduler "
            "connect_input_updates set should_continue",
