@@ -111,7 +111,7 @@ struct IdleOptions {
 
 /// How often the states are saved that a rollback needs. Changes the speed of a run, not its
 /// results, if units repeat steps exactly.
-struct CheckpointOptions {
+struct StateSavingOptions {
   /// Components whose states are saved before each step.
   std::vector<std::size_t> each_step{};
   /// Of the others, between two saves.
@@ -138,7 +138,7 @@ struct RunOptions {
   Coupling coupling = Coupling::Jacobi;
   Extrapolation extrapolation = Extrapolation::Hold;
   ThreadOptions threads{};  ///< not with Gauss-Seidel, where units step one after another
-  CheckpointOptions checkpoints{};
+  StateSavingOptions state_saving{};
   std::vector<Intervention> interventions{};
   IdleOptions idle{};                  ///< as far as may_skip_idle_time()
   std::vector<VariableId> recorded{};  ///< the default signals of observers, in order

@@ -11,13 +11,12 @@
 #include <fmt/format.h>
 
 #include "master/algorithm/capabilities/configuration_mode.h"
-#include "master/algorithm/capabilities/host_diagnostics.h"
 #include "master/algorithm/capabilities/inputs_within_step.h"
-#include "master/algorithm/capabilities/unit_diagnostics.h"
 #include "master/algorithm/events/event_handler.h"
 #include "master/algorithm/events/interventions.h"
 #include "master/algorithm/idle/idle_scheduler.h"
 #include "master/algorithm/loops/ordered_evaluation.h"
+#include "master/algorithm/pauses.h"
 #include "master/algorithm/run_context.h"
 #include "master/algorithm/step_policies/step_policy.h"
 #include "master/algorithm/stepping/coasting_unit.h"
@@ -25,6 +24,8 @@
 #include "master/algorithm/stepping/step_order.h"
 #include "master/algorithm/stepping/stepper.h"
 #include "master/algorithm/time_sampling.h"
+#include "master/algorithm/unit_counters.h"
+#include "master/util/state_archive.h"
 
 namespace stride::core {
 namespace {
@@ -49,7 +50,8 @@ class Simulation::Run {
         event_handler_(context_, idle_.get()),
         interventions_(context_, event_handler_, idle_.get()),
         stepper_(context_, order_, coasting_, sets_inputs_in_steps() ? inputs_.get() : nullptr,
-                 idle_.get()) {
+                 idle_.get()),
+        counters_(context_, coasting_, stepper_) {
     if (sets_inputs_in_steps()) connect_input_updates();
   }
 
@@ -69,38 +71,34 @@ class Simulation::Run {
   Duration suspended_time() const { return idle_ ? idle_->suspended_time(time_) : Duration{}; }
   std::span<const Verdict> verdicts() const { return verdicts_; }
 
+  void set_control(RunControl& control) { pauses_.set_control(control); }
+
   void run() {
-    if (std::exchange(has_run_, true)) throw std::logic_error("a simulation runs once");
-    began_ = WallClock::Source::now();
-    std::exception_ptr failure;
-    try {
-      clock_.timed(statistics_.phases.initialization, [&] { initialize(); });
+    perform([&] { initialize(); });
+  }
+
+  void resume(StateArchive& state, const std::function<void()>& started) {
+    perform([&] {
       is_initialized_ = true;
-      sampling_.begin();
-      while (should_continue()) {
-        sampling_.begin_step();
-        communication_step();
-        sampling_.end_step();
-      }
-      if (idle_) idle_->catch_up_all(time_);
-      if (statistics_.end != RunEnd::Interrupted) verdicts_ = read_verdicts(system_, units_);
-    } catch (...) {
-      failure = std::current_exception();
-    }
-    terminate_units(failure);
-    statistics_.wall_time = WallClock::Source::now() - began_;
-    sampling_.end();
-    collect_unit_statistics();
-    free_units(failure);
-    finish_suspensions(failure);
-    finish_observers(failure);
-    if (!failure) return;
-    verdicts_.clear();
-    std::rethrow_exception(failure);
+      restore(state);
+      start_observers();
+      started();
+    });
+  }
+
+  void persist(StateArchive& state) {
+    pauses_.check_paused();
+    if (state.is_reading()) throw std::logic_error("a state is read by resume() only");
+    persist_all(state);
+  }
+
+  void add_interventions(std::vector<Intervention> interventions) {
+    pauses_.check_paused();
+    interventions_.add(std::move(interventions), time_);
   }
 
   void abandon() noexcept {
-    statistics_.wall_time = WallClock::Source::now() - began_;
+    add_wall_time(statistics_);
     sampling_.end();
     std::exception_ptr ignored;
     finish_observers(ignored);
@@ -110,11 +108,43 @@ class Simulation::Run {
   std::size_t count() const { return units_.size(); }
   bool sets_inputs_in_steps() const { return options_.sets_inputs_in_steps(); }
 
+  /// The whole run. `begin` leaves the units in Step Mode.
+  template <class Begin>
+  void perform(Begin&& begin) {
+    if (std::exchange(has_run_, true)) throw std::logic_error("a simulation runs once");
+    began_ = WallClock::Source::now();
+    std::exception_ptr failure;
+    try {
+      clock_.timed(statistics_.phases.initialization, begin);
+      is_initialized_ = true;
+      sampling_.begin();
+      go_on();
+      if (idle_) idle_->catch_up_all(time_);
+      if (statistics_.end != RunEnd::Interrupted) verdicts_ = read_verdicts(system_, units_);
+    } catch (...) {
+      failure = std::current_exception();
+    }
+    terminate_units(failure);
+    add_wall_time(statistics_);
+    sampling_.end();
+    counters_.add_to(statistics_);
+    free_units(failure);
+    finish_suspensions(failure);
+    finish_observers(failure);
+    if (!failure) return;
+    verdicts_.clear();
+    std::rethrow_exception(failure);
+  }
+
+  void add_wall_time(RunStatistics& statistics) const {
+    statistics.wall_time += WallClock::Source::now() - began_;
+  }
+
   /// Those whose states are saved need not be saved before each step.
   std::vector<std::unique_ptr<Unit>> coasting(const System& system,
                                               std::vector<std::unique_ptr<Unit>> units,
                                               const RunOptions& options) {
-    const auto& [each_step, most_steps, always] = options.checkpoints;
+    const auto& [each_step, most_steps, always] = options.state_saving;
     coasting_.resize(units.size());
     const auto saved =
         static_cast<std::size_t>(std::ranges::count_if(order_, &StepOrderEntry::saves_state));
@@ -124,28 +154,11 @@ class Simulation::Run {
       const std::size_t most = std::ranges::count(each_step, i) > 0 ? 1 : most_steps;
       auto unit =
           std::make_unique<CoastingUnit>(std::move(units[i]), *system.components()[i].description,
-                                         CheckpointInterval(most, !always), kNoteCache / saved);
+                                         SaveInterval(most, !always), kNoteCache / saved);
       coasting_[i] = unit.get();
       units[i] = std::move(unit);
     }
     return units;
-  }
-
-  void collect_unit_statistics() {
-    for (std::size_t i = 0; i < count(); ++i) {
-      auto* const diagnostics = units_[i]->capability<UnitDiagnostics>();
-      auto* const process = units_[i]->capability<HostDiagnostics>();
-      if (diagnostics != nullptr) statistics_.units[i].calls = diagnostics->calls();
-      if (process != nullptr) statistics_.units[i].host = process->host_statistics();
-      statistics_.units[i].steps = stepper_.steps(i) + statistics_.units[i].suspensions;
-    }
-    for (std::size_t i = 0; i < count(); ++i) {
-      if (coasting_[i] == nullptr) continue;
-      const CoastingUnit::Counts& counts = coasting_[i]->counts();
-      statistics_.units[i].saves = counts.saves;
-      statistics_.units[i].repeated_steps = counts.repeated_steps;
-      statistics_.units[i].inexact_repetition = counts.inexact_repetition;
-    }
   }
 
   /// Those that have failed do nothing, and before the end of the initialisation no unit may be
@@ -172,7 +185,7 @@ class Simulation::Run {
   }
 
   void finish_suspensions(std::exception_ptr& failure) {
-    if (!idle_ || !failure) return;
+    if (!idle_ || !failure || !has_started_observers_) return;
     try {
       idle_->report_unfinished(time_);
     } catch (...) {  // the first failure is kept
@@ -249,6 +262,7 @@ class Simulation::Run {
         signals.push_back(context_.outputs.signal(id, exchange_));
       context_.observers[i]->on_start(signals);
     }
+    has_started_observers_ = true;
   }
 
   /// Nothing where inputs are held and their error is not controlled.
@@ -271,6 +285,64 @@ class Simulation::Run {
       inputs->set_input_update(
           [this, i, &unit](double seconds) { inputs_->within_step(i, unit, seconds); });
     }
+  }
+
+  /// Up to the end of the run.
+  void go_on() {
+    pauses_.begin(time_);
+    while (true) {
+      if (pauses_.may_be_due(time_)) [[unlikely]]
+        make_pauses();
+      if (!should_continue()) break;
+      sampling_.begin_step();
+      communication_step();
+      sampling_.end_step();
+    }
+    if (statistics_.end == RunEnd::Interrupted) pauses_.interrupt(time_);
+  }
+
+  void make_pauses() {
+    if (statistics_.end == RunEnd::EndedByUnit) return;
+    pauses_.make(time_, [&] { return time_ < options_.stop ? next_target() : Time::min(); });
+  }
+
+  void restore(StateArchive& state) {
+    persist_all(state);
+    interventions_.go_on(time_);
+    counters_.resume();
+    context_.outputs.update();
+  }
+
+  void persist_all(StateArchive& state) {
+    state.mark("run");
+    state.value(time_);
+    if (time_ < options_.start || time_ > options_.stop) state.fail("its time is not in the run");
+    state.value(stalled_steps_);
+    if (stalled_steps_ >= kStallLimit) state.fail("too many steps ended where they began");
+    persist_statistics(state);
+    exchange_.persist(state);
+    event_handler_.persist(state, options_.start, time_);
+    if (idle_) idle_->persist(state, options_.start, time_);
+    if (inputs_) inputs_->persist(state, options_.start, time_);
+    step_policy_->persist(state);
+    stepper_.persist(state);
+    for (CoastingUnit* unit : coasting_) {
+      if (unit != nullptr) unit->persist(state);
+    }
+  }
+
+  /// Those up to here, as they would be if the run had ended.
+  void persist_statistics(StateArchive& state) {
+    if (state.is_reading()) {
+      core::persist(state, statistics_);
+      statistics_.reached = time_;
+      return;
+    }
+    RunStatistics present = statistics_;
+    add_wall_time(present);
+    sampling_.scale(present);
+    counters_.add_to(present);
+    core::persist(state, present);
   }
 
   bool should_continue() {
@@ -376,15 +448,18 @@ class Simulation::Run {
   EventHandler event_handler_;
   Interventions interventions_;
   Stepper stepper_;
+  UnitCounters counters_;
 
   std::vector<std::vector<VariableId>> wanted_;  ///< the signals of each observer
   std::vector<Verdict> verdicts_;
 
   bool has_run_ = false;
   bool is_initialized_ = false;
+  bool has_started_observers_ = false;
   WallClock::Source::time_point began_{};
   Time time_{};
   std::uint32_t stalled_steps_ = 0;
+  Pauses pauses_;
 };
 
 Simulation::Simulation(const System& system, std::vector<std::unique_ptr<Unit>> units,
@@ -399,7 +474,19 @@ void Simulation::add_observer(Observer& observer, std::vector<VariableId> signal
   run_->add_observer(observer, std::move(signals));
 }
 
+void Simulation::set_control(RunControl& control) { run_->set_control(control); }
+
 void Simulation::run() { run_->run(); }
+
+void Simulation::resume(StateArchive& state, const std::function<void()>& started) {
+  run_->resume(state, started);
+}
+
+void Simulation::persist(StateArchive& state) { run_->persist(state); }
+
+void Simulation::add_interventions(std::vector<Intervention> interventions) {
+  run_->add_interventions(std::move(interventions));
+}
 
 void Simulation::abandon() noexcept { run_->abandon(); }
 

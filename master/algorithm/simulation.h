@@ -2,6 +2,7 @@
 #ifndef STRIDE_MASTER_ALGORITHM_SIMULATION_H
 #define STRIDE_MASTER_ALGORITHM_SIMULATION_H
 
+#include <functional>
 #include <memory>
 #include <span>
 #include <vector>
@@ -9,6 +10,7 @@
 #include <stride/time.h>
 
 #include "master/algorithm/observer.h"
+#include "master/algorithm/run_control.h"
 #include "master/algorithm/run_options.h"
 #include "master/algorithm/statistics.h"
 #include "master/algorithm/unit.h"
@@ -16,6 +18,8 @@
 #include "master/model/system.h"
 
 namespace stride::core {
+
+class StateArchive;
 
 /// Runs a system once. The pseudocode is in docs/stepping.md.
 class Simulation {
@@ -30,10 +34,29 @@ class Simulation {
   /// of RunOptions::recorded or RunOptions::watched.
   void add_observer(Observer& observer, std::vector<VariableId> signals);
 
+  /// Before the run, which it must outlive.
+  void set_control(RunControl& control);
+
   /// From initialisation to the stop time, or until a unit ends the simulation or it is
   /// interrupted. Then terminates and frees the units. Throws Error; the observers' on_finish() has
   /// been called then, and the statistics are those up to the failure.
   void run();
+
+  /// Instead of run(): goes on from a state that persist() has written, of a run of the same system
+  /// with the same options but for a later stop time, other interventions that begin behind the
+  /// state's time, threads and what is measured. The units are in Step Mode, what they were where
+  /// the state was written; no function of theirs is called that the uninterrupted run would not
+  /// have called. `started` is called when the observers have been started, and before the first
+  /// step: what follows in the archive, such as their states, can be read there. Throws as run()
+  /// does, and BadState where the bytes are no state of this system: the units have been
+  /// terminated, and the observers' on_finish() has been called then, too.
+  void resume(StateArchive& state, const std::function<void()>& started);
+
+  /// In a pause or an interruption (RunControl): writes the state of the run, but for what belongs
+  /// to the units and to the observers.
+  void persist(StateArchive& state);
+  /// In a pause: further interventions, beside those of the options. They begin later than now.
+  void add_interventions(std::vector<Intervention> interventions);
 
   /// Calls the observers' on_finish(), and no unit, where run() cannot go on: for a process that a
   /// unit has damaged. The statistics are those up to there.

@@ -66,6 +66,8 @@ struct PhaseTimes {
 /// How a run that did not fail ended.
 enum class RunEnd : std::uint8_t { Completed, EndedByUnit, Interrupted };
 
+class StateArchive;
+
 /// As run.json has it: "ended by a unit".
 const char* name(RunEnd end);
 
@@ -85,6 +87,10 @@ struct RunStatistics {
   RunEnd end = RunEnd::Completed;
   std::vector<UnitStatistics> units;  ///< in the order of System::components()
 };
+
+/// What was counted and measured so far, of as many units: without what its parts keep themselves
+/// (UnitCounters), and what is as in any run.
+void persist(StateArchive& state, RunStatistics& statistics);
 
 }  // namespace stride::core
 

@@ -34,20 +34,25 @@ TimeSampling::TimeSampling(WallClock& clock, RunStatistics& statistics)
   if (!is_on_) measured_ = block_end_ = std::numeric_limits<std::uint64_t>::max();
 }
 
+/// The times that are measured in some steps only.
+std::vector<TimeSampling::Sampled> TimeSampling::sampled(RunStatistics& statistics) {
+  PhaseTimes& phases = statistics.phases;
+  PhaseTimes& uncertain = statistics.phase_uncertainties;
+  std::vector<Sampled> sampled{{&phases.steps, &uncertain.steps},
+                               {&phases.instants, &uncertain.instants},
+                               {&phases.observers, &uncertain.observers}};
+  for (UnitStatistics& unit : statistics.units) {
+    sampled.push_back({&unit.step_time, &unit.step_time_uncertainty});
+    sampled.push_back({&unit.event_time, &unit.event_time_uncertainty});
+  }
+  return sampled;
+}
+
 void TimeSampling::begin() {
   if (!is_on_) return;
-  PhaseTimes& phases = statistics_.phases;
-  PhaseTimes& uncertain = statistics_.phase_uncertainties;
-  meters_ = {{&phases.steps, &uncertain.steps},
-             {&phases.instants, &uncertain.instants},
-             {&phases.observers, &uncertain.observers}};
-  for (UnitStatistics& unit : statistics_.units) {
-    meters_.push_back({&unit.step_time, &unit.step_time_uncertainty});
-    meters_.push_back({&unit.event_time, &unit.event_time_uncertainty});
-  }
-  for (Meter& meter : meters_) {
-    meter.before = *meter.time;
-    meter.sum = static_cast<double>(meter.before.count());
+  for (const auto& [time, uncertainty] : sampled(statistics_)) {
+    const auto deviation = static_cast<double>(uncertainty->count());
+    meters_.push_back({time, *time, static_cast<double>(time->count()), deviation * deviation});
   }
   constexpr int kPhaseReadings = 8;
   reading_ = time_of_reading() * (2 * statistics_.units.size() + kPhaseReadings);
@@ -86,12 +91,14 @@ void TimeSampling::end_block() {
   begin_block();
 }
 
-void TimeSampling::end() {
+void TimeSampling::scale(RunStatistics& copy) const {
   if (!is_on_ || meters_.empty()) return;
-  for (Meter& meter : meters_) {
+  const std::vector<Sampled> scaled = sampled(copy);
+  for (std::size_t i = 0; i < meters_.size(); ++i) {
+    const Meter& meter = meters_[i];
     const double rest = static_cast<double>((*meter.time - meter.before).count());
-    *meter.time = Nanoseconds(std::llround(meter.sum + rest));
-    *meter.uncertainty = Nanoseconds(std::llround(std::sqrt(meter.variance)));
+    *scaled[i].time = Nanoseconds(std::llround(meter.sum + rest));
+    *scaled[i].uncertainty = Nanoseconds(std::llround(std::sqrt(meter.variance)));
   }
 }
 

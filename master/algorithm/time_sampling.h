@@ -28,7 +28,8 @@ class TimeSampling {
   /// Both must outlive it. Times that the clock has not measured at all stay 0.
   TimeSampling(WallClock& clock, RunStatistics& statistics);
 
-  /// The initialization is over, in which all was measured.
+  /// The initialization is over, in which all was measured. Times from before a resumption are in
+  /// the statistics, with their uncertainties.
   void begin();
   /// Around each communication step.
   void begin_step() {
@@ -42,15 +43,20 @@ class TimeSampling {
       end_block();
   }
   /// The times are those of the whole run from here on.
-  void end();
+  void end() { scale(statistics_); }
+  /// Likewise, those of a copy of the statistics.
+  void scale(RunStatistics& copy) const;
 
  private:
   using Nanoseconds = std::chrono::nanoseconds;
 
   /// One of the times of the statistics.
-  struct Meter {
-    Nanoseconds* time;  ///< as it was measured
+  struct Sampled {
+    Nanoseconds* time;
     Nanoseconds* uncertainty;
+  };
+  struct Meter {
+    Nanoseconds* time;     ///< as it was measured
     Nanoseconds before{};  ///< of it, up to the last measured step
     double sum = 0;        ///< [ns]
     double variance = 0;   ///< [ns²]
@@ -58,6 +64,7 @@ class TimeSampling {
     bool has_last = false;
   };
 
+  static std::vector<Sampled> sampled(RunStatistics& statistics);
   void begin_block();
   void end_measured_step();
   void end_block();

@@ -67,7 +67,7 @@ void Capture::wrap(std::vector<std::unique_ptr<core::Unit>>& units, core::RunOpt
     auto captured = std::make_unique<CapturedUnit>(std::move(units[file.component]), description,
                                                    *file.file, index_);
     file.unit = captured.get();
-    options.checkpoints.each_step.push_back(file.component);
+    options.state_saving.each_step.push_back(file.component);
     units[file.component] = std::move(captured);
   }
 }

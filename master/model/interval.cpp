@@ -9,6 +9,8 @@
 #include <string>
 #include <string_view>
 
+#include "master/util/state_archive.h"
+
 namespace stride::core {
 namespace {
 
@@ -95,6 +97,16 @@ Interval Interval::from_seconds(double seconds) {
 Interval Interval::from_duration(Duration duration) {
   if (duration < Duration{}) throw std::invalid_argument("it is negative");
   return {static_cast<std::uint64_t>(duration.count()), 1};
+}
+
+void Interval::persist(StateArchive& state) {
+  auto low = static_cast<std::uint64_t>(numerator_);
+  auto high = static_cast<std::uint64_t>(numerator_ >> 64);
+  state.value(low);
+  state.value(high);
+  state.value(denominator_);
+  numerator_ = Wide{high} << 64 | low;
+  if (denominator_ == 0 || denominator_ > kMaxDenominator) state.fail("an interval is no fraction");
 }
 
 double Interval::seconds() const {

@@ -9,6 +9,8 @@
 
 namespace stride::core {
 
+class StateArchive;
+
 /// A length of time as a fraction of picoseconds. A double represents the shortest decimal that
 /// reads back as that double, so 0.1 s is a tenth of a second, and its millionth multiple is exact.
 class Interval {
@@ -28,6 +30,7 @@ class Interval {
   bool is_fraction() const { return denominator_ != 0; }
   bool is_zero() const { return numerator_ == 0; }
   bool is_below_picosecond() const { return numerator_ < denominator_; }
+  void persist(StateArchive& state);
   /// The nearest double, for display [s].
   double seconds() const;
 

@@ -144,7 +144,7 @@ LoadedScenario::LoadedScenario(const ScenarioRequest& request)
   if (request.idle_twins) add_twins();
   choose_early_returns();
   choose_state_saving();
-  choose_checkpoints();
+  choose_repeated_steps();
   system_.emplace(scenario_.system);
   for (const auto& warnings : {scenario_.warnings, system_->warnings()}) {
     for (const std::string& warning : warnings) spdlog::warn("{}", core::message_text(warning));
@@ -243,10 +243,10 @@ void LoadedScenario::choose_state_saving() {
   }
 }
 
-void LoadedScenario::choose_checkpoints() {
+void LoadedScenario::choose_repeated_steps() {
   const std::vector<bool> repeats = permissions(scenario_.annotation.repeated_steps);
   for (std::size_t i = 0; i < repeats.size(); ++i) {
-    if (!repeats[i]) options_.checkpoints.each_step.push_back(i);
+    if (!repeats[i]) options_.state_saving.each_step.push_back(i);
   }
 }
 

@@ -87,7 +87,7 @@ class LoadedScenario {
   std::vector<std::string> selection_names() const;
   void choose_early_returns();
   void choose_state_saving();
-  void choose_checkpoints();
+  void choose_repeated_steps();
   std::vector<bool> permissions(std::span<const PermissionRule> rules) const;
   void choose_times(const ScenarioRequest& request);
   void choose_steps(const StepSettings& request);

@@ -28,22 +28,23 @@ PLACEHOLDER = "Class::function"
 # what only builds or reports an error.
 SHOWN = {
     "Run": "abandon note_requested_end add_observer statistics suspended_time verdicts count sets_inputs_in_steps "
-           "coasting collect_unit_statistics finish_suspensions finish_observers "
+           "coasting add_wall_time finish_suspensions finish_observers perform "
+           "set_control persist add_interventions persist_all persist_statistics "
            "notify_observers start_observers make_input_extrapolator make_idle_scheduler "
            "connect_input_updates set should_continue",
     "Stepper": "result has_requests steps was_parallel make_timed_passes step_together step_share succeeds "
                "form_stages batches step_one_by_one step_plainly save_and_step reached_by attempt_timed begin_timed "
-               "finish prepare conclude report record_time index name rethrow_failure reason hint_for_final fail_final plan pool",
+               "finish persist prepare conclude report record_time index name rethrow_failure reason hint_for_final fail_final plan pool",
     "IdleScheduler": "add_candidate all_suspended_until catch_up_and_report check_promise covers find_sources "
-                     "is_disturbed is_suspended is_trivial leaves_deadband may_suspend report_suspension "
+                     "is_disturbed is_suspended is_trivial leaves_deadband may_suspend persist report_suspension "
                      "report_unfinished suspended_time",
     "OrderedEvaluation": "check_nan find_direct_inputs is_trivial plan report sweep takes_part",
     "AlgebraicLoop": "collect fail has_converged have_held_values_converged hint inputs put sweep values_text",
-    "InputExtrapolator": "sample set_targets signal_of undo_step within_step",
-    "StepPolicy": "",
+    "InputExtrapolator": "persist sample set_targets signal_of undo_step within_step",
+    "StepPolicy": "persist",
     "EventHandler": "had_event has_announced count description activate activate_announced update_announced "
                     "notify_observers receive report content_of described_by fail_nan fail_ticking fail_sample_loop "
-                    "takes_part find_discontinuities set_in_event make_assignments disturb release report_disturbed",
+                    "takes_part find_discontinuities persist set_in_event make_assignments disturb release report_disturbed",
 }
 
 

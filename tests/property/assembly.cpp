@@ -199,7 +199,7 @@ core::RunOptions fixed_steps(Duration step, Time stop) {
   options.stop = stop;
   options.measure_time = false;
   // not by measured costs, so that two runs save and repeat alike
-  options.checkpoints = {.most_steps = 5, .always = true};
+  options.state_saving = {.most_steps = 5, .always = true};
   return options;
 }
 

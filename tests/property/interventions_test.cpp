@@ -1,11 +1,8 @@
 // Random systems with random interventions: the same bytes on threads, in processes of their own,
 // and with states that are saved before each step.
-#include <random>
-#include <set>
-
 #include <catch2/catch.hpp>
 
-#include "master/algorithm/loops/evaluation_order.h"
+#include "tests/property/random_interventions.h"
 #include "tests/property/random_system.h"
 
 using namespace stride;
@@ -16,63 +13,6 @@ using namespace std::chrono_literals;
 namespace {
 
 constexpr Time kStop{50ms};
-
-std::set<VariableId> inputs_of_loops(const System& system) {
-  std::set<VariableId> inputs;
-  for (const EvaluationBlock& block : evaluation_order(system, Phase::Events)) {
-    if (block.is_loop()) inputs.insert(block.inputs.begin(), block.inputs.end());
-  }
-  return inputs;
-}
-
-/// Each second real input that may be changed is changed twice, at instants on no grid, and each
-/// second clock receives its messages late, or not at all.
-std::vector<Intervention> random_interventions(const Assembly& assembly, unsigned seed) {
-  const System system(assembly.declaration());
-  const std::set<VariableId> loops = inputs_of_loops(system);
-  std::mt19937 random(seed);
-  const auto instant = [&](Duration from, Duration until) {
-    return Time(Duration(std::uniform_int_distribution(from.count(), until.count())(random)));
-  };
-  const auto value = [&] {
-    ValueBlock block(ValueType::Float64, 1);
-    block.numbers<double>()[0] = std::uniform_real_distribution(-1.0, 1.0)(random);
-    return block;
-  };
-  std::vector<Intervention> interventions;
-  for (std::size_t i = 0; i < system.components().size(); ++i) {
-    const auto& variables = system.components()[i].description->variables;
-    for (std::size_t k = 0; k < variables.size(); ++k) {
-      const VariableId id{i, k};
-      const Variable& variable = variables[k];
-      if (variable.type == ValueType::Clock && !system.connections_to(id).empty()) {
-        if (random() % 2 == 0) continue;
-        Intervention late{Intervention::Kind::Delay, id, instant(0ms, 20ms), instant(21ms, 29ms)};
-        late.delay = Duration(instant(0ms, 9ms).time_since_epoch()) + 1ms;
-        Intervention none{Intervention::Kind::Drop, id, instant(30ms, 40ms)};
-        late.clock = none.clock = id;
-        interventions.push_back(std::move(late));
-        interventions.push_back(std::move(none));
-        continue;
-      }
-      const bool is_real_input = variable.causality == Causality::Input &&
-                                 variable.type == ValueType::Float64 && variable.size == 1 &&
-                                 system.is_signal(id) && !system.is_sampled(id);
-      if (!is_real_input || loops.contains(id) || random() % 2 == 0) continue;
-      const Time first = instant(0ms, 20ms);
-      const Time second = instant(30ms, 49ms);
-      if (system.connections_to(id).empty()) {
-        interventions.push_back({Intervention::Kind::Set, id, first, {}, value()});
-        interventions.push_back({Intervention::Kind::Set, id, second, {}, value()});
-      } else {
-        interventions.push_back(
-            {Intervention::Kind::Force, id, first, instant(21ms, 29ms), value()});
-        interventions.push_back({Intervention::Kind::Hold, id, second, {}, {}});
-      }
-    }
-  }
-  return interventions;
-}
 
 RunOptions options_with(const std::vector<Intervention>& interventions) {
   RunOptions options = fixed_steps(1ms, kStop);
@@ -94,7 +34,7 @@ TEST_CASE("interventions are the same on threads and with states saved before ea
     RunOptions threads = options;
     threads.threads = {2, {}, true};
     check_same_bytes(run(system, threads), expected);
-    options.checkpoints.most_steps = 1;
+    options.state_saving.most_steps = 1;
     check_same_bytes(run(system, options), expected);
   }
   CHECK(changed > systems / 2);

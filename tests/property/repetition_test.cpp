@@ -22,8 +22,8 @@ Results run_with(const Assembly& system, std::size_t most_steps,
                  core::Coupling coupling = core::Coupling::Jacobi,
                  core::Extrapolation extrapolation = core::Extrapolation::Hold) {
   core::RunOptions options = fixed_steps(1ms, kRepetitionStop);
-  options.checkpoints.most_steps = most_steps;
-  options.checkpoints.always = true;
+  options.state_saving.most_steps = most_steps;
+  options.state_saving.always = true;
   options.coupling = coupling;
   options.extrapolation = extrapolation;
   return run(system, options);

@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "master/util/state_archive.h"
+
 namespace stride::core {
 
 Clocks::Clocks(const System& system, std::span<const std::unique_ptr<Unit>> units)
@@ -44,12 +46,40 @@ void Clocks::begin(Time start_time) {
   due(start_time);
 }
 
-void Clocks::resume(const Clocks& other) {
-  clocked_ = other.clocked_;
+void Clocks::persist(StateArchive& state, Time start_time, Time now) {
+  state.mark("clocks");
+  for (ComponentClocks& own : clocked_) {
+    for (Schedule& clock : own.clocks) persist(state, clock, start_time, now);
+  }
+  if (!state.is_reading()) return;
   is_stale_ = true;
-  next_.reset();
-  due_.clear();
-  find_due(Time::min());
+  find_due(now);
+}
+
+void Clocks::persist(StateArchive& state, Schedule& clock, Time start_time, Time now) {
+  if (clock.attributes->is_periodic()) {
+    persist_period(state, clock, start_time, now);
+  } else {
+    state.value(clock.next);
+  }
+  if (clock.next && *clock.next <= now) state.fail("a tick has not been made");
+}
+
+void Clocks::persist_period(StateArchive& state, Schedule& clock, Time start_time, Time now) {
+  if (clock.attributes->interval) {
+    clock.base = start_time;
+    clock.shift = clock.attributes->shift;
+    clock.interval = *clock.attributes->interval;
+  } else {
+    state.value(clock.base);
+    clock.shift.persist(state);
+    clock.interval.persist(state);
+    if (clock.base < start_time || clock.base > now || clock.interval.is_below_picosecond()) {
+      state.fail("a clock has another beginning, or interval, than is possible");
+    }
+  }
+  state.value(clock.count);
+  clock.next = tick_time(clock.base, clock.shift, clock.interval, clock.count);
 }
 
 void Clocks::start(Schedule& clock, Time start_time) {

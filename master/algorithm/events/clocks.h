@@ -16,6 +16,8 @@
 
 namespace stride::core {
 
+class StateArchive;
+
 /// Follows FMI 3.0, 2.2.8. Intervals are read from the units, except those that the description
 /// gives; fmi3SetInterval is not called.
 ///
@@ -36,8 +38,8 @@ class Clocks {
   /// possible, as update() does.
   void begin(Time start);
 
-  /// Instead of begin(): continues from the state of another object for the same system.
-  void resume(const Clocks& other);
+  /// At a communication point at which nothing more is due. Reading is instead of begin().
+  void persist(StateArchive& state, Time start, Time now);
 
   /// The next tick, after the last due().
   std::optional<Time> next() const { return next_; }
@@ -77,6 +79,8 @@ class Clocks {
   std::span<const std::size_t> find_due(Time time);
   ComponentClocks* clocks_of(std::size_t component);
   void start(Schedule& clock, Time start);
+  static void persist(StateArchive& state, Schedule& clock, Time start, Time now);
+  static void persist_period(StateArchive& state, Schedule& clock, Time start, Time now);
   void update(Schedule& clock, Time time, bool ticked);
   /// The interval that the unit gives, checked.
   ClockInterval query_interval(const Schedule& clock, Time time);

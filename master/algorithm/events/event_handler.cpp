@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "master/util/readable_text.h"
+#include "master/util/state_archive.h"
 
 namespace stride::core {
 namespace {
@@ -56,6 +57,19 @@ void EventHandler::begin() {
     in_event_mode_[i] = has_event_ = true;
   }
   for (std::size_t i = 0; i < count(); ++i) exchange_.read_outputs(i, *units_[i]);
+}
+
+void EventHandler::persist(StateArchive& state, Time start, Time now) {
+  state.mark("events");
+  time_ = now;
+  state.value(index_);
+  state.fixed(event_units_, [&](std::size_t i) {
+    state.value(next_event_[i]);
+    if (next_event_[i] && *next_event_[i] <= now) state.fail("an event has not been handled");
+  });
+  update_announced();
+  clocks_.persist(state, start, now);
+  messages_.persist(state, now);
 }
 
 std::optional<Time> EventHandler::next_event() const {

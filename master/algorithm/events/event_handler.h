@@ -20,6 +20,8 @@
 
 namespace stride::core {
 
+class StateArchive;
+
 /// Handles the events at a communication point, and keeps the times of the next ones.
 class EventHandler : private OrderedEvaluation::Participants,
                      private MessageExchange::Participants {
@@ -56,6 +58,9 @@ class EventHandler : private OrderedEvaluation::Participants,
   /// Throws Error (Run) if a connected output is NaN, a loop has no solution, or events do not
   /// settle after 1000 iterations.
   void handle_events();
+
+  /// At the communication point `now`, after its events.
+  void persist(StateArchive& state, Time start, Time now);
 
   /// Whether the unit has announced an event for this time.
   bool has_announced(std::size_t component, Time time) const {

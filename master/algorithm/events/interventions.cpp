@@ -1,7 +1,9 @@
 #include "master/algorithm/events/interventions.h"
 
 #include <algorithm>
+#include <stdexcept>
 #include <tuple>
+#include <utility>
 
 namespace stride::core {
 
@@ -12,13 +14,37 @@ Interventions::Interventions(RunContext& context, EventHandler& event_handler, I
       observers_(context.observers),
       event_handler_(event_handler),
       idle_(idle) {
-  for (const Intervention& intervention : context.options.interventions) {
-    changes_.push_back({intervention.from, &intervention, false});
-    if (intervention.until) changes_.push_back({*intervention.until, &intervention, true});
-  }
+  for (const Intervention& intervention : context.options.interventions) plan(intervention);
+  sort();
+}
+
+void Interventions::plan(const Intervention& intervention) {
+  changes_.push_back({intervention.from, &intervention, false});
+  if (intervention.until) changes_.push_back({*intervention.until, &intervention, true});
+}
+
+void Interventions::sort() {
   // at one instant the ends come first, since another one may begin there
   std::ranges::stable_sort(
       changes_, {}, [](const Change& change) { return std::tuple(change.time, !change.is_end); });
+}
+
+void Interventions::add(std::vector<Intervention> interventions, Time now) {
+  for (Intervention& intervention : interventions) {
+    if (intervention.from <= now) {
+      throw std::logic_error("an intervention is added that would have begun already");
+    }
+    plan(added_.emplace_back(std::move(intervention)));
+  }
+  sort();
+}
+
+void Interventions::go_on(Time now) {
+  for (; made_ < changes_.size() && changes_[made_].time <= now; ++made_) {
+    const auto& [time, intervention, is_end] = changes_[made_];
+    if (!disturbs_messages(intervention->kind)) continue;
+    is_end ? event_handler_.release(*intervention) : event_handler_.disturb(*intervention);
+  }
 }
 
 void Interventions::make_all(Time time) {

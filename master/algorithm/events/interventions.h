@@ -2,6 +2,7 @@
 #define STRIDE_MASTER_ALGORITHM_EVENTS_INTERVENTIONS_H
 
 #include <cstddef>
+#include <deque>
 #include <memory>
 #include <optional>
 #include <span>
@@ -25,6 +26,13 @@ class Interventions {
   /// All must outlive this object. `idle`: optional idle scheduler.
   Interventions(RunContext& context, EventHandler& event_handler, IdleScheduler* idle);
 
+  /// At a communication point: those that begin later than `now`, beside those of the context.
+  /// Throws std::logic_error for others.
+  void add(std::vector<Intervention> interventions, Time now);
+  /// In a run that goes on at `now`: what has begun by then, and has not ended, is in force. What
+  /// is forced is in the exchange.
+  void go_on(Time now);
+
   /// The earliest instant at which something is still to be changed.
   std::optional<Time> next() const {
     if (made_ == changes_.size()) return std::nullopt;
@@ -45,6 +53,8 @@ class Interventions {
     bool is_end;
   };
 
+  void plan(const Intervention& intervention);
+  void sort();
   void make_all(Time time);
   void begin(const Intervention& intervention, Time time);
   void end(const Intervention& intervention, Time time);
@@ -62,6 +72,7 @@ class Interventions {
   const std::vector<Observer*>& observers_;
   EventHandler& event_handler_;
   IdleScheduler* idle_;
+  std::deque<Intervention> added_;
   std::vector<Change> changes_;  ///< by time
   std::size_t made_ = 0;
 };

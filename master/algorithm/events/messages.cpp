@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "master/algorithm/events/bit_errors.h"
+#include "master/util/state_archive.h"
 #include "master/util/time_text.h"
 
 namespace stride::core {
@@ -101,6 +102,35 @@ void MessageExchange::disturb(const Intervention& intervention) {
 
 void MessageExchange::release(const Intervention& intervention) {
   target_of(intervention).disturbance = nullptr;
+}
+
+void MessageExchange::persist(StateArchive& state, Time now) {
+  state.mark("messages");
+  std::vector<Target*> targets;
+  for_each_target([&](Target& target) { targets.push_back(&target); });
+  state.fixed(targets, [&](Target* target) { state.value(target->corrupted); });
+  Time earliest = now + Duration(1);
+  state.sequence(delayed_, [&](Delayed& message) {
+    persist(state, message, targets);
+    if (message.due < earliest) state.fail("a message has not been received, or not in its turn");
+    earliest = message.due;
+  });
+}
+
+void MessageExchange::persist(StateArchive& state, Delayed& message,
+                              std::span<Target* const> targets) {
+  auto target =
+      static_cast<std::size_t>(std::ranges::find(targets, message.target) - targets.begin());
+  state.value(message.due);
+  state.value(target);
+  if (target >= targets.size()) state.fail("a message has no receiver");
+  message.target = targets[target];
+  if (state.is_reading()) {
+    for (const Receiver& receiver : message.target->receivers) {
+      message.values.emplace_back(receiver.block.type(), receiver.block.size());
+    }
+  }
+  for (ValueBlock& value : message.values) core::persist(state, value);
 }
 
 void MessageExchange::begin_instant(Time time) {

@@ -19,6 +19,8 @@
 
 namespace stride::core {
 
+class StateArchive;
+
 /// For each unit: its triggered output clocks and its time-based clocks that are connected, the
 /// clocked variables of each, and the connected inputs.
 class MessageExchange {
@@ -56,6 +58,9 @@ class MessageExchange {
   /// intervention must outlive this object, or the call of release().
   void disturb(const Intervention& intervention);
   void release(const Intervention& intervention);
+
+  /// Those on their way, and what was counted; not the disturbances.
+  void persist(StateArchive& state, Time now);
 
   /// When the next delayed message arrives.
   std::optional<Time> next_delivery() const {
@@ -102,9 +107,9 @@ class MessageExchange {
   };
   /// A message on its way.
   struct Delayed {
-    Time due;
-    Target* target;
-    std::vector<ValueBlock> values;  ///< of its receivers
+    Time due{};
+    Target* target = nullptr;
+    std::vector<ValueBlock> values{};  ///< of its receivers
   };
 
   void add_clock(VariableId id);
@@ -112,6 +117,7 @@ class MessageExchange {
   Target& target_of(const Intervention& intervention);
   template <class Function>
   void for_each_target(Function&& function);
+  static void persist(StateArchive& state, Delayed& message, std::span<Target* const> targets);
   bool poll(std::size_t component);
   void forward(SourceClock& clock);
   void send(SourceClock& clock);

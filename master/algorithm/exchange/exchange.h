@@ -19,6 +19,8 @@
 
 namespace stride::core {
 
+class StateArchive;
+
 /// When variables are written.
 enum class WriteTime {
   Point,           ///< at each communication point
@@ -104,6 +106,9 @@ class Exchange {
   ValueBlock value(VariableId id);
   /// An input was changed in its block by other means than route().
   void mark_changed(std::size_t component) { ports_[component].written_route = 0; }
+
+  /// All values, and what has been written of them.
+  void persist(StateArchive& state);
 
   /// Writes those of a unit's continuous inputs that may change within a step.
   void write_inputs_within_step(std::size_t component, Unit& unit);
@@ -207,6 +212,8 @@ class Exchange {
     ValueSlice target;
     ValueBlock value;
   };
+  static void persist(StateArchive& state, Transfer& input);
+  void persist_forced(StateArchive& state);
   static void keep(const Forced& forced) {
     copy_elements(*forced.target.block, forced.target.first, forced.value, 0, forced.value.size());
   }

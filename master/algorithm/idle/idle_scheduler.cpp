@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "master/util/state_archive.h"
 #include "master/util/time_text.h"
 
 namespace stride::core {
@@ -229,6 +230,27 @@ void IdleScheduler::suspend(std::size_t component, Time time, Time until, Time e
     tangent.value = real(tangent.element);
     tangent.slope = state.slopes[k];
   }
+}
+
+void IdleScheduler::persist(StateArchive& state, Time start, Time now) {
+  state.mark("idle units");
+  state.fixed(candidates_, [&](std::size_t i) { persist(state, states_[i], start, now); });
+}
+
+void IdleScheduler::persist(StateArchive& state, IdleState& unit, Time start, Time now) {
+  state.value(unit.is_suspended);
+  if (!unit.is_suspended) return;
+  state.value(unit.since);
+  state.value(unit.until);
+  state.value(unit.end);
+  if (unit.since < start || unit.since > now || unit.end < now || unit.end > unit.until) {
+    state.fail("a unit is suspended at another time");
+  }
+  state.fixed(unit.inputs, [&](WatchedInput& input) { state.value(input.held); });
+  state.fixed(unit.tangents, [&](Tangent& tangent) {
+    state.value(tangent.value);
+    state.value(tangent.slope);
+  });
 }
 
 void IdleScheduler::catch_up_all(Time time) {

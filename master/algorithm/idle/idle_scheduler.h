@@ -15,6 +15,8 @@
 
 namespace stride::core {
 
+class StateArchive;
+
 /// Suspends units that promise to be idle (org.stride.idle): they are not called, and their outputs
 /// follow their tangents. The lag of such a unit is the time since its last step. The unit catches
 /// up by one step over the lag, with the inputs of its suspension, before an input leaves its
@@ -64,6 +66,8 @@ class IdleScheduler {
   /// After the events of a communication point: writes the inputs of the units that are not
   /// suspended, reads their promises, and suspends those whose promise is long enough.
   void suspend_idle(Time time);
+  /// At the communication point `now`, after suspend_idle().
+  void persist(StateArchive& state, Time start, Time now);
   /// At the end of the run.
   void catch_up_all(Time time);
   /// Reports the suspensions that a failure at `time` has ended.
@@ -97,6 +101,7 @@ class IdleScheduler {
     std::vector<double> slopes;              ///< of their elements
   };
 
+  static void persist(StateArchive& state, IdleState& unit, Time start, Time now);
   void add_candidate(std::size_t component, Duration max_skip);
   void find_sources();
   static Time leaves_deadband(const WatchedInput& input, Time time);

@@ -38,6 +38,8 @@ class ErrorControlledSteps : public StepPolicy {
     return false;
   }
 
+  void persist(StateArchive& state) override { controller_.persist(state); }
+
  private:
   [[noreturn]] void fail_tolerance(Time from, Duration used,
                                    const ExtrapolationError& error) const {

@@ -12,6 +12,7 @@
 namespace stride::core {
 
 struct ExtrapolationError;
+class StateArchive;
 
 /// Chooses the communication points of one run. No step is longer than a unit allows
 /// (maximum_step). Steps that are not on a grid end on the units' fixed internal steps, as far as
@@ -20,7 +21,8 @@ class StepPolicy {
  public:
   virtual ~StepPolicy() = default;
 
-  /// The next communication point: later than `now`, and the stop time at most.
+  /// The next communication point: later than `now`, and the stop time at most. The same one
+  /// however often it is asked for at `now`.
   virtual Time next(Time now) = 0;
 
   /// Likewise, where no unit has to be called before `quiet_until`. A policy with a grid goes on to
@@ -33,6 +35,9 @@ class StepPolicy {
   virtual bool accept(Time /*from*/, Time /*reached*/, const ExtrapolationError& /*error*/) {
     return true;
   }
+
+  /// What it goes by beside the time.
+  virtual void persist(StateArchive& /*state*/) {}
 };
 
 /// Throws Error (Input) where a unit does not fulfil what the policy of the options requires: steps

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdint>
 
+#include "master/util/state_archive.h"
+
 namespace stride::core {
 namespace {
 
@@ -35,6 +37,15 @@ void StepSizeController::accept(Duration used, double ratio, const Range& range)
   size_ = std::max(size_, range.minimum);
   previous_ratio_ = counted;
   was_rejected_ = false;
+}
+
+void StepSizeController::persist(StateArchive& state) {
+  state.mark("step size");
+  state.value(size_);
+  state.value(previous_ratio_);
+  state.value(was_rejected_);
+  const bool is_ratio = previous_ratio_ >= kLeastRatio && previous_ratio_ <= 1;  // not of NaN
+  if (size_ <= Duration{} || !is_ratio) state.fail("no step can have led to it");
 }
 
 }  // namespace stride::core

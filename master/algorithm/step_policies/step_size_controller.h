@@ -6,6 +6,8 @@
 
 namespace stride::core {
 
+class StateArchive;
+
 /// A PI controller (Hairer, Wanner, "Solving Ordinary Differential Equations II", IV.2; after
 /// Gustafsson, 1988). The error of a step is given as its ratio to what is tolerated.
 class StepSizeController {
@@ -24,6 +26,8 @@ class StepSizeController {
   void accept(Duration used, double ratio, const Range& range);
   /// A step of the size `used`, which is more than `least`, is undone: `ratio` is above 1.
   void reject(Duration used, double ratio, Duration least);
+
+  void persist(StateArchive& state);
 
  private:
   double order_;

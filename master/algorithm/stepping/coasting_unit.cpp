@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "master/util/state_archive.h"
 #include "master/util/wall_clock.h"
 
 namespace stride::core {
@@ -15,7 +16,7 @@ constexpr std::size_t kMostBytes = std::size_t{64} << 10;
 }  // namespace
 
 CoastingUnit::CoastingUnit(std::unique_ptr<Unit> unit, const UnitDescription& description,
-                           CheckpointInterval interval, std::size_t cache)
+                           SaveInterval interval, std::size_t cache)
     : ForwardingUnit(std::move(unit)),
       state_(inner().require_capability<StateSaving>()),
       concurrent_(inner().capability<ConcurrentSteps>()),
@@ -29,6 +30,21 @@ Capability* CoastingUnit::find_capability(CapabilityId id) {
 
 void CoastingUnit::select_state(std::size_t) {
   throw std::logic_error("this kind of unit keeps one state only");
+}
+
+void CoastingUnit::persist(StateArchive& state) {
+  state.value(counts_.saves);
+  state.value(counts_.repeated_steps);
+  bool is_inexact = counts_.inexact_repetition.has_value();
+  state.value(is_inexact);
+  if (!is_inexact) return counts_.inexact_repetition.reset();
+  if (!counts_.inexact_repetition) counts_.inexact_repetition.emplace();
+  InexactRepetition& repetition = *counts_.inexact_repetition;
+  state.value(repetition.time);
+  state.value(repetition.variable);
+  state.value(repetition.first);
+  state.value(repetition.second);
+  interval_.limit(1);
 }
 
 // ---- What the unit is given ----

@@ -12,10 +12,12 @@
 #include "master/algorithm/capabilities/state_saving.h"
 #include "master/algorithm/forwarding_unit.h"
 #include "master/algorithm/statistics.h"
-#include "master/algorithm/stepping/checkpoint_interval.h"
+#include "master/algorithm/stepping/save_interval.h"
 #include "master/algorithm/stepping/step_log.h"
 
 namespace stride::core {
+
+class StateArchive;
 
 /// Saves the state of its unit before some of the steps only, and notes in between what the unit is
 /// given. restore_state() restores the last state that was saved, and makes the unit repeat the
@@ -42,9 +44,11 @@ class CoastingUnit : public ForwardingUnit, public StateSaving, public Concurren
   /// `unit` has the capability StateSaving. The description must outlive this object. `cache`: its
   /// share of the processor's caches, for what is noted [byte].
   CoastingUnit(std::unique_ptr<Unit> unit, const UnitDescription& description,
-               CheckpointInterval interval, std::size_t cache);
+               SaveInterval interval, std::size_t cache);
 
   const Counts& counts() const { return counts_; }
+  /// The counts. What was saved is none of it: a run that is resumed begins a new stretch.
+  void persist(StateArchive& state);
 
   /// The references must stay where they are until the next save of the state.
   void set(std::span<const ValueReference> references, const ValueBlock& values) override;
@@ -103,10 +107,10 @@ class CoastingUnit : public ForwardingUnit, public StateSaving, public Concurren
   StateSaving& state_;
   ConcurrentSteps* concurrent_;  ///< of the unit; null if it steps here
   const UnitDescription& description_;
-  CheckpointInterval interval_;
+  SaveInterval interval_;
   std::size_t cache_;
   Counts counts_;
-  CheckpointInterval::Cost save_cost_{};
+  SaveInterval::Cost save_cost_{};
   std::size_t stretch_ = 0;     ///< its greatest number of steps
   bool is_continuous_ = false;  ///< whether the log has all that happened since the save
   bool is_measured_ = false;    ///< whether the next step is

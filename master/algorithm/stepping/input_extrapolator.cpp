@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "master/util/state_archive.h"
+
 namespace stride::core {
 
 InputExtrapolator::InputExtrapolator(RunContext& context)
@@ -53,6 +55,13 @@ void InputExtrapolator::accept(Time time, std::span<const char> had_event) {
     if (!history.empty() && history.newest() == time) history.remove_newest();
     source.is_ahead = false;
     sample(source, time);
+  }
+}
+
+void InputExtrapolator::persist(StateArchive& state, Time start, Time now) {
+  state.mark("histories");
+  for (Source& source : sources_) {
+    if (!source.signals.empty()) source.history.persist(state, start, now);
   }
 }
 

@@ -15,6 +15,8 @@
 
 namespace stride::core {
 
+class StateArchive;
+
 /// The largest error of an input's extrapolation.
 struct ExtrapolationError {
   double ratio = 0;  ///< of the error and what is tolerated
@@ -39,6 +41,9 @@ class InputExtrapolator {
   /// At a communication point, after the outputs have been read: adds them to the histories. The
   /// history of a unit that had an event begins anew: nothing is extrapolated across a jump.
   void accept(Time time, std::span<const char> had_event);
+
+  /// After accept() at `now`.
+  void persist(StateArchive& state, Time start, Time now);
 
   /// Leaves the inputs in the exchange, to be written. Throws Error (Run) where, with
   /// Gauss-Seidel, the new value of an output that feeds one of them is NaN.

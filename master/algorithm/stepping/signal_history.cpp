@@ -4,6 +4,8 @@
 #include <cassert>
 #include <cmath>
 
+#include "master/util/state_archive.h"
+
 namespace stride::core {
 namespace {
 
@@ -31,6 +33,21 @@ void SignalHistory::remove_newest() {
   assert(count_ > 0);
   newest_ = index(1);
   --count_;
+}
+
+void SignalHistory::persist(StateArchive& state, Time oldest, Time newest) {
+  state.value(count_);
+  if (count_ == 0 || count_ > kSamples) state.fail("there are fewer samples, or more, than can be");
+  if (state.is_reading()) newest_ = count_ - 1;
+  Time least = oldest;
+  for (unsigned age = count_; age-- > 0;) {
+    Sample& sample = samples_[index(age)];
+    state.value(sample.time);
+    if (sample.time < least || sample.time > newest) state.fail("a sample is not in its turn");
+    least = sample.time + Duration(1);
+    state.fixed(sample.values);
+  }
+  if (samples_[newest_].time != newest) state.fail("the newest sample is missing");
 }
 
 /// Those of the polynomial; their weights are still open.

@@ -12,6 +12,8 @@
 
 namespace stride::core {
 
+class StateArchive;
+
 /// Signals that were sampled together. Their polynomial goes through the newest samples, as many as
 /// its degree requires, or as there are (Lagrange's form). Of samples that are much closer to each
 /// other than the step that it is used for only the newest counts, since their slope is mostly
@@ -38,6 +40,8 @@ class SignalHistory {
   std::span<double> add(Time time);
   void remove_newest();
   void clear() { count_ = 0; }
+  /// At least one sample, the newest of them at `newest`, none before `oldest`.
+  void persist(StateArchive& state, Time oldest, Time newest);
 
   /// The weights for the value at a time in seconds after `origin`, within or at the end of a step
   /// of this length; there must be a sample.

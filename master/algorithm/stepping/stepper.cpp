@@ -7,6 +7,7 @@
 
 #include "master/algorithm/capabilities/unit_diagnostics.h"
 #include "master/model/own_step.h"
+#include "master/util/state_archive.h"
 #include "master/util/time_text.h"
 
 namespace stride::core {
@@ -130,6 +131,11 @@ Time Stepper::make_timed_passes(Time from, Time target) {
   const Time reached = make_passes(from, target);
   balancer_.end_step(WallClock::Source::now() - began);
   return reached;
+}
+
+void Stepper::persist(StateArchive& state) {
+  state.mark("steps");
+  state.fixed(unit_steps_, [&](UnitStep& unit_step) { state.value(unit_step.steps); });
 }
 
 void Stepper::undo(Time from) {

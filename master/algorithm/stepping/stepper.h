@@ -23,6 +23,8 @@
 
 namespace stride::core {
 
+class StateArchive;
+
 /// Steps the units, stage by stage as step_order() has them: inputs, step, outputs, a unit at a
 /// time. All units of a stage step to the same target. If one stops early or rejects the step, the
 /// target becomes the earliest time that such a unit reached or could have reached, or half the way
@@ -63,6 +65,9 @@ class Stepper {
   std::uint64_t steps(std::size_t component) const {
     return unit_steps_[index_of_[component]].steps;
   }
+
+  /// Between two communication steps.
+  void persist(StateArchive& state);
 
   /// Whether the last communication step was made on several threads.
   bool was_parallel() const { return was_parallel_; }

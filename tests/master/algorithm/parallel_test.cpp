@@ -57,7 +57,7 @@ struct Trace : Observer {
 };
 
 /// Not by measured costs, so that two runs save and repeat alike.
-const CheckpointOptions kCheckpoints{.most_steps = 5, .always = true};
+const StateSavingOptions kStateSaving{.most_steps = 5, .always = true};
 
 /// y' = u - sin(y), in one explicit step: other steps and other inputs give other bits.
 void advance(ScriptedUnit& unit, Duration size) {
@@ -133,7 +133,7 @@ std::vector<VariableId> all_outputs(const ScriptedSystem& system) {
 Trace run_random(unsigned seed, ThreadOptions threads, unsigned concurrent = 0) {
   ScriptedSystem system;
   make_random_system(system, seed);
-  system.options.checkpoints = kCheckpoints;
+  system.options.state_saving = kStateSaving;
   for (ScriptedUnit* unit : system.instances) {
     unit->is_concurrent = concurrent % 2 == 1;
     concurrent /= 2;
@@ -202,7 +202,7 @@ TEST_CASE("with Gauss-Seidel or an error-controlled step the bits are the same, 
     system.wire("c", "y", "a", "u");
     system.options.coupling = coupling;
     system.options.step.policy = &kErrorControlledSteps;
-    system.options.checkpoints = kCheckpoints;
+    system.options.state_saving = kStateSaving;
     system.options.threads = std::move(threads);
     Trace trace;
     system.build(0.5, 1ms, all_outputs(system)).add_observer(trace);

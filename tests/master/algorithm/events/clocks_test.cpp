@@ -5,6 +5,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "master/util/state_archive.h"
 #include "master/util/time_text.h"
 #include "tests/master/algorithm/scripted_system.h"
 
@@ -112,28 +113,45 @@ TEST_CASE("a million ticks of a third of a millisecond do not drift") {
   CHECK(wrong == 0);
 }
 
-TEST_CASE("clocks that resume tick when those would have that they continue") {
+TEST_CASE("clocks that go on from a state tick when those would have that wrote it") {
   ScriptedSystem f;
-  f.add("a",
+  const bool is_described = GENERATE(true, false);
+  if (is_described) {
+    f.add(
+        "a",
         Describe("a").clock("tick", IntervalVariability::Constant, every(3ms), every(1ms)).done());
+  } else {
+    auto& a = f.add("a", Describe("a").clock("tick", IntervalVariability::Fixed).done());
+    a.on_clock_interval = [](ScriptedUnit&, ValueReference) {
+      return ClockInterval{ClockInterval::State::Changed, every(3ms)};
+    };
+    a.on_clock_shift = [](ScriptedUnit&, ValueReference) { return every(1ms); };
+  }
   const System system(f.declaration);
   Clocks clocks(system, f.units);
-  clocks.begin({});
+  const Time start(10ms);
+  clocks.begin(start);
   const auto tick = [](Clocks& ticking, Time time) {
     ticking.due(time);
     ticking.tick(time);
     ticking.update(0, time);
     ticking.due(time);
   };
-  tick(clocks, Time(1ms));
+  tick(clocks, start + 1ms);
+  StateArchive written;
+  clocks.persist(written, start, start + 1ms);
   Clocks other(system, f.units);
-  other.resume(clocks);
-  CHECK(other.next() == Time(4ms));
-  tick(clocks, Time(4ms));
-  CHECK(other.next() == Time(4ms));
-  tick(other, Time(4ms));
+  StateArchive read(written.bytes());
+  other.persist(read, start, start + 1ms);
+  read.end();
+  CHECK(other.next() == start + 4ms);
+  tick(clocks, start + 4ms);
+  CHECK(other.next() == start + 4ms);
+  tick(other, start + 4ms);
   CHECK(other.next() == clocks.next());
-  CHECK(other.next() == Time(7ms));
+  CHECK(other.next() == start + 7ms);
+  StateArchive early(written.bytes());
+  CHECK_THROWS_AS(other.persist(early, start, start + 4ms), BadState);
 }
 
 TEST_CASE("a clock that ticks at once, and one that ticks at the end") {

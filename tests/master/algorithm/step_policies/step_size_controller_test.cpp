@@ -1,6 +1,10 @@
 #include "master/algorithm/step_policies/step_size_controller.h"
 
+#include <cmath>
+
 #include <catch2/catch.hpp>
+
+#include "master/util/state_archive.h"
 
 using namespace stride;
 using namespace stride::core;
@@ -52,4 +56,46 @@ TEST_CASE("a step that an event cut short makes the next one no shorter") {
   StepSizeController controller(10ms, kOrder);
   controller.accept(1us, 0.9, kWide);
   CHECK(controller.size() == Duration(10ms));
+}
+
+TEST_CASE("a controller that goes on from a state chooses the same steps") {
+  StepSizeController controller(10ms, kOrder);
+  controller.accept(10ms, 0.3, kWide);
+  controller.reject(controller.size(), 4, 1ns);
+  StateArchive written;
+  controller.persist(written);
+  StepSizeController other(1ms, kOrder);
+  StateArchive read(written.bytes());
+  other.persist(read);
+  CHECK(other.size() == controller.size());
+  for (const double ratio : {1e-3, 1e-3, 0.5}) {
+    controller.accept(controller.size(), ratio, kWide);
+    other.accept(other.size(), ratio, kWide);
+    CHECK(other.size() == controller.size());
+  }
+}
+
+TEST_CASE("a controller does not go on from what it cannot have been") {
+  const auto is_refused = [](Duration size, double ratio) {
+    StateArchive written;
+    written.mark("step size");
+    written.value(size);
+    written.value(ratio);
+    bool was_rejected = false;
+    written.value(was_rejected);
+    StateArchive read(written.bytes());
+    StepSizeController controller(1ms, kOrder);
+    try {
+      controller.persist(read);
+    } catch (const BadState&) {
+      return true;
+    }
+    return false;
+  };
+  CHECK_FALSE(is_refused(1ms, 0.5));
+  CHECK(is_refused(0ms, 0.5));
+  CHECK(is_refused(-1ms, 0.5));
+  CHECK(is_refused(1ms, 0));
+  CHECK(is_refused(1ms, 2));
+  CHECK(is_refused(1ms, std::nan("")));
 }

@@ -43,7 +43,7 @@ struct Coasting {
     };
     unit->on_state = [this](bool save) { journal += save ? " save" : " restore"; };
     coasting = std::make_unique<CoastingUnit>(std::move(scripted), *description,
-                                              CheckpointInterval(interval, false), kCache);
+                                              SaveInterval(interval, false), kCache);
   }
 
   /// Saves, and makes a step with this input. The time is in ms.
@@ -183,7 +183,7 @@ TEST_CASE("a measured save and its step elsewhere are two requests") {
   unit.on_state = [&](bool) { ++saves; };
   unit.on_begin_step = [&](ScriptedUnit& self) { saves_in_step += self.saved_with_step; };
   const auto description = summing();
-  CoastingUnit coasting(std::move(scripted), *description, CheckpointInterval(8, true), kCache);
+  CoastingUnit coasting(std::move(scripted), *description, SaveInterval(8, true), kCache);
   for (int i = 0; i < 32; ++i) {
     coasting.begin_step(StepInterval(at(0.001 * i), at(0.001 * (i + 1))), {},
                         {.saves_state = true});
@@ -222,7 +222,7 @@ TEST_CASE("a unit may be taken back beyond the beginning of a step but for the f
     std::string& seen;
   };
   CoastingUnit unit(std::make_unique<Watching>(std::make_unique<ScriptedUnit>(f.description), seen),
-                    *f.description, CheckpointInterval(3, false), kCache);
+                    *f.description, SaveInterval(3, false), kCache);
   for (int i = 0; i < 5; ++i) {
     unit.save_state();
     unit.step(StepInterval(at(0.001 * i), at(0.001 * (i + 1))), {});

@@ -1,6 +1,6 @@
 // How many steps a unit makes between two saves of its state.
-#ifndef STRIDE_MASTER_ALGORITHM_STEPPING_CHECKPOINT_INTERVAL_H
-#define STRIDE_MASTER_ALGORITHM_STEPPING_CHECKPOINT_INTERVAL_H
+#ifndef STRIDE_MASTER_ALGORITHM_STEPPING_SAVE_INTERVAL_H
+#define STRIDE_MASTER_ALGORITHM_STEPPING_SAVE_INTERVAL_H
 
 #include <algorithm>
 #include <chrono>
@@ -15,12 +15,12 @@ namespace stride::core {
 /// that are saved periodically in optimistic simulation see Y.-B. Lin and E. D. Lazowska, 1990. The
 /// costs are wall-clock times of a sample, p is what has happened lately. A save that costs no more
 /// than to note what the unit is given is made before each step.
-class CheckpointInterval {
+class SaveInterval {
  public:
   using Cost = std::chrono::nanoseconds;
 
   /// `most`: no interval is longer [steps]. `adapts`: begins with 1; otherwise it is always `most`.
-  CheckpointInterval(std::size_t most, bool adapts);
+  SaveInterval(std::size_t most, bool adapts);
 
   /// A save begins a stretch of at most as many steps as are returned.
   std::size_t begin_stretch() {

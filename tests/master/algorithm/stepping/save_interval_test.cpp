@@ -1,4 +1,4 @@
-#include "master/algorithm/stepping/checkpoint_interval.h"
+#include "master/algorithm/stepping/save_interval.h"
 
 #include <cmath>
 
@@ -14,7 +14,7 @@ constexpr std::size_t kMost = 256;
 /// So many stretches of a unit with these costs, of which each n-th step is rolled back; 0: none.
 std::size_t interval_after(int stretches, std::chrono::nanoseconds save,
                            std::chrono::nanoseconds step, int rolled_back_each = 0) {
-  CheckpointInterval interval(kMost, true);
+  SaveInterval interval(kMost, true);
   std::size_t steps = 0;
   int made = 0;
   for (int i = 0; i < stretches; ++i) {
@@ -54,7 +54,7 @@ TEST_CASE("a save that costs no more than to note a step stays before each step"
 
 TEST_CASE("no more is noted than the caches have room for, unless saves cost more") {
   const auto chosen = [](std::chrono::nanoseconds save) {
-    CheckpointInterval interval(kMost, true);
+    SaveInterval interval(kMost, true);
     interval.set_near(4);
     std::size_t steps = 0;
     for (int i = 0; i < 1000; ++i) {
@@ -74,8 +74,8 @@ TEST_CASE("where nothing is rolled back the interval grows, to the limit at most
 }
 
 TEST_CASE("an interruption of the machine is not taken for a cost") {
-  CheckpointInterval disturbed(kMost, true);
-  CheckpointInterval calm(kMost, true);
+  SaveInterval disturbed(kMost, true);
+  SaveInterval calm(kMost, true);
   std::size_t with = 0;
   std::size_t without = 0;
   for (int i = 0; i < 160; ++i) {
@@ -92,7 +92,7 @@ TEST_CASE("an interruption of the machine is not taken for a cost") {
 }
 
 TEST_CASE("an interval that does not adapt is the greatest one, and a limit lowers it") {
-  CheckpointInterval interval(7, false);
+  SaveInterval interval(7, false);
   CHECK(interval.begin_stretch() == 7);
   CHECK_FALSE(interval.is_measured());
   interval.limit(3);

@@ -1,4 +1,4 @@
-#include "master/algorithm/stepping/checkpoint_interval.h"
+#include "master/algorithm/stepping/save_interval.h"
 
 #include <algorithm>
 #include <cmath>
@@ -23,10 +23,10 @@ void add_to_average(double& average, double value) {
 
 }  // namespace
 
-CheckpointInterval::CheckpointInterval(std::size_t most, bool adapts)
+SaveInterval::SaveInterval(std::size_t most, bool adapts)
     : most_(most), near_(most), adapts_(adapts && most > 1), chosen_(adapts ? 1 : most) {}
 
-void CheckpointInterval::choose() {
+void SaveInterval::choose() {
   if (steps_ > kMemory) {
     steps_ /= 2;
     rollbacks_ /= 2;
@@ -36,13 +36,13 @@ void CheckpointInterval::choose() {
   if (save_cost_ <= kFarNoteCost * static_cast<double>(near_)) chosen_ = std::min(chosen_, near_);
 }
 
-void CheckpointInterval::add_costs(Cost save, Cost step) {
+void SaveInterval::add_costs(Cost save, Cost step) {
   add_to_average(save_cost_, static_cast<double>(std::max(save, Cost(1)).count()));
   add_to_average(step_cost_, static_cast<double>(std::max(step, Cost(1)).count()));
 }
 
 /// That no step was rolled back yet does not mean that none will be.
-double CheckpointInterval::best() const {
+double SaveInterval::best() const {
   if (save_cost_ <= kNoteCost) return 1;
   const double share = static_cast<double>(rollbacks_ + 1) / static_cast<double>(steps_ + 1);
   return std::sqrt(2 * save_cost_ / (share * step_cost_));
