@@ -97,6 +97,7 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics, public Call
   }
   std::string rejection_reason() const override { return rejection_reason_; }
   std::uint64_t calls() const override { return calls_; }
+  void set_repeating(bool repeating) override { is_repeating_ = repeating; }
 
   bool is_in_call() const final { return present_.function() != nullptr; }
   bool is_called_by_this_thread() const final { return present_.is_by_this_thread(); }
