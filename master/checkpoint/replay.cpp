@@ -68,7 +68,7 @@ void Replay::fail_other(const std::string& what) const {
                   what),
       "a unit that does not serialise its state must do the same again where it is given the same; "
       "let it serialise its state (canSerializeFMUState), or look for what it takes from outside: "
-      "random numbers without a seed, the time of day, files");
+      "random numbers without a seed, the time of day, files, the path of its resources");
 }
 
 template <core::CapabilityInterface C>

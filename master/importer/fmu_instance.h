@@ -254,6 +254,8 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics, public Call
   template <class Function, class... Arguments>
   void call_for_state(const char* name, Function* function, Arguments... arguments);
   [[noreturn]] void fail_for_state(const char* function, Status status);
+  /// A state that is null is none that a unit's function could look at.
+  [[noreturn]] void fail_null_state(const char* function) const;
   /// The bytes of a kept state.
   template <class Answer, class Byte>
   std::vector<std::uint8_t> serialized(void* state, const Serialization<Answer, Byte>& functions);

@@ -194,6 +194,7 @@ std::vector<std::uint8_t> FmuInstance::serialized(void* state,
                                                   const Serialization<Answer, Byte>& functions) {
   require(functions.size_name, functions.size_of, functions.capability);
   require(functions.write_name, functions.write, functions.capability);
+  if (state == nullptr) fail_null_state(functions.write_name);
   std::size_t size = 0;
   call_for_state(functions.size_name, functions.size_of, state, &size);
   std::vector<std::uint8_t> bytes = bytes_for_state(functions.size_name, size);

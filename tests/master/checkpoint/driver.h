@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include <catch2/catch.hpp>
 #include <fmt/format.h>
 
 #include "master/util/time_text.h"
@@ -32,6 +33,7 @@ class Driver {
   }
 
   bool goes_back = true;         ///< it rolls back now and then, if the unit can
+  Values structure;              ///< values of structural parameters
   std::vector<std::string> got;  ///< all that the unit has answered
 
   /// Configuration, start values, idle skipping, initialization, first events.
@@ -68,7 +70,7 @@ class Driver {
     auto* const state = goes_back ? unit.capability<core::StateSaving>() : nullptr;
     for (int i = 0; i < steps; ++i) {
       Time to = time_ + Duration(1'000'000'000 * static_cast<std::int64_t>(1 + draw(3)));
-      const bool saves = state != nullptr && draw(2) == 0;
+      const bool saves = draw(2) == 0 && state != nullptr;
       const Time from = time_;
       core::StepResult result = step(unit, to, saves);
       while (saves && (result.rejected || draw(3) == 0)) {
@@ -108,6 +110,7 @@ class Driver {
     auto* const configuration = unit.capability<core::ConfigurationMode>();
     if (configuration == nullptr) return;
     configuration->enter_configuration_mode();
+    for (const auto& [name, text] : structure) set(unit, variable(name), text);
     configuration->exit_configuration_mode();
   }
 
@@ -149,7 +152,8 @@ class Driver {
   }
   core::StepResult make_step(core::Unit& unit, const core::StepInterval& interval,
                              const core::StepValues& values, bool saves) {
-    if (auto* const concurrent = unit.capability<core::ConcurrentSteps>(); concurrent && draw(2)) {
+    auto* const concurrent = unit.capability<core::ConcurrentSteps>();
+    if (draw(2) == 0 && concurrent != nullptr) {
       concurrent->begin_step(interval, values, {.saves_state = saves});
       return concurrent->finish_step();
     }
@@ -214,6 +218,14 @@ class Driver {
   std::shared_ptr<Exchange> exchange_;  ///< with the unit that was connected last
   Time time_{};
 };
+
+/// Shows the first difference only.
+inline void check_same(const std::vector<std::string>& one, const std::vector<std::string>& other) {
+  const auto [a, b] = std::ranges::mismatch(one, other);
+  INFO("line " << a - one.begin() << " of " << one.size());
+  CHECK((a == one.end() ? "" : *a) == (b == other.end() ? "" : *b));
+  CHECK(one.size() == other.size());
+}
 
 }  // namespace stride::tests
 

@@ -49,14 +49,6 @@ struct SpongeRun {
   std::optional<Rig> rig;
 };
 
-/// Shows the first difference only.
-void check_same(const std::vector<std::string>& one, const std::vector<std::string>& other) {
-  const auto [a, b] = std::ranges::mismatch(one, other);
-  INFO("line " << a - one.begin() << " of " << one.size());
-  CHECK((a == one.end() ? "" : *a) == (b == other.end() ? "" : *b));
-  CHECK(one.size() == other.size());
-}
-
 /// Both go on by the same calls, and answer the same.
 void check_same_future(SpongeRun& run, SpongeRun& resumed, int steps = 20) {
   run.driver.advance(**run.rig, steps);
