@@ -149,6 +149,17 @@ void FmuInstance::warn_of_null_state(const char* saved_by) {
                   saved_by, status_name(Status::Ok), state_hint(name_)));
 }
 
+void FmuInstance::fail_for_state(const char* function, Status status) {
+  const std::string failure = failure_of(function, status);
+  fail(failure, state_hint(name_));
+}
+
+void FmuInstance::fail_null_state(const char* function) const {
+  fail(fmt::format("{} has nothing to work on: the unit gave no state (NULL) where it was saved",
+                   function),
+       state_hint(name_));
+}
+
 void FmuInstance::fail_without_state() const {
   if (save_failure_.empty()) fail("no state of it has been saved");
   fail(fmt::format("its state could not be saved: {}", save_failure_), state_hint(name_));

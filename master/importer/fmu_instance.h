@@ -74,8 +74,9 @@ struct UnitParts {
 /// Fatal, and Discard of any function but those that may answer it, becomes a core::Error of the
 /// kind Run, with the name of the function, the simulated time and the unit's own messages; so does
 /// an exception that leaves the unit, which counts as Fatal. (Of a state that cannot be saved, see
-/// save_by().) After it the instance is freed, and no other function of it is called; after Fatal
-/// none of any instance of the FMU, so they are not freed either, and the library stays loaded.
+/// save_by(), and of one that cannot be serialised call_for_state().) After it the instance is
+/// freed, and no other function of it is called; after Fatal none of any instance of the FMU, so
+/// they are not freed either, and the library stays loaded.
 ///
 /// What a function has changed of the mode of the processor is put back when it returns, and, until
 /// the end of the initialization, what it has changed of the process. A warning names the unit and
@@ -97,6 +98,7 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics, public Call
   }
   std::string rejection_reason() const override { return rejection_reason_; }
   std::uint64_t calls() const override { return calls_; }
+  void set_repeating(bool repeating) override { is_repeating_ = repeating; }
 
   bool is_in_call() const final { return present_.function() != nullptr; }
   bool is_called_by_this_thread() const final { return present_.is_by_this_thread(); }
@@ -157,7 +159,7 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics, public Call
   /// depend on.
   class CallSequence {
    public:
-    /// From this time on, of a unit that has one. `function` is named if the mode is another one.
+    /// From this time on. `function` is named if the mode is another one.
     /// Throws if no function can be called.
     CallSequence(FmuInstance& unit, const char* function, Time time);
     ~CallSequence();
@@ -247,6 +249,13 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics, public Call
   };
   /// As many as the function wants.
   std::vector<std::uint8_t> bytes_for_state(const char* function, std::size_t size) const;
+  /// As call(), of a function that makes bytes of a kept state or a state of bytes: the unit stays
+  /// what it is, so one that fails with Error or Discard can still be called.
+  template <class Function, class... Arguments>
+  void call_for_state(const char* name, Function* function, Arguments... arguments);
+  [[noreturn]] void fail_for_state(const char* function, Status status);
+  /// A state that is null is none that a unit's function could look at.
+  [[noreturn]] void fail_null_state(const char* function) const;
   /// The bytes of a kept state.
   template <class Answer, class Byte>
   std::vector<std::uint8_t> serialized(void* state, const Serialization<Answer, Byte>& functions);

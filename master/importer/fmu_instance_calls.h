@@ -58,7 +58,7 @@ template <class Function, class... Arguments>
     : unit_(unit), function_(function) {
   unit.check_callable(function);
   unit.is_in_sequence_ = true;
-  *unit.time_ = time;
+  unit.time_ = time;
   unit.present_.begin_sequence(time);
   core::ForkMark::set();
 }
@@ -150,6 +150,17 @@ bool FmuInstance::save_by(const char* name, Function* function, void*& state) {
   return true;
 }
 
+template <class Function, class... Arguments>
+void FmuInstance::call_for_state(const char* name, Function* function, Arguments... arguments) {
+  check_callable(name);
+  const auto status =
+      static_cast<Status>(guarded(name, [&] { return function(instance_, arguments...); }));
+  if (status == Status::Ok && !has_messages_.load(std::memory_order_relaxed)) [[likely]]
+    return;
+  if (status == Status::Error || status == Status::Discard) fail_for_state(name, status);
+  if (check_status(name, status) == Status::Pending) fail_call(name, status);
+}
+
 template <class Function>
 bool FmuInstance::free_by(const char* name, Function* function, void*& state) {
   if (state == nullptr || is_unusable_ || function == nullptr) return false;
@@ -183,10 +194,12 @@ std::vector<std::uint8_t> FmuInstance::serialized(void* state,
                                                   const Serialization<Answer, Byte>& functions) {
   require(functions.size_name, functions.size_of, functions.capability);
   require(functions.write_name, functions.write, functions.capability);
+  if (state == nullptr) fail_null_state(functions.write_name);
   std::size_t size = 0;
-  call(functions.size_name, functions.size_of, state, &size);
+  call_for_state(functions.size_name, functions.size_of, state, &size);
   std::vector<std::uint8_t> bytes = bytes_for_state(functions.size_name, size);
-  call(functions.write_name, functions.write, state, reinterpret_cast<Byte*>(bytes.data()), size);
+  call_for_state(functions.write_name, functions.write, state,
+                 reinterpret_cast<Byte*>(bytes.data()), size);
   return bytes;
 }
 

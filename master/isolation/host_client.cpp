@@ -173,6 +173,12 @@ void HostClient::take_lines() {
   printed_.take([&](std::string_view line) { log_printed(line); });
 }
 
+/// What was printed in a call may be there behind its reply only.
+void HostClient::set_repeating(bool repeating) {
+  if (is_repeating_ && !repeating) take_lines();
+  is_repeating_ = repeating;
+}
+
 void HostClient::log_printed(std::string_view line) {
   if (is_repeating_) return;
   output_tail_.add_printed(line);

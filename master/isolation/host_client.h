@@ -45,7 +45,7 @@ class HostClient {
   PacketReader read();
 
   /// What the unit logs and prints while it repeats steps is not logged again.
-  void set_repeating(bool repeating) { is_repeating_ = repeating; }
+  void set_repeating(bool repeating);
   /// Logs something about the unit.
   void log(importer::Status status, const std::string& category,
            const std::string& text) const noexcept;

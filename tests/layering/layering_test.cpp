@@ -32,6 +32,8 @@ const std::map<std::string, std::set<std::string>> kAllowed = {
       "seccomp.h"}},
     {"master/isolation/process", {"stride/time.h", "master/util", "fmt", "seccomp.h"}},
     {"master/ssp", {"stride/time.h", "stride/xml_text.h", "master/model", "master/util", "fmt"}},
+    {"master/checkpoint",
+     {"stride/time.h", "master/algorithm", "master/model", "master/util", "fmt", "zlib.h"}},
     {"master/checks", {"stride/time.h", "master/algorithm", "master/model", "master/util", "fmt"}},
     {"master/recorders",
      {"stride/time.h", "stride/value_text.h", "master/algorithm", "master/model", "master/util",

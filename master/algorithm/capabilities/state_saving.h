@@ -21,8 +21,6 @@ class StateSaving : public Capability {
   /// Selects the slot that the functions above, and StateSerialization, use: slot 0 until another
   /// is selected. The other slots keep their states. A unit with one slot throws std::logic_error.
   virtual void select_state(std::size_t slot) = 0;
-  /// Until it is called with false, steps repeat earlier ones: messages are not logged again.
-  virtual void set_repeating(bool /*repeating*/) {}
 };
 
 }  // namespace stride::core

@@ -8,7 +8,7 @@
 
 namespace stride::core {
 
-/// At any time, also after a failure. Throws nothing.
+/// What is said about the unit, and by it. At any time, also after a failure. Throws nothing.
 class UnitDiagnostics : public Capability {
  public:
   static constexpr CapabilityId kId = CapabilityId::UnitDiagnostics;
@@ -17,6 +17,8 @@ class UnitDiagnostics : public Capability {
   virtual std::string rejection_reason() const = 0;
   /// How many functions of the unit's own interface were called so far.
   virtual std::uint64_t calls() const = 0;
+  /// Until it is called with false, calls repeat earlier ones: messages are not logged again.
+  virtual void set_repeating(bool /*repeating*/) {}
 };
 
 }  // namespace stride::core

@@ -20,6 +20,7 @@ CoastingUnit::CoastingUnit(std::unique_ptr<Unit> unit, const UnitDescription& de
     : ForwardingUnit(std::move(unit)),
       state_(inner().require_capability<StateSaving>()),
       concurrent_(inner().capability<ConcurrentSteps>()),
+      diagnostics_(inner().capability<UnitDiagnostics>()),
       description_(description),
       interval_(interval),
       cache_(cache) {}
@@ -206,10 +207,14 @@ void CoastingUnit::restore_state() {
   log_.cut(mark_);
   is_continuous_ = stretch_ > 1;
   if (log_.steps() == 0) return log_.set_inputs(inner());
-  state_.set_repeating(true);
+  set_repeating(true);
   repeat();
-  state_.set_repeating(false);
+  set_repeating(false);
   begin_stretch();
+}
+
+void CoastingUnit::set_repeating(bool repeating) {
+  if (diagnostics_ != nullptr) diagnostics_->set_repeating(repeating);
 }
 
 void CoastingUnit::repeat() {

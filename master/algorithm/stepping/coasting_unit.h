@@ -10,6 +10,7 @@
 
 #include "master/algorithm/capabilities/concurrent_steps.h"
 #include "master/algorithm/capabilities/state_saving.h"
+#include "master/algorithm/capabilities/unit_diagnostics.h"
 #include "master/algorithm/forwarding_unit.h"
 #include "master/algorithm/statistics.h"
 #include "master/algorithm/stepping/save_interval.h"
@@ -68,7 +69,6 @@ class CoastingUnit : public ForwardingUnit, public StateSaving, public Concurren
   void restore_state() override;
   /// Throws std::logic_error: it has one.
   void select_state(std::size_t slot) override;
-  void set_repeating(bool repeating) override { state_.set_repeating(repeating); }
 
  private:
   Capability* find_capability(CapabilityId id) override;
@@ -87,6 +87,7 @@ class CoastingUnit : public ForwardingUnit, public StateSaving, public Concurren
   void save_measured();
   void bound_log();
   void repeat();
+  void set_repeating(bool repeating);
   void keep_outputs(std::span<const BoundValues> outputs);
   void compare_outputs();
   void note_difference(const BoundValues& output, std::size_t element, const ValueBlock& before);
@@ -105,7 +106,8 @@ class CoastingUnit : public ForwardingUnit, public StateSaving, public Concurren
   };
 
   StateSaving& state_;
-  ConcurrentSteps* concurrent_;  ///< of the unit; null if it steps here
+  ConcurrentSteps* concurrent_;   ///< of the unit; null if it steps here
+  UnitDiagnostics* diagnostics_;  ///< likewise, if it has none
   const UnitDescription& description_;
   SaveInterval interval_;
   std::size_t cache_;

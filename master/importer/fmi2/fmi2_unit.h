@@ -80,7 +80,6 @@ class Fmi2Unit final
   void save_state() override;
   void restore_state() override;
   void select_state(std::size_t slot) override;
-  void set_repeating(bool repeating) override { is_repeating_ = repeating; }
   std::vector<std::uint8_t> serialize_state() override;
   void deserialize_state(std::span<const std::uint8_t> bytes) override;
   void reset() override;

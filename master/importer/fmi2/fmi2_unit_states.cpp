@@ -60,8 +60,8 @@ void Fmi2Unit::deserialize_state(std::span<const std::uint8_t> bytes) {
   free_state(saved);
   is_as_saved_ = false;
   void* state = nullptr;  // what a failed call leaves there is undefined
-  call("fmi2DeSerializeFMUstate", fmi_.DeSerializeFMUstate,
-       reinterpret_cast<const fmi2Byte*>(bytes.data()), bytes.size(), &state);
+  call_for_state("fmi2DeSerializeFMUstate", fmi_.DeSerializeFMUstate,
+                 reinterpret_cast<const fmi2Byte*>(bytes.data()), bytes.size(), &state);
   saved.state = state;
   saved.is_present = true;
 }

@@ -47,7 +47,8 @@ void Fmi3Unit::deserialize_state(std::span<const std::uint8_t> bytes) {
   SavedState& saved = states_.chosen();
   free_state(saved);
   void* state = nullptr;  // what a failed call leaves there is undefined
-  call("fmi3DeserializeFMUState", fmi_.DeserializeFMUState, bytes.data(), bytes.size(), &state);
+  call_for_state("fmi3DeserializeFMUState", fmi_.DeserializeFMUState, bytes.data(), bytes.size(),
+                 &state);
   saved.state = state;
   saved.is_present = true;
 }

@@ -79,12 +79,15 @@ TEST_CASE("bytes of a state continue in another instance that was never started"
   CHECK(serialization(*other).serialize_state().size() == bytes.size());
 }
 
-TEST_CASE("bytes that are not a state, and a state that is not there, are errors") {
+TEST_CASE("bytes that are not a state, and a state that is not there, are errors, and no more") {
   Stepper unit;
   CHECK_THAT(run_error([&] { serialization(*unit).serialize_state(); }),
              Contains("no state of it has been saved"));
   CHECK_THAT(run_error([&] { serialization(*unit).deserialize_state({}); }),
              Contains("fmi3DeserializeFMUState returned fmi3Error"));
+  unit.start();
+  unit.step(1);
+  CHECK(unit.steps() == 1);
 }
 
 TEST_CASE("after a reset the unit is new, and keeps its states") {

@@ -561,10 +561,10 @@ TEST_CASE("a warning is logged and the step is accepted") {
 TEST_CASE("what a unit logs in steps that it repeats is not logged again") {
   int logged = 0;
   Raw raw("warning", {.log = [&](auto&&...) { ++logged; }}, "raw", "canGetAndSetFMUState=\"true\"");
-  state(*raw.unit).set_repeating(true);
+  diagnostics(*raw.unit).set_repeating(true);
   raw.unit->step({{}, Time(1ms)});
   CHECK(logged == 0);
-  state(*raw.unit).set_repeating(false);
+  diagnostics(*raw.unit).set_repeating(false);
   raw.unit->step({Time(1ms), Time(2ms)});
   CHECK(logged == 1);
 }
