@@ -65,21 +65,32 @@ class SerializationCheck {
   void continue_in_same_process() {
     if (trial_.tested.description().single_instance) return;
     const Cut& cut = run_.states.front().cut;
-    note(trial_.in_child([&] {
-      const SerializedRun again = run_with_cuts(trial_, {cut});
-      return difference_after(again, again.states.front(), Receiver::New,
-                              "in another one of the same process");
-    }));
+    go_on_in_new([&](Receiver receiver) {
+      return trial_.in_child([&] {
+        const SerializedRun again = run_with_cuts(trial_, {cut});
+        return difference_after(again, again.states.front(), receiver,
+                                "in another one of the same process");
+      });
+    });
   }
 
   void continue_in_other_processes(const SerializedState& state) {
     const std::string place = state.cut.place.empty() ? "" : ", serialised " + state.cut.place;
-    const auto go_on = [&](Receiver receiver, const std::string& where) {
-      return trial_.in_child(
-          [&] { return difference_after(run_, state, receiver, where + place); });
+    const auto go_on = [&](Receiver receiver) {
+      const std::string initialised = receiver == Receiver::New ? "" : "initialised ";
+      return trial_.in_child([&] {
+        return difference_after(run_, state, receiver,
+                                "in an " + initialised + "instance of another process" + place);
+      });
     };
+    go_on_in_new(go_on);
+    note(go_on(Receiver::Initialized));
+  }
+
+  template <class GoOn>
+  void go_on_in_new(const GoOn& go_on) {
     try {
-      note(go_on(Receiver::New, "in an instance of another process"));
+      note(go_on(Receiver::New));
     } catch (const Failure& failure) {
       if (!goes_on_if_initialized(go_on)) throw;
       throw Failure(
@@ -87,7 +98,6 @@ class SerializationCheck {
                       "one goes on well",
                       failure.what()));
     }
-    note(go_on(Receiver::Initialized, "in an initialised instance of another process"));
   }
 
   /// Many units need an initialized instance, though the standards allow the calls in a new one,
@@ -95,7 +105,7 @@ class SerializationCheck {
   template <class GoOn>
   static bool goes_on_if_initialized(const GoOn& go_on) {
     try {
-      go_on(Receiver::Initialized, "");
+      go_on(Receiver::Initialized);
       return true;
     } catch (const Failure&) {
       return false;
