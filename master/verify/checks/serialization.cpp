@@ -8,9 +8,9 @@
 #include "master/algorithm/capabilities/state_serialization.h"
 #include "master/util/error.h"
 #include "master/verify/checks.h"
-#include "master/verify/damaged_states.h"
+#include "master/verify/checks/damaged_states.h"
+#include "master/verify/checks/serialized_run.h"
 #include "master/verify/disturbance.h"
-#include "master/verify/serialized_run.h"
 
 namespace stride::verify {
 namespace {

@@ -1,4 +1,4 @@
-#include "master/verify/serialized_run.h"
+#include "master/verify/checks/serialized_run.h"
 
 #include <algorithm>
 

@@ -1,13 +1,13 @@
 // What a unit makes of bytes that are not a state of it.
-#ifndef STRIDE_MASTER_VERIFY_DAMAGED_STATES_H
-#define STRIDE_MASTER_VERIFY_DAMAGED_STATES_H
+#ifndef STRIDE_MASTER_VERIFY_CHECKS_DAMAGED_STATES_H
+#define STRIDE_MASTER_VERIFY_CHECKS_DAMAGED_STATES_H
 
 #include <cstdint>
 #include <string>
 #include <vector>
 
 #include "master/verify/checks.h"
-#include "master/verify/serialized_run.h"
+#include "master/verify/checks/serialized_run.h"
 
 namespace stride::verify {
 

@@ -1,6 +1,6 @@
 // A run, and states of it as bytes.
-#ifndef STRIDE_MASTER_VERIFY_SERIALIZED_RUN_H
-#define STRIDE_MASTER_VERIFY_SERIALIZED_RUN_H
+#ifndef STRIDE_MASTER_VERIFY_CHECKS_SERIALIZED_RUN_H
+#define STRIDE_MASTER_VERIFY_CHECKS_SERIALIZED_RUN_H
 
 #include <cstddef>
 #include <cstdint>

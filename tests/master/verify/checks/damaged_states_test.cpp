@@ -1,4 +1,4 @@
-#include "master/verify/damaged_states.h"
+#include "master/verify/checks/damaged_states.h"
 
 #include <algorithm>
 #include <set>
