@@ -114,7 +114,10 @@ class Unit {
     return {};
   }
 
-  /// What state() cannot list; called after the listed members, in both directions.
+  /// What state() cannot list; called after the listed members, in both directions, in any mode. A
+  /// change of what is written needs another UnitInfo::version, so that states from before it are
+  /// refused. What load_state() throws refuses the state: one that was serialised leaves the
+  /// instance as it was.
   virtual void save_state(StateWriter& /*writer*/) const {}
   virtual void load_state(StateReader& /*reader*/) {}
 
@@ -163,6 +166,13 @@ class Unit {
   /// Declares that the variables and the members listed here are the whole state, so that the unit
   /// can be saved, rolled back and serialised. May be called several times; state() alone declares
   /// that the variables are all.
+  ///
+  /// The whole state is all that a later call reads and an earlier one may have changed, the
+  /// members that .derivative() names among it; the kit keeps the time, the mode, clocks, announced
+  /// events and idle settings itself. What follows from parameters and resources is made again in
+  /// load_state(): a serialised state may be restored in an instance that was never initialised.
+  /// Its bytes are the same in each build of the same source. They name the unit, its version and
+  /// its variables, so those of another unit or version are refused.
   template <class... Members>
   void state(Members&... members) {
     lists_state_ = true;

@@ -292,20 +292,20 @@ fmi3Status fmi3FreeFMUState(fmi3Instance instance, fmi3FMUState* state) {
 }
 
 fmi3Status fmi3SerializedFMUStateSize(fmi3Instance instance, fmi3FMUState state, size_t* size) {
-  return call(instance, Function::SerializedFMUStateSize, [&](Instance&) {
+  return call(instance, Function::SerializedFMUStateSize, [&](Instance& unit) {
     if (state == nullptr) throw Misuse("the state is NULL");
-    *size = static_cast<SavedState*>(state)->bytes.size();
+    *size = unit.serialized_size(*static_cast<SavedState*>(state));
     return fmi3OK;
   });
 }
 
 fmi3Status fmi3SerializeFMUState(fmi3Instance instance, fmi3FMUState state, fmi3Byte bytes[],
                                  size_t size) {
-  return call(instance, Function::SerializeFMUState, [&](Instance&) {
+  return call(instance, Function::SerializeFMUState, [&](Instance& unit) {
     if (state == nullptr) throw Misuse("the state is NULL");
-    const auto& saved = static_cast<SavedState*>(state)->bytes;
-    if (size < saved.size()) throw Misuse("the buffer is too small");
-    std::copy(saved.begin(), saved.end(), bytes);
+    const auto& saved = *static_cast<SavedState*>(state);
+    if (size < unit.serialized_size(saved)) throw Misuse("the buffer is too small");
+    unit.serialize(saved, bytes);
     return fmi3OK;
   });
 }
@@ -313,9 +313,8 @@ fmi3Status fmi3SerializeFMUState(fmi3Instance instance, fmi3FMUState state, fmi3
 fmi3Status fmi3DeserializeFMUState(fmi3Instance instance, const fmi3Byte bytes[], size_t size,
                                    fmi3FMUState* state) {
   return call(instance, Function::DeserializeFMUState, [&](Instance& unit) {
-    unit.check_saved(bytes, size);
     auto fresh = *state == nullptr ? std::make_unique<SavedState>() : nullptr;
-    (fresh ? *fresh : *static_cast<SavedState*>(*state)).bytes.assign(bytes, bytes + size);
+    unit.deserialize(bytes, size, fresh ? *fresh : *static_cast<SavedState*>(*state));
     if (fresh) *state = fresh.release();
     return fmi3OK;
   });

@@ -13,19 +13,6 @@
 namespace stride::kit {
 namespace {
 
-void write_optional(StateWriter& writer, const std::optional<Time>& time) {
-  writer.write(time.has_value());
-  writer.write(time.value_or(Time{}));
-}
-
-std::optional<Time> read_optional(StateReader& reader) {
-  bool has_value = false;
-  Time time{};
-  reader.read(has_value);
-  reader.read(time);
-  return has_value ? std::optional(time) : std::nullopt;
-}
-
 std::uint8_t log_category(const char* wanted) {
   std::string known;
   for (const auto& [category, name] : kLogCategories) {
@@ -68,6 +55,9 @@ Instance::Instance(Importer importer, const std::string& token) : importer_(std:
                  "to other resources; pack the unit again");
   }
   check_intermediate_variables();
+  if (!unit_->lists_state()) return;
+  serialized_.emplace(StateIdentity{unit_factory().name, token_, layout_of_state(*unit_),
+                                    importer_.event_mode_used});
 }
 
 void Instance::build() {
@@ -84,6 +74,7 @@ void Instance::build() {
   table_.emplace(*unit_, time_seconds_);
   if (unit_->info().promises_idle) idle_.emplace(*unit_, *table_);
   time_seconds_ = 0;
+  stop_.reset();
   next_event_.reset();
   inputs_changed_ = true;
   event_pending_ = warned_of_inputs_ = warned_of_outputs_ = false;
@@ -199,77 +190,6 @@ Time Instance::idle_until() const {
   if (next_event_) until = std::min(until, *next_event_);
   if (const auto& step = unit_->info().maximum_step) until = std::min(until, later(time_, *step));
   return std::max(until, time_);
-}
-
-void Instance::require_state() const {
-  require_unit();
-  if (!unit_->lists_state()) {
-    throw Misuse("this unit cannot save its state (canGetAndSetFMUState is false)");
-  }
-}
-
-void Instance::save(SavedState& saved) const {
-  require_state();
-  StateWriter writer(saved.bytes);
-  writer.write(token_);
-  writer.write(mode_);
-  writer.write(time_);
-  writer.write(start_);
-  write_optional(writer, stop_);
-  write_optional(writer, next_event_);
-  writer.write(inputs_changed_);
-  writer.write(event_pending_);
-  if (idle_) idle_->save(writer);
-  for (std::size_t i = 1; i < table_->size(); ++i) {
-    const Variable& row = table_->row(i);
-    visit(row.type, row.data, [&](const auto* elements) {
-      for (std::size_t k = 0; k < row.size; ++k) writer.write(elements[k]);
-    });
-  }
-  for (const StateItem& item : unit_->state_items()) item.save(item.object, writer);
-  unit_->save_state(writer);
-  writer.write(static_cast<std::uint64_t>(saved.bytes.size()));  // the end, so that it is complete
-}
-
-void Instance::check_saved(const std::uint8_t* bytes, std::size_t size) const {
-  require_state();
-  std::string token;
-  std::uint64_t size_without_end = 0;
-  try {
-    StateReader(bytes, size).read(token);
-    const std::size_t end = std::min(size, sizeof size_without_end);
-    StateReader(bytes + size - end, end).read(size_without_end);
-  } catch (const std::exception&) {
-  }
-  if (token != token_ || size_without_end + sizeof size_without_end != size) {
-    throw Misuse("these bytes are not a saved state of this unit");
-  }
-}
-
-void Instance::restore(const SavedState& saved) {
-  require_state();
-  StateReader reader(saved.bytes.data(), saved.bytes.size());
-  reader.skip(sizeof(std::uint64_t) + token_.size());  // the token, which check_saved() looks at
-  reader.read(mode_);
-  reader.read(time_);
-  reader.read(start_);
-  stop_ = read_optional(reader);
-  next_event_ = read_optional(reader);
-  reader.read(inputs_changed_);
-  reader.read(event_pending_);
-  if (idle_) idle_->load(reader);
-  time_seconds_ = to_seconds(time_);
-  for (std::size_t i = 1; i < table_->size(); ++i) {
-    const Variable& row = table_->row(i);
-    visit(row.type, row.data, [&](auto* elements) {
-      for (std::size_t k = 0; k < row.size; ++k) reader.read(elements[k]);
-    });
-  }
-  for (const StateItem& item : unit_->state_items()) item.load(item.object, reader);
-  unit_->load_state(reader);
-  std::uint64_t end = 0;
-  reader.read(end);
-  if (reader.left() != 0) throw std::runtime_error("the saved state is too long");
 }
 
 }  // namespace stride::kit

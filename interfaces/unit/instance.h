@@ -16,14 +16,11 @@
 #include "interfaces/unit/idle_settings.h"
 #include "interfaces/unit/legal_calls.h"
 #include "interfaces/unit/log_categories.h"
+#include "interfaces/unit/misuse.h"
+#include "interfaces/unit/serialized_state.h"
 #include "interfaces/unit/table.h"
 
 namespace stride::kit {
-
-/// The importer used the instance wrongly; nothing has changed.
-struct Misuse : std::invalid_argument {
-  using std::invalid_argument::invalid_argument;
-};
 
 /// A length of time that the importer gives [s], to the nearest picosecond; throws Misuse for what
 /// is none.
@@ -68,6 +65,7 @@ struct Importer {
 /// A saved state (fmi3FMUState).
 struct SavedState {
   std::vector<std::uint8_t> bytes;
+  bool was_serialized = false;  ///< it may be of another instance, with other resources
 };
 
 /// The functions have the meaning of the FMI functions of the same name; a misuse or a failure of
@@ -157,9 +155,14 @@ class Instance final : private InputUpdater {
   void set_clock_shift(fmi3ValueReference reference, Duration shift);
 
   void save(SavedState& state) const;
-  /// Throws if the bytes are not a state that save() of this unit wrote.
-  void check_saved(const std::uint8_t* bytes, std::size_t size) const;
+  /// Throws a Misuse, with the instance as it was, if the unit refuses a state that was serialised.
   void restore(const SavedState& state);
+  std::size_t serialized_size(const SavedState& state) const;
+  /// Into so many bytes.
+  void serialize(const SavedState& state, std::uint8_t* bytes) const;
+  /// Throws a Misuse, with the state as it was, if the bytes are not what serialize() of this unit
+  /// wrote.
+  void deserialize(const std::uint8_t* bytes, std::size_t size, SavedState& state) const;
 
  private:
   void build();
@@ -197,6 +200,7 @@ class Instance final : private InputUpdater {
   void require_unit() const;
   void require_idle_promises() const;
   void require_state() const;
+  void load(const SavedState& state);
   bool any_clock_ticked() const;
   void check_writable(const fmi3ValueReference references[], std::size_t count, Type type,
                       std::size_t size) const;
@@ -207,8 +211,9 @@ class Instance final : private InputUpdater {
   [[noreturn]] void refuse_to_set(fmi3ValueReference reference) const;
 
   std::string token_;
-  std::string rejection_;             ///< of the last step that the unit rejected
-  std::optional<IdleSettings> idle_;  ///< of a unit that promises to be idle
+  std::optional<SerializedState> serialized_;  ///< of a unit that has a state
+  std::string rejection_;                      ///< of the last step that the unit rejected
+  std::optional<IdleSettings> idle_;           ///< of a unit that promises to be idle
 
   // What each step needs is side by side, so that it is in few lines of the cache.
   Importer importer_;

@@ -6,6 +6,7 @@
 
 #include <stride/value_text.h>
 
+#include "interfaces/unit/hash.h"
 #include "interfaces/unit/idle_manifest.h"
 #include "interfaces/unit/log_categories.h"
 #include "interfaces/unit/si_units.h"
@@ -290,18 +291,11 @@ class Writer {
   XmlWriter xml_;
 };
 
-/// FNV-1a, 64 bits (Fowler, Noll, Vo).
-std::uint64_t hash(const std::string& text) {
-  std::uint64_t value = 0xcbf29ce484222325U;
-  for (const char c : text) value = (value ^ static_cast<unsigned char>(c)) * 0x100000001b3U;
-  return value;
-}
-
 }  // namespace
 
 std::string instantiation_token(const std::string& name, const Unit& unit, const Table& table) {
-  const std::uint64_t value =
-      hash(Writer(name, unit, table).write("") + idle_manifest(unit, table));
+  const std::string text = Writer(name, unit, table).write("") + idle_manifest(unit, table);
+  const std::uint64_t value = hash(text.data(), text.size());
   std::string token = "stride-";
   for (int shift = 56; shift >= 0; shift -= 8) {
     append_hexadecimal(token, static_cast<std::uint8_t>(value >> shift));

@@ -388,9 +388,14 @@ bool Server::save_state(std::optional<Time> time) {
 }
 
 void Server::restore_state(PacketReader& in) {
-  if (!snapshots_) return capability<core::StateSaving>().restore_state();
+  const std::optional<Time> time = take_time(in);
+  if (!snapshots_) {
+    capability<core::StateSaving>().restore_state();
+    time_ = time;
+    return;
+  }
   memory_.call_note.write("the return to a snapshot of its process");
-  snapshots_->restore(slot_, take_time(in));
+  snapshots_->restore(slot_, time);
 }
 
 void Server::select_state(std::size_t slot) {

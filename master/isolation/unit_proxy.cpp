@@ -303,16 +303,24 @@ void UnitProxy::set_input_update(core::InputUpdate update) {
 
 void UnitProxy::save_state() {
   call(RequestCode::SaveState, [&](PacketWriter& to) { put_time(to, time_); });
+  note_state_of(time_);
 }
 
 /// A process that is taken back knows the plans of its time only.
 void UnitProxy::restore_state() {
   if (spec_.has_snapshots()) plans_.forget();
+  if (slot_ < saved_times_.size()) time_ = saved_times_[slot_];
   call(RequestCode::RestoreState, [&](PacketWriter& to) { put_time(to, time_); });
 }
 
 void UnitProxy::select_state(std::size_t slot) {
   call(RequestCode::SelectState, [&](PacketWriter& to) { to.put(slot); });
+  slot_ = slot;
+}
+
+void UnitProxy::note_state_of(std::optional<Time> time) {
+  if (saved_times_.size() <= slot_) saved_times_.resize(slot_ + 1);
+  saved_times_[slot_] = time;
 }
 
 std::vector<std::uint8_t> UnitProxy::serialize_state() {
@@ -323,8 +331,10 @@ std::vector<std::uint8_t> UnitProxy::serialize_state() {
   return bytes;
 }
 
+/// The bytes do not contain the time.
 void UnitProxy::deserialize_state(std::span<const std::uint8_t> bytes) {
   call(RequestCode::DeserializeState, [&](PacketWriter& to) { to.put_all(bytes); });
+  note_state_of(std::nullopt);
 }
 
 void UnitProxy::reset() {

@@ -116,12 +116,15 @@ class UnitProxy final
   std::uint32_t plan_number(const core::StepValues& values);
   core::StepResult take_result(PacketReader& from, const PresentStep& step);
   void drop_step() noexcept;
+  void note_state_of(std::optional<Time> time);
 
   HostedUnitSpec spec_;
   std::unique_ptr<HostClient> client_;
   Protections protections_;
   CapabilitySet capabilities_;
   std::optional<Time> time_;
+  std::size_t slot_ = 0;
+  std::vector<std::optional<Time>> saved_times_;  ///< of the states, by slot
   KnownStepShapes plans_;
   core::InputUpdate input_update_;
   std::exception_ptr callback_failure_;

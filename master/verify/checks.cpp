@@ -77,6 +77,13 @@ Recording Trial::record(const TestInstanceOptions& options, std::size_t to) cons
   }));
 }
 
+bool Trial::is_of_kit() const {
+  return in_child([&] {
+           const auto library = tested.fmu().load_fmi3_library();
+           return std::string(library && library->describes_itself() ? "yes" : "no");
+         }) == "yes";
+}
+
 const char* name(Verdict verdict) {
   constexpr const char* kNames[] = {"passed", "FAILED", "skipped"};
   return kNames[static_cast<std::size_t>(verdict)];

@@ -33,6 +33,9 @@ struct Trial {
   /// A whole run of an instance, to point `to` of the grid (0 = to its end), in a further process.
   Recording record(const TestInstanceOptions& options = {}, std::size_t to = 0) const;
 
+  /// Whether the unit is made with stride's kit, which refuses what the standards leave open.
+  bool is_of_kit() const;
+
   /// The point of the grid at this share of it.
   std::size_t point_at(double share) const {
     return static_cast<std::size_t>(share * static_cast<double>(tested.steps()));

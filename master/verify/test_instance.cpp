@@ -183,10 +183,13 @@ void TestInstance::run_to(std::size_t k, bool records) {
   while (position_.point < k && !recording_.has_ended) {
     hand_over_inputs();
     step_to_next_point();
-    if (recording_.has_ended) break;
-    if (!records) continue;
-    recording_.rows.push_back({position_.now.time_since_epoch().count(), observe(), false});
+    if (records) record_point();
   }
+}
+
+void TestInstance::record_point() {
+  if (recording_.has_ended) return;
+  recording_.rows.push_back({position_.now.time_since_epoch().count(), observe(), false});
 }
 
 void TestInstance::hand_over_inputs() {

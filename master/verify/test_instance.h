@@ -54,6 +54,8 @@ class TestInstance {
   const Recording& recording() const { return recording_; }
   /// Drops the rows and steps up to here.
   void clear_recorded();
+  /// Clocks that tick are recorded, as run_to(… , true) does.
+  void record_from_here() { records_ = true; }
 
   /// Sets the start values and goes through initialization and the first events.
   void start();
@@ -68,6 +70,8 @@ class TestInstance {
   /// Event Mode where that is due; and makes the step.
   void hand_over_inputs();
   void step_to_next_point();
+  /// What run_to() records at the point that was reached.
+  void record_point();
   /// One step to the point k, with the inputs as they are; false if it was rejected.
   bool leap_to(std::size_t k);
   /// One communication step with the inputs as they are, and the events at its end; false if it was

@@ -84,6 +84,10 @@ TEST_CASE("each lie is found, with variable, values and time") {
   check_fails("lying_counts_repetitions.fmu", "repetition", " s when the steps are repeated");
   check_fails("lying_forgets_on_restore.fmu", "serialization",
               "'steps' is 61 in the instance that was serialised, and 1 in another one");
+  check_fails("lying_forgets_events.fmu", "serialization",
+              "in an instance of another process, serialised right after an event");
+  check_fails("lying_saves_address.fmu", "serialization",
+              "the same state is other bytes in another process");
   check_fails("lying_depends_on_split.fmu", "splitting",
               "where steps of 0.001 s are split into halves, though it declares that steps may be "
               "split (splitInvariant)");

@@ -274,8 +274,9 @@ TEST_CASE("a serialised state continues in another instance") {
   REQUIRE(fmi.FreeFMUState(unit.handle(), &state) == fmi3OK);
   unit.step(25);
 
+  const bool is_initialized = GENERATE(true, false);
   Instance other;
-  other.start();
+  if (is_initialized) other.start();
   fmi3FMUState copy = nullptr;
   REQUIRE(fmi.DeserializeFMUState(other.handle(), bytes.data(), size, &copy) == fmi3OK);
   REQUIRE(fmi.SetFMUState(other.handle(), copy) == fmi3OK);
@@ -283,4 +284,29 @@ TEST_CASE("a serialised state continues in another instance") {
   other.continue_at(10);
   other.step(25);
   CHECK(other.values() == unit.values());
+}
+
+TEST_CASE("a serialised state of which a byte is another is refused") {
+  if (!tested_fmu().description().can_serialize_state) return;
+  const auto& fmi = tested_fmu().call();
+  Instance unit;
+  unit.start();
+  unit.step(10);
+  fmi3FMUState state = nullptr;
+  std::size_t size = 0;
+  REQUIRE(fmi.GetFMUState(unit.handle(), &state) == fmi3OK);
+  REQUIRE(fmi.SerializedFMUStateSize(unit.handle(), state, &size) == fmi3OK);
+  std::vector<fmi3Byte> bytes(size);
+  REQUIRE(fmi.SerializeFMUState(unit.handle(), state, bytes.data(), size) == fmi3OK);
+  for (std::size_t i = 0; i < size; ++i) {
+    std::vector<fmi3Byte> damaged = bytes;
+    damaged[i] ^= 0x10;
+    REQUIRE(fmi.DeserializeFMUState(unit.handle(), damaged.data(), size, &state) == fmi3Error);
+  }
+  REQUIRE(fmi.SetFMUState(unit.handle(), state) == fmi3OK);  // which is as it was
+  const auto values = unit.values();
+  unit.step(25);
+  REQUIRE(fmi.SetFMUState(unit.handle(), state) == fmi3OK);
+  CHECK(unit.values() == values);
+  REQUIRE(fmi.FreeFMUState(unit.handle(), &state) == fmi3OK);
 }

@@ -92,6 +92,10 @@ class MujocoWorld : public stride::Unit {
     if (!rests) show();
   }
 
+  void terminate() override {
+    if (film_) film_->begin();  // of a run without a step
+  }
+
   stride::Time idle_until(stride::Time now) const override {
     for (std::size_t i = 0; i < inputs_.size(); ++i) {
       if (inputs_[i] != world_.input(i)) return now;
@@ -103,6 +107,8 @@ class MujocoWorld : public stride::Unit {
     block_.resize(world_.state_size());
     world_.save(block_.data());
     writer.write_bytes(block_.data(), block_.size() * sizeof(double));
+    writer.write(says_whose_controls_);
+    writer.write(film_ ? film_->pictures() : std::nullopt);
   }
 
   void load_state(stride::StateReader& reader) override {
@@ -110,20 +116,25 @@ class MujocoWorld : public stride::Unit {
     block_.resize(world_.state_size());
     reader.read_bytes(block_.data(), block_.size() * sizeof(double));
     world_.restore(block_.data());
+    reader.read(says_whose_controls_);
+    std::optional<std::size_t> pictures;
+    reader.read(pictures);
     set_film();
+    if (film_ && !film_->go_on(pictures)) {
+      log(stride::Severity::Warning, "the film in '" + film_folder_.string() +
+                                         "' lacks pictures of what was before the restored state");
+    }
     show();
   }
 
  private:
-  /// The world was set to another state: there is a film as the parameters want it, up to now.
+  /// There is a film as the parameters want it.
   void set_film() {
     const mujoco_world::film::FilmSettings wanted{stride::duration_from_seconds(film_interval_),
                                                   view_};
     if (wanted.interval == stride::Duration{}) {
       film_.reset();
-    } else if (film_ && film_->settings() == wanted) {
-      film_->go_on();
-    } else {
+    } else if (!film_ || !(film_->settings() == wanted)) {
       film_.emplace(world_, wanted, film_folder_);
     }
   }

@@ -139,10 +139,7 @@ Finding check_calls(const Trial& trial) {
   const std::size_t ends = end_everywhere(trial);
   // the standard demands an error only where one is detected, as our own kit does, so only that can
   // fail
-  const bool is_of_kit = trial.in_child([&] {
-    const auto library = trial.tested.fmu().load_fmi3_library();
-    return std::string(library && library->describes_itself() ? "yes" : "no");
-  }) == "yes";
+  const bool is_of_kit = trial.is_of_kit();
   std::vector<std::string> notes;
   const std::vector<Offence> list = offences(trial.tested);
   for (const Offence& offence : list) {

@@ -1,185 +1,206 @@
+#include <functional>
+#include <string>
+#include <vector>
+
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include "master/algorithm/capabilities/state_saving.h"
 #include "master/algorithm/capabilities/state_serialization.h"
 #include "master/util/error.h"
-#include "master/util/hex.h"
 #include "master/verify/checks.h"
+#include "master/verify/checks/damaged_states.h"
+#include "master/verify/checks/serialized_run.h"
+#include "master/verify/disturbance.h"
 
 namespace stride::verify {
 namespace {
 
-using Json = nlohmann::json;
-using Bytes = std::vector<std::uint8_t>;
-
-/// A state as bytes, where it was made, and what followed.
-struct Serialized {
-  Bytes bytes;
-  TestInstance::Position position;
-  std::vector<Row> rows;
-  std::size_t to;
-};
-
-Serialized serialize(const Trial& trial) {
-  const std::size_t from = trial.point_at(0.3);
-  Serialized made{{}, {}, {}, trial.point_at(0.8)};
-  TestInstance instance = trial.make_instance();
-  instance.start();
-  instance.run_to(from, false);
-  instance.capability<core::StateSaving>().save_state();
-  made.bytes = instance.capability<core::StateSerialization>().serialize_state();
-  made.position = instance.position();
-  instance.clear_recorded();
-  instance.run_to(made.to);
-  made.rows = instance.recording().rows;
-  return made;
-}
-
-std::string to_text(const Serialized& made) {
-  const auto& [now, point, next] = made.position;
-  return Json{{"bytes", core::to_hex(made.bytes)},
-              {"now", now.time_since_epoch().count()},
-              {"point", point},
-              {"next", next.value_or(Time::min()).time_since_epoch().count()},
-              {"to", made.to},
-              {"recording", to_text(Recording{made.rows})}}
-      .dump();
-}
-
-Serialized serialized_from_text(const std::string& text) {
-  const Json json = Json::parse(text);
-  const auto time = [&](const char* key) { return Time(Duration(json[key].get<std::int64_t>())); };
-  Serialized made{core::from_hex(json["bytes"].get<std::string>()).value(),
-                  {time("now"), json["point"], time("next")},
-                  recording_from_text(json["recording"]).rows,
-                  json["to"]};
-  if (made.position.next_event == Time::min()) made.position.next_event.reset();
-  return made;
-}
-
-bool has_schedule(const core::UnitDescription& unit) {
-  return std::any_of(unit.variables.begin(), unit.variables.end(),
-                     [](const core::Variable& variable) { return variable.is_time_based_clock(); });
-}
-
 enum class Receiver { New, Initialized };
 
-/// Goes on from the bytes in an instance that was never started, or was initialized. The importer's
-/// own schedule of time-based clocks is not in them: a second instance, which makes the same steps,
-/// has it.
-Recording continue_from(const Trial& trial, const Serialized& made, Receiver receiver) {
-  std::optional<core::Clocks> clocks;
-  if (has_schedule(trial.tested.description())) {
-    TestInstance guide = trial.make_instance({.name = "guide"});
-    guide.start();
-    guide.run_to(made.position.point, false);
-    clocks.emplace(guide.clocks());
-  }
+/// An instance that was never started, or was initialized with the same start values, with the
+/// state.
+TestInstance restored(const Trial& trial, const SerializedState& state, Receiver receiver) {
   TestInstance instance = trial.make_instance();
   if (receiver == Receiver::Initialized) instance.start();
-  instance.clear_recorded();
-  instance.capability<core::StateSerialization>().deserialize_state(made.bytes);
-  instance.capability<core::StateSaving>().restore_state();
-  instance.set_position(made.position, clocks ? &*clocks : nullptr);
-  instance.run_to(made.to);
-  return instance.recording();
+  restore(trial, instance, state);
+  return instance;
 }
 
-/// Throws Failure where what follows in such an instance is not what followed in the first one.
-/// Returns how it differs by rounding.
-std::string require_same(const Trial& trial, const Serialized& made, Receiver receiver,
-                         const std::string& where) {
-  std::string note;
-  const auto differs =
-      difference_beyond_rounding(trial.tested, made.rows, continue_from(trial, made, receiver).rows,
-                                 "in the instance that was serialised", where, note);
-  if (differs) throw Failure(*differs);
-  return note;
-}
+/// What is checked of one unit, and the notes on it.
+class SerializationCheck {
+ public:
+  explicit SerializationCheck(const Trial& trial) : trial_(trial), is_of_kit_(trial.is_of_kit()) {}
 
-/// Many units need an initialized instance, though the standards allow the calls in a new one, too
-/// (FMI 2.0, 4.2.4; FMI 3.0, 2.3.1).
-bool goes_on_if_initialized(const Trial& trial, const Serialized& made) {
-  try {
-    trial.in_child([&] { return require_same(trial, made, Receiver::Initialized, ""); });
-    return true;
-  } catch (const Failure&) {
-    return false;
+  Finding run() {
+    const std::vector<Cut> cuts = cuts_of_unit();
+    run_ = serialized_run_from_text(
+        trial_.in_child([&] { return to_text(run_with_cuts(trial_, cuts)); }));
+    if (run_.states.empty()) return skipped("it ends the simulation before 30 % of the run");
+    require_undisturbed();
+    continue_in_same_process();
+    for (const SerializedState& state : run_.states) continue_in_other_processes(state);
+    require_stable();
+    examine_damaged();
+    return passed(summary(), std::move(notes_));
   }
-}
 
-/// As require_same(), in a process of its own.
-std::string require_same_in_child(const Trial& trial, const Serialized& made,
-                                  const std::function<std::string()>& work) {
-  try {
-    return trial.in_child(work);
-  } catch (const Failure& failure) {
-    if (!goes_on_if_initialized(trial, made)) throw;
-    throw Failure(fmt::format(
-        "{}; this is in an instance that was never initialised, another one goes on well",
-        failure.what()));
+ private:
+  std::vector<Cut> cuts_of_unit() const {
+    const SerializedRun chosen = serialized_run_from_text(trial_.in_child([&] {
+      SerializedRun run;
+      for (const Cut& cut : choose_cuts(trial_)) run.states.push_back({cut, {}, {}, 0});
+      return to_text(run);
+    }));
+    std::vector<Cut> cuts;
+    for (const SerializedState& state : chosen.states) cuts.push_back(state.cut);
+    return cuts;
   }
-}
 
-/// What the unit makes of bytes that are not a state.
-std::string reaction(const Trial& trial, const Bytes& bytes) {
-  try {
-    return trial.in_child([&] {
-      TestInstance instance = trial.make_instance();
-      try {
-        instance.capability<core::StateSerialization>().deserialize_state(bytes);
-        instance.capability<core::StateSaving>().restore_state();
-        return std::string("accepted");
-      } catch (const core::Error&) {
-        return std::string("refused");
-      }
+  /// Another run, whose states nobody has saved, is the same.
+  void require_undisturbed() {
+    compare(trial_.record({}, run_.to).rows, run_.rows, "in a run of which no state is serialised",
+            "in one of which some are");
+  }
+
+  void continue_in_same_process() {
+    if (trial_.tested.description().single_instance) return;
+    const Cut& cut = run_.states.front().cut;
+    go_on_in_new([&](Receiver receiver) {
+      return trial_.in_child([&] {
+        const SerializedRun again = run_with_cuts(trial_, {cut});
+        return difference_after(again, again.states.front(), receiver,
+                                "in another one of the same process");
+      });
     });
-  } catch (const Failure& failure) {
-    return failure.what();
   }
-}
+
+  void continue_in_other_processes(const SerializedState& state) {
+    const std::string place = state.cut.place.empty() ? "" : ", serialised " + state.cut.place;
+    const auto go_on = [&](Receiver receiver) {
+      const std::string initialised = receiver == Receiver::New ? "" : "initialised ";
+      return trial_.in_child([&] {
+        return difference_after(run_, state, receiver,
+                                "in an " + initialised + "instance of another process" + place);
+      });
+    };
+    go_on_in_new(go_on);
+    note(go_on(Receiver::Initialized));
+  }
+
+  template <class GoOn>
+  void go_on_in_new(const GoOn& go_on) {
+    try {
+      note(go_on(Receiver::New));
+    } catch (const Failure& failure) {
+      if (!goes_on_if_initialized(go_on)) throw;
+      throw Failure(
+          fmt::format("{}; this is in an instance that was never initialised, another "
+                      "one goes on well",
+                      failure.what()));
+    }
+  }
+
+  /// Many units need an initialized instance, though the standards allow the calls in a new one,
+  /// too (FMI 2.0, 4.2.4; FMI 3.0, 2.3.1).
+  template <class GoOn>
+  static bool goes_on_if_initialized(const GoOn& go_on) {
+    try {
+      go_on(Receiver::Initialized);
+      return true;
+    } catch (const Failure&) {
+      return false;
+    }
+  }
+
+  /// Throws Failure where what follows in such an instance is not what follows in the run. Returns
+  /// how it differs by rounding.
+  std::string difference_after(const SerializedRun& run, const SerializedState& state,
+                               Receiver receiver, const std::string& where) const {
+    TestInstance instance = restored(trial_, state, receiver);
+    finish_from(instance, state, run.to);
+    std::string rounding;
+    const auto differs =
+        difference_beyond_rounding(trial_.tested, run.rows_after(state), instance.recording().rows,
+                                   "in the instance that was serialised", where, rounding);
+    if (differs) throw Failure(*differs);
+    return rounding;
+  }
+
+  void compare(const std::vector<Row>& expected, const std::vector<Row>& seen,
+               const std::string& expected_when, const std::string& seen_when) {
+    std::string rounding;
+    const auto differs = difference_beyond_rounding(trial_.tested, expected, seen, expected_when,
+                                                    seen_when, rounding);
+    if (differs) throw Failure(*differs);
+    note(rounding);
+  }
+
+  /// The first rounding that is seen.
+  void note(const std::string& rounding) {
+    if (notes_.empty() && !rounding.empty()) notes_.push_back(rounding);
+  }
+
+  /// The same state is the same bytes, whatever the memory was before, and wherever it is; also
+  /// where it was restored.
+  void require_stable() {
+    const SerializedState& state = run_.states.front();
+    const auto bytes_are_same = [&](auto&& make) {
+      return trial_.in_child([&] {
+        disturb();
+        TestInstance instance = make();
+        instance.template capability<core::StateSaving>().save_state();
+        auto& serialization = instance.template capability<core::StateSerialization>();
+        return std::string(serialization.serialize_state() == state.bytes ? "yes" : "no");
+      }) == "yes";
+    };
+    if (!bytes_are_same([&] { return instance_at(trial_, state.cut); })) {
+      complain(
+          "the same state is other bytes in another process, so it has an address or memory "
+          "without a value in it");
+    } else if (is_of_kit_ &&
+               !bytes_are_same([&] { return restored(trial_, state, Receiver::New); })) {
+      complain("a state that was restored is serialised to other bytes");
+    }
+  }
+
+  /// What the standards do not forbid, and the kit does.
+  void complain(const std::string& what) {
+    if (is_of_kit_) throw Failure(what, false);
+    notes_.push_back(what);
+  }
+
+  void examine_damaged() {
+    const auto damaged = damaged_states(run_.states.front().bytes);
+    const std::vector<std::string> accepted = accepted_states(trial_, damaged);
+    refuses_all_ = accepted.empty();
+    for (const std::string& what : accepted) complain(what);
+    if (is_of_kit_) require_refusals(trial_, run_, damaged);
+  }
+
+  std::string summary() const {
+    return fmt::format(
+        "{} bytes go on in a new instance of {} process{}{}", run_.states.front().bytes.size(),
+        trial_.tested.description().single_instance ? "another" : "this and of another",
+        run_.states.size() > 1
+            ? fmt::format(", also from {} instants around events", run_.states.size() - 1)
+            : "",
+        refuses_all_ ? "; damaged bytes are refused" : "");
+  }
+
+  const Trial& trial_;
+  bool is_of_kit_;
+  SerializedRun run_;
+  bool refuses_all_ = true;
+  std::vector<std::string> notes_;
+};
 
 }  // namespace
 
 Finding check_serialization(const Trial& trial) {
-  const core::UnitDescription& unit = trial.tested.description();
-  if (!unit.can_serialize_state) return skipped("it has no canSerializeFMUState");
-  const Serialized made =
-      serialized_from_text(trial.in_child([&] { return to_text(serialize(trial)); }));
-  std::vector<std::string> notes;
-  const auto require = [&](const std::function<std::string()>& work) {
-    const std::string note = require_same_in_child(trial, made, work);
-    if (notes.empty() && !note.empty()) notes.push_back(note);
-  };
-  if (!unit.single_instance) {
-    require([&] {
-      return require_same(trial, serialize(trial), Receiver::New,
-                          "in another one of the same process");
-    });
+  if (!trial.tested.description().can_serialize_state) {
+    return skipped("it has no canSerializeFMUState");
   }
-  require([&] {
-    return require_same(trial, made, Receiver::New, "in an instance of another process");
-  });
-
-  bool refuses_all = true;
-  const auto examine = [&](const char* what, const Bytes& bytes) {
-    const std::string seen = reaction(trial, bytes);
-    if (seen == "refused") return;
-    refuses_all = false;
-    notes.push_back(fmt::format("{}: {}", what, seen));
-  };
-  examine("bytes that break off",
-          Bytes(made.bytes.begin(),
-                made.bytes.begin() + static_cast<std::ptrdiff_t>(made.bytes.size() / 2)));
-  examine("no bytes at all", {});
-  Bytes longer = made.bytes;
-  longer.insert(longer.end(), 64, 0xFF);
-  examine("bytes with something behind them", longer);
-  return passed(fmt::format("{} bytes go on in a new instance of {} process{}", made.bytes.size(),
-                            unit.single_instance ? "another" : "this and of another",
-                            refuses_all ? "; damaged bytes are refused" : ""),
-                std::move(notes));
+  return SerializationCheck(trial).run();
 }
 
 }  // namespace stride::verify

@@ -12,6 +12,7 @@
 
 #include "tests/build.h"
 #include "tests/interfaces/unit/importer.h"
+#include "tests/interfaces/unit/saved_state.h"
 
 using namespace stride::tests;
 using Catch::Matchers::Contains;
@@ -42,25 +43,6 @@ class Resources {
 
  private:
   std::filesystem::path path_;
-};
-
-std::vector<fmi3Byte> serialize(UnitInstance& unit, fmi3FMUState state) {
-  std::size_t size = 0;
-  REQUIRE(unit.fmi.SerializedFMUStateSize(unit.handle, state, &size) == fmi3OK);
-  std::vector<fmi3Byte> bytes(size);
-  REQUIRE(unit.fmi.SerializeFMUState(unit.handle, state, bytes.data(), size) == fmi3OK);
-  return bytes;
-}
-
-struct SavedState {
-  explicit SavedState(UnitInstance& of) : unit(of) {
-    REQUIRE(unit.fmi.GetFMUState(unit.handle, &state) == fmi3OK);
-  }
-  ~SavedState() { unit.fmi.FreeFMUState(unit.handle, &state); }
-  SavedState(const SavedState&) = delete;
-  SavedState& operator=(const SavedState&) = delete;
-  UnitInstance& unit;
-  fmi3FMUState state = nullptr;
 };
 
 }  // namespace
@@ -713,101 +695,6 @@ TEST_CASE("a derivative that depends on inputs is right before the first step") 
   CHECK(rate == 4);  // (u - y) / time_constant
 }
 
-// ---- State ----
-
-TEST_CASE("a restored state continues as if nothing had happened between") {
-  const UnitLibrary library(unit_library("stepper"));
-  UnitInstance unit(library);
-  REQUIRE(unit.start_steps() == fmi3OK);
-  REQUIRE(unit.step(0, 0.1) == fmi3OK);
-  const SavedState saved(unit);
-  REQUIRE(unit.step(0.1, 0.1) == fmi3OK);
-  const double position = unit.real("position");
-  REQUIRE(unit.step(0.2, 0.3) == fmi3OK);
-  REQUIRE(library.SetFMUState(unit.handle, saved.state) == fmi3OK);
-  CHECK(unit.real("time") == 0.1);
-  CHECK(unit.integer("steps") == 1);
-  REQUIRE(unit.step(0.1, 0.1) == fmi3OK);
-  CHECK(unit.real("position") == position);
-}
-
-TEST_CASE("a restored state brings back the mode and what state() does not list") {
-  const UnitLibrary library(unit_library("stepper"));
-  UnitInstance unit(library);
-  REQUIRE(unit.set_real("event_at", 0.0) == fmi3OK);
-  REQUIRE(unit.initialize() == fmi3OK);
-  const SavedState saved(unit);
-  REQUIRE(unit.update() == fmi3OK);
-  CHECK(unit.iterate);
-  REQUIRE(library.EnterStepMode(unit.handle) == fmi3OK);
-  REQUIRE(library.SetFMUState(unit.handle, saved.state) == fmi3OK);
-  REQUIRE(unit.update() == fmi3OK);
-  CHECK(unit.iterate);
-}
-
-TEST_CASE("a saved state is reused where the importer passes it again") {
-  const UnitLibrary library(unit_library("stepper"));
-  UnitInstance unit(library);
-  REQUIRE(unit.start_steps() == fmi3OK);
-  SavedState saved(unit);
-  const fmi3FMUState before = saved.state;
-  REQUIRE(unit.step(0, 0.1) == fmi3OK);
-  REQUIRE(library.GetFMUState(unit.handle, &saved.state) == fmi3OK);
-  CHECK(saved.state == before);
-  REQUIRE(library.SetFMUState(unit.handle, saved.state) == fmi3OK);
-  CHECK(unit.integer("steps") == 1);
-}
-
-TEST_CASE("a serialised state continues in another instance") {
-  const UnitLibrary library(unit_library("types"));
-  UnitInstance first(library);
-  REQUIRE(first.initialize() == fmi3OK);
-  REQUIRE(first.set_real("float64", 2.5) == fmi3OK);
-  const fmi3ValueReference text = first.reference("string");
-  fmi3String words = "some words";
-  REQUIRE(library.SetString(first.handle, &text, 1, &words, 1) == fmi3OK);
-  REQUIRE(first.set_clock("receive.clock", true) == fmi3OK);
-  const SavedState saved(first);
-  const std::vector<fmi3Byte> bytes = serialize(first, saved.state);
-
-  UnitInstance second(library);
-  fmi3FMUState copy = nullptr;
-  REQUIRE(library.DeserializeFMUState(second.handle, bytes.data(), bytes.size(), &copy) == fmi3OK);
-  REQUIRE(library.SetFMUState(second.handle, copy) == fmi3OK);
-  CHECK(serialize(second, copy) == bytes);
-  REQUIRE(library.FreeFMUState(second.handle, &copy) == fmi3OK);
-  CHECK(copy == nullptr);
-  CHECK(second.real("float64.echo") == 2.5);
-  REQUIRE(library.GetString(second.handle, &text, 1, &words, 1) == fmi3OK);
-  CHECK(std::string(words) == "some words");
-  REQUIRE(second.update() == fmi3OK);
-  CHECK(second.clock("send.clock"));
-}
-
-TEST_CASE("bytes that are not a state of this unit are refused") {
-  const UnitLibrary types(unit_library("types"));
-  const UnitLibrary stepper(unit_library("stepper"));
-  UnitInstance source(types);
-  UnitInstance unit(stepper);
-  const SavedState saved(source);
-  const std::vector<fmi3Byte> foreign = serialize(source, saved.state);
-  const SavedState own(unit);
-  const std::vector<fmi3Byte> truncated = [&] {
-    std::vector<fmi3Byte> bytes = serialize(unit, own.state);
-    bytes.pop_back();
-    return bytes;
-  }();
-  fmi3FMUState state = nullptr;
-  for (const auto& bytes : {foreign, std::vector<fmi3Byte>{1, 2, 3}, truncated}) {
-    CAPTURE(bytes.size());
-    CHECK(stepper.DeserializeFMUState(unit.handle, bytes.data(), bytes.size(), &state) ==
-          fmi3Error);
-    CHECK_THAT(unit.last_message(), Contains("not a saved state of this unit"));
-    CHECK(state == nullptr);
-  }
-  CHECK(unit.initialize() == fmi3OK);
-}
-
 TEST_CASE("the error of a unit without a state names the missing capability") {
   const Resources resources;
   const UnitLibrary library(unit_library("stateless"));
@@ -819,44 +706,4 @@ TEST_CASE("the error of a unit without a state names the missing capability") {
   fmi3FMUState state = nullptr;
   CHECK(library.GetFMUState(unit.handle, &state) == fmi3Error);
   CHECK_THAT(unit.last_message(), Contains("cannot save its state"));
-}
-
-TEST_CASE("NULL in the place of a state or too small a buffer is a misuse, not a crash") {
-  const UnitLibrary library(unit_library("stepper"));
-  UnitInstance unit(library);
-  CHECK(library.SetFMUState(unit.handle, nullptr) == fmi3Error);
-  std::size_t size = 0;
-  CHECK(library.SerializedFMUStateSize(unit.handle, nullptr, &size) == fmi3Error);
-  const SavedState saved(unit);
-  fmi3Byte byte = 0;
-  CHECK(library.SerializeFMUState(unit.handle, saved.state, &byte, 1) == fmi3Error);
-  fmi3FMUState nothing = nullptr;
-  CHECK(library.FreeFMUState(unit.handle, &nothing) == fmi3OK);
-  CHECK(library.FreeFMUState(unit.handle, nullptr) == fmi3OK);
-}
-
-TEST_CASE("a state has all elements of the arrays") {
-  const UnitLibrary library(unit_library("types"));
-  UnitInstance unit(library);
-  REQUIRE(unit.start_steps() == fmi3OK);
-  const fmi3ValueReference matrix = unit.reference("matrix");
-  const fmi3ValueReference words = unit.reference("words");
-  const auto set = [&](std::array<double, 6> numbers, std::array<const char*, 2> texts) {
-    REQUIRE(library.SetFloat64(unit.handle, &matrix, 1, numbers.data(), 6) == fmi3OK);
-    REQUIRE(library.EnterEventMode(unit.handle) == fmi3OK);
-    REQUIRE(library.SetString(unit.handle, &words, 1, texts.data(), 2) == fmi3OK);
-    REQUIRE(unit.update() == fmi3OK);
-    REQUIRE(library.EnterStepMode(unit.handle) == fmi3OK);
-  };
-  set({6, 5, 4, 3, 2, 1}, {"one", "two"});
-  SavedState saved(unit);
-  set({0, 0, 0, 0, 0, 0}, {"", ""});
-  REQUIRE(library.SetFMUState(unit.handle, saved.state) == fmi3OK);
-  std::array<double, 6> numbers{};
-  std::array<const char*, 2> texts{};
-  REQUIRE(library.GetFloat64(unit.handle, &matrix, 1, numbers.data(), 6) == fmi3OK);
-  REQUIRE(library.GetString(unit.handle, &words, 1, texts.data(), 2) == fmi3OK);
-  CHECK(numbers == std::array<double, 6>{6, 5, 4, 3, 2, 1});
-  CHECK(std::string(texts[0]) == "one");
-  CHECK(std::string(texts[1]) == "two");
 }

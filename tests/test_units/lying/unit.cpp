@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include <fcntl.h>
@@ -41,6 +42,8 @@ enum Lie {
   MumblesMessages,    ///< its descriptions of messages are not text
   CountsQuestions,    ///< it changes when a message is described
   CountsRepetitions,  ///< each third step ends early, those included that are made again
+  ForgetsEvents,      ///< what an event leaves for the next step is not saved
+  SavesAddress,       ///< its state has a pointer in it
   OnlyOnce,           ///< no lie: it says that it crashes when it is made again in its process
 };
 constexpr Lie kLie = LIE;
@@ -80,6 +83,7 @@ class Lying : public stride::Unit {
     } else {
       state(hidden_, count_);
     }
+    if (kLie == SavesAddress) state(address_);
     if (kLie == MumblesMessages || kLie == CountsQuestions) output("message", message_);
     if ((kLie == CrashesInReset || kLie == OnlyOnce) && was_initialized) std::raise(SIGSEGV);
     if (kLie == ForgetsInReset && was_initialized) count_ = shared_count;
@@ -109,6 +113,7 @@ class Lying : public stride::Unit {
     }
     if (kLie == GrowsInSteps) grown_.push_back(std::vector<char>(100));
     y_ += h / 0.05 * (u_ - y_);
+    if (std::exchange(is_after_event_, false)) y_ += 1e-3;
     ++count_;
     ++shared_count;
     shared_input = u_;
@@ -133,6 +138,7 @@ class Lying : public stride::Unit {
       event.next_event(event.time() - std::chrono::milliseconds(20));
     }
     if (kLie == IteratesForEver) event.iterate();
+    if (kLie == ForgetsEvents) is_after_event_ = event.time() > stride::Time{};
   }
 
  private:
@@ -142,6 +148,10 @@ class Lying : public stride::Unit {
   double echo_ = 0;
   std::int32_t count_ = 0;
   int steps_made_ = 0;
+  bool is_after_event_ = false;
+  struct {
+    const void* self;
+  } address_{this};
   double hidden_ = 0;
   stride::Binary message_;
   std::vector<std::vector<char>> grown_;

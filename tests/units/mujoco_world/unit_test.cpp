@@ -1,5 +1,10 @@
 // The world seen by an importer: its start as parameters, and steps that end at contacts.
 #include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -8,6 +13,9 @@
 
 #include "tests/build.h"
 #include "tests/interfaces/unit/importer.h"
+#include "tests/interfaces/unit/saved_state.h"
+#include "tests/scratch_folder.h"
+#include "tests/units/mujoco_world/film/scene.h"
 #include "tests/units/mujoco_world/worlds.h"
 
 using namespace stride::tests;
@@ -18,13 +26,15 @@ namespace {
 class WorldUnit {
  public:
   explicit WorldUnit(const std::string& mjcf, bool early_return = false) : folder_(mjcf) {
-    InstanceChoices choices;
-    choices.resources = (folder_.path() / "").string();
-    choices.early_return = early_return;
-    choices.logging = true;
-    unit_.emplace(library_, choices);
-    description_ = library_.describe(choices.resources);
+    make(early_return);
   }
+  /// Whose results are in that folder.
+  WorldUnit(const std::string& mjcf, const std::filesystem::path& results) : folder_(mjcf) {
+    ::setenv("STRIDE_RESULTS", results.c_str(), 1);
+    make(false);
+    ::unsetenv("STRIDE_RESULTS");
+  }
+
   UnitInstance* operator->() { return &*unit_; }
 
   fmi3Status set_keyframe(const char* name) {
@@ -44,15 +54,85 @@ class WorldUnit {
     });
   }
   const std::string& description() const { return description_; }
+  UnitInstance& instance() { return *unit_; }
 
  private:
+  void make(bool early_return) {
+    InstanceChoices choices;
+    choices.resources = (folder_.path() / "").string();
+    choices.early_return = early_return;
+    choices.logging = true;
+    unit_.emplace(library_, choices);
+    description_ = library_.describe(choices.resources);
+  }
+
   worlds::Folder folder_;
   UnitLibrary library_{unit_library("mujoco_world")};
   std::optional<UnitInstance> unit_;
   std::string description_;
 };
 
+/// By name, with their contents.
+std::map<std::string, std::string> film_files(const std::filesystem::path& folder) {
+  std::map<std::string, std::string> files;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    std::ifstream stream(entry.path(), std::ios::binary);
+    files[entry.path().filename().string()] = {std::istreambuf_iterator<char>(stream), {}};
+  }
+  return files;
+}
+
+/// With a film, up to 0.05 s.
+void start_filmed(WorldUnit& world) {
+  REQUIRE(world->set_real("film.interval", 0.02) == fmi3OK);
+  REQUIRE(world->start_steps() == fmi3OK);
+  REQUIRE(world->step(0, 0.05) == fmi3OK);
+}
+
+/// From there to 0.1 s.
+void finish(WorldUnit& world) {
+  for (int i = 0; i < 5; ++i) REQUIRE(world->step(0.05 + 0.01 * i, 0.01) == fmi3OK);
+  REQUIRE(world->fmi.Terminate(world->handle) == fmi3OK);
+}
+
 }  // namespace
+
+TEST_CASE("a film goes on where a serialised state is restored", "[mujoco_world]") {
+  if (scene::lacks_open_gl()) return;
+  const ScratchFolder scratch;
+  WorldUnit whole(worlds::kTumble, scratch / "whole");
+  start_filmed(whole);
+  finish(whole);
+  std::vector<fmi3Byte> bytes;
+  {
+    WorldUnit cut(worlds::kTumble, scratch / "cut");
+    start_filmed(cut);
+    bytes = serialized(cut.instance());
+    REQUIRE(cut->step(0.05, 0.05) == fmi3OK);  // which is lost
+  }
+  const bool is_initialized = GENERATE(false, true);
+  WorldUnit resumed(worlds::kTumble, scratch / "cut");
+  if (is_initialized) {
+    REQUIRE(resumed->set_real("film.interval", 0.02) == fmi3OK);
+    REQUIRE(resumed->start_steps() == fmi3OK);
+  }
+  REQUIRE(restore(resumed.instance(), bytes) == fmi3OK);
+  CHECK(film_files(scratch / "cut/film").size() == 4);  // at 0, 0.02 and 0.04 s, and the list
+  CHECK(serialized(resumed.instance()) == bytes);
+  finish(resumed);
+  CHECK(film_files(scratch / "cut/film") == film_files(scratch / "whole/film"));
+  CHECK(resumed.said("lacks pictures") == 0);
+}
+
+TEST_CASE("a run without a step has a film of one picture", "[mujoco_world]") {
+  if (scene::lacks_open_gl()) return;
+  const ScratchFolder scratch;
+  WorldUnit world(worlds::kTumble, scratch / "run");
+  REQUIRE(world->set_real("film.interval", 0.02) == fmi3OK);
+  REQUIRE(world->start_steps() == fmi3OK);
+  REQUIRE(world->fmi.Terminate(world->handle) == fmi3OK);
+  CHECK(film_files(scratch / "run/film").size() == 2);
+}
 
 TEST_CASE("the start is set by parameters", "[mujoco_world]") {
   WorldUnit world(worlds::kBounce);

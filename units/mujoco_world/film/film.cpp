@@ -1,6 +1,7 @@
 #include "units/mujoco_world/film/film.h"
 
 #include <stdexcept>
+#include <utility>
 
 namespace mujoco_world::film {
 namespace {
@@ -25,11 +26,17 @@ Film::Film(const World& world, const FilmSettings& settings, const std::filesyst
     : world_(world),
       settings_(checked(settings)),
       renderer_(world.model(), settings.view),
-      frames_(folder) {
-  go_on();
+      frames_(folder) {}
+
+void Film::begin() {
+  if (has_begun_) return;
+  frames_.begin();
+  has_begun_ = true;
+  continue_from_present();
 }
 
 bool Film::advance(World& world, Time to, bool stops_at_contacts) {
+  begin();
   while (next_ <= to) {
     const bool stopped = world.advance(next_, stops_at_contacts);
     if (world.now() == next_) take();
@@ -38,8 +45,20 @@ bool Film::advance(World& world, Time to, bool stops_at_contacts) {
   return world.advance(to, stops_at_contacts);
 }
 
-void Film::go_on() {
-  frames_.remove_after(world_.now());
+std::optional<std::size_t> Film::pictures() const {
+  return has_begun_ ? std::optional(frames_.size()) : std::nullopt;
+}
+
+bool Film::go_on(std::optional<std::size_t> pictures) {
+  const bool was_here = std::exchange(has_begun_, pictures.has_value());
+  if (!has_begun_) return true;
+  was_here ? frames_.remove_after(world_.now()) : frames_.adopt(world_.now());
+  const bool is_whole = frames_.size() >= *pictures;
+  continue_from_present();
+  return is_whole;
+}
+
+void Film::continue_from_present() {
   next_ = first_at_or_after(world_.now(), settings_.interval);
   if (next_ > world_.now()) return;
   if (frames_.ends_at(next_)) {

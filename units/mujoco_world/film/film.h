@@ -2,7 +2,9 @@
 #ifndef STRIDE_UNITS_MUJOCO_WORLD_FILM_FILM_H
 #define STRIDE_UNITS_MUJOCO_WORLD_FILM_FILM_H
 
+#include <cstddef>
 #include <filesystem>
+#include <optional>
 
 #include <stride/time.h>
 
@@ -25,28 +27,37 @@ struct FilmSettings {
 /// depend on the steps that the world is moved by.
 class Film {
  public:
-  /// Takes the picture of the world's present, if it is one of the instants. `world` must outlive
-  /// it. Throws std::invalid_argument for an interval that is not positive, and as Renderer and
-  /// Frames do.
+  /// It begins with begin() or the first advance(). `world` must outlive it. Throws
+  /// std::invalid_argument for an interval that is not positive, and as Renderer and Frames do.
   Film(const World& world, const FilmSettings& settings, const std::filesystem::path& folder);
 
   const FilmSettings& settings() const { return settings_; }
+
+  /// Replaces the film that may be in the folder, and takes the picture of the world's present, if
+  /// it is one of the instants. Does nothing where it has begun.
+  void begin();
 
   /// Moves the world as World::advance() does, and takes the pictures on the way. Throws as that
   /// and Renderer and Frames do.
   bool advance(World& world, stride::Time to, bool stops_at_contacts = false);
 
-  /// The world was set to another state: drops the pictures of what is not yet, and takes that of
-  /// the present where there is none.
-  void go_on();
+  /// How many pictures there are; nothing where it has not begun.
+  std::optional<std::size_t> pictures() const;
+
+  /// The world was set to the state of an instant at which the film was as pictures() told: drops
+  /// the pictures of what is not yet, and takes that of the present where there is none. Where the
+  /// state is that of another process, the film is in the folder; false if it lacks pictures.
+  bool go_on(std::optional<std::size_t> pictures);
 
  private:
   void take();
+  void continue_from_present();
 
   const World& world_;
   FilmSettings settings_;
   Renderer renderer_;
   Frames frames_;
+  bool has_begun_ = false;
   stride::Time next_;
 };
 

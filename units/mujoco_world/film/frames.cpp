@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <charconv>
 #include <cstdio>
 #include <cstdlib>
+#include <fstream>
 #include <system_error>
 
 #include <fcntl.h>
@@ -55,6 +57,23 @@ std::string seconds_text(stride::Time time) {
   return seconds;
 }
 
+std::optional<stride::Time> time_of(const std::string& seconds) {
+  constexpr std::size_t kDigits = 12;  // of a second
+  const bool is_negative = !seconds.empty() && seconds.front() == '-';
+  const std::size_t point = std::min(seconds.find('.'), seconds.size());
+  std::string digits = seconds.substr(is_negative, point - is_negative);
+  std::string fraction = point < seconds.size() ? seconds.substr(point + 1) : "";
+  fraction.resize(kDigits, '0');
+  digits += fraction;
+  std::int64_t count = 0;
+  const char* const end = digits.data() + digits.size();
+  const auto [behind, error] = std::from_chars(digits.data(), end, count);
+  const stride::Time time{stride::Duration(is_negative ? -count : count)};
+  // what is written otherwise, or is longer than that, is none
+  if (error != std::errc() || behind != end || seconds_text(time) != seconds) return std::nullopt;
+  return time;
+}
+
 Frames::Frames(const fs::path& folder) : folder_(folder) {
   std::error_code error;
   fs::create_directories(folder, error);
@@ -62,14 +81,43 @@ Frames::Frames(const fs::path& folder) : folder_(folder) {
   const fs::path list = folder_ / "frames.csv";
   list_ = ::open(list.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
   if (list_ < 0) fail(list);
-  remove_pictures_from(0);
-  write_line(kHeader, 0);
 }
 
 /// What is left of what another process wrote, from which this one was forked, is not of this film.
 Frames::~Frames() {
-  if (::ftruncate(list_, end()) == 0) remove_pictures_from(rows_.size());
+  if (has_begun_ && ::ftruncate(list_, end()) == 0) remove_pictures_from(rows_.size());
   ::close(list_);
+}
+
+void Frames::begin() {
+  has_begun_ = true;
+  rows_.clear();
+  remove_pictures_from(0);
+  write_line(kHeader, 0);
+}
+
+void Frames::adopt(stride::Time time) {
+  has_begun_ = true;
+  rows_.clear();
+  read_rows(time);
+  if (rows_.empty()) return begin();
+  cut();
+}
+
+/// Those of the list, up to the first that is not as add() has written it, or is later than `last`.
+void Frames::read_rows(stride::Time last) {
+  std::ifstream list(folder_ / "frames.csv", std::ios::binary);
+  std::string line;
+  if (!std::getline(list, line) || line + "\n" != kHeader) return;
+  while (std::getline(list, line) && !list.eof()) {
+    const std::size_t comma = std::min(line.find(','), line.size());
+    const auto time = time_of(line.substr(0, comma));
+    const std::string name = picture_name(rows_.size());
+    std::error_code ignored;
+    if (!time || *time > last || (!rows_.empty() && *time <= rows_.back().time)) return;
+    if (line.substr(comma) != "," + name || !fs::exists(folder_ / name, ignored)) return;
+    rows_.push_back({*time, end() + static_cast<off_t>(line.size() + 1)});
+  }
 }
 
 off_t Frames::end() const {
@@ -99,6 +147,11 @@ void Frames::remove_after(stride::Time time) {
   const auto first = std::find_if(rows_.begin(), rows_.end(), is_later);
   if (first == rows_.end()) return;
   rows_.erase(first, rows_.end());
+  cut();
+}
+
+/// Removes what is behind the last row.
+void Frames::cut() {
   if (::ftruncate(list_, end()) != 0) fail(folder_ / "frames.csv");
   remove_pictures_from(rows_.size());
 }

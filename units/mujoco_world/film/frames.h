@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,15 +22,22 @@ namespace mujoco_world::film {
 /// All functions but the destructor throw std::runtime_error with the file if it cannot be written.
 class Frames {
  public:
-  /// Makes the folder, and removes the film that may be there.
+  /// Makes the folder, and leaves the film that may be there as it is until begin() or adopt().
   explicit Frames(const std::filesystem::path& folder);
   ~Frames();
   Frames(const Frames&) = delete;
   Frames& operator=(const Frames&) = delete;
 
+  /// Removes the film that is there. The one that begins has no frame yet.
+  void begin();
+  /// Goes on with the film that is there, which another process has written, as it was at that
+  /// time. What is later, or not in the list, or behind a picture that is missing, is removed.
+  void adopt(stride::Time time);
+
   /// After all that it has.
   void add(stride::Time time, const std::vector<std::uint8_t>& jpeg);
   void remove_after(stride::Time time);
+  std::size_t size() const { return rows_.size(); }
   /// Whether its last frame is of that time.
   bool ends_at(stride::Time time) const { return !rows_.empty() && rows_.back().time == time; }
 
@@ -40,17 +48,22 @@ class Frames {
   };
 
   off_t end() const;
+  void read_rows(stride::Time last);
+  void cut();
   std::filesystem::path picture(std::size_t number) const;
   void write_line(const std::string& line, off_t at);
   void remove_pictures_from(std::size_t number) const;
 
   std::filesystem::path folder_;
   int list_ = -1;  ///< the file descriptor of frames.csv
+  bool has_begun_ = false;
   std::vector<Row> rows_;
 };
 
 /// Exactly, such as "-0.000001", "12" and "0.1".
 std::string seconds_text(stride::Time time);
+/// The time of such a text; nothing for any other.
+std::optional<stride::Time> time_of(const std::string& seconds);
 
 }  // namespace mujoco_world::film
 

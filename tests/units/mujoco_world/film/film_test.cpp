@@ -45,7 +45,9 @@ struct Tumble {
   Film film;
 
   explicit Tumble(const FilmSettings& settings = kEach30Ms)
-      : film(world, settings, scratch / "film") {}
+      : film(world, settings, scratch / "film") {
+    film.begin();
+  }
   void advance(double to) { film.advance(world, at(to)); }
   std::map<std::string, std::string> files() const { return files_of(scratch / "film"); }
 };
@@ -103,10 +105,11 @@ TEST_CASE("a film does not show steps that were undone") {
   while (wandering.world.now() < at(0.5)) {
     const double now = stride::to_seconds(wandering.world.now());
     const auto before = saved(wandering.world);
+    const auto pictures = wandering.film.pictures();
     wandering.world.set_input(0, 2);  // another way than the one that counts
     wandering.advance(now + length(random));
     wandering.world.restore(before.data());
-    wandering.film.go_on();
+    wandering.film.go_on(pictures);
     wandering.world.set_input(0, 0);
     wandering.advance(std::min(0.5, now + length(random)));
   }
@@ -119,11 +122,65 @@ TEST_CASE("what was undone is gone at once") {
   tumble.advance(0.06);
   const auto before = tumble.files();
   const auto state = saved(tumble.world);
+  const auto pictures = tumble.film.pictures();
+  CHECK(pictures == 3);
   tumble.advance(0.3);
   CHECK(tumble.files().size() == before.size() + 8);
   tumble.world.restore(state.data());
-  tumble.film.go_on();
+  CHECK(tumble.film.go_on(pictures));
   CHECK(tumble.files() == before);
+}
+
+TEST_CASE("a film goes on in another world that gets its state, from the files that are there") {
+  if (scene::lacks_open_gl()) return;
+  Tumble whole;
+  whole.advance(0.9);
+  const double cut = GENERATE(0.0, 0.3, 0.3141);
+  Tumble first;
+  first.advance(cut);
+  const auto state = saved(first.world);
+  const auto pictures = first.film.pictures();
+  first.advance(0.7);  // which is not known to have happened
+
+  World world(first.folder.path());
+  Film film(world, kEach30Ms, first.scratch / "film");
+  CHECK(film.pictures() == std::nullopt);
+  world.restore(state.data());
+  CHECK(film.go_on(pictures));
+  CHECK(film.pictures() == pictures);
+  film.advance(world, at(0.9));
+  CHECK(files_of(first.scratch / "film") == whole.files());
+}
+
+TEST_CASE("a film whose files are not there goes on, and says so") {
+  if (scene::lacks_open_gl()) return;
+  Tumble first;
+  first.advance(0.2);
+  fs::remove(first.scratch / "film/00002.jpg");
+  World world(first.folder.path());
+  Film film(world, kEach30Ms, first.scratch / "film");
+  const auto state = saved(first.world);
+  world.restore(state.data());
+  CHECK_FALSE(film.go_on(first.film.pictures()));
+  film.advance(world, at(0.22));
+  CHECK(files_of(first.scratch / "film").at("frames.csv") ==
+        "time,file\n0,00000.jpg\n0.03,00001.jpg\n0.21,00002.jpg\n");
+}
+
+TEST_CASE("a film that has not begun leaves the one that is there, until it begins") {
+  if (scene::lacks_open_gl()) return;
+  Tumble first;
+  first.advance(0.2);
+  const auto before = first.files();
+  World world(first.folder.path());
+  {
+    Film film(world, kEach30Ms, first.scratch / "film");
+    CHECK(film.go_on(std::nullopt));
+  }
+  CHECK(first.files() == before);
+  Film film(world, kEach30Ms, first.scratch / "film");
+  film.advance(world, at(0.01));
+  CHECK(first.files().size() == 2);
 }
 
 TEST_CASE("a film begins anew with its world") {
@@ -133,7 +190,7 @@ TEST_CASE("a film begins anew with its world") {
   tumble.advance(0.2);
   const auto first = tumble.files();
   tumble.world.reset(Time{});
-  tumble.film.go_on();
+  tumble.film.go_on(1);
   CHECK(tumble.files() == beginning);
   tumble.advance(0.2);
   CHECK(tumble.files() == first);

@@ -15,6 +15,7 @@ namespace fs = std::filesystem;
 using Catch::Matchers::Contains;
 using mujoco_world::film::Frames;
 using mujoco_world::film::seconds_text;
+using mujoco_world::film::time_of;
 
 namespace {
 
@@ -38,6 +39,7 @@ std::set<std::string> files_in(const fs::path& folder) {
 TEST_CASE("each frame is a picture and a line") {
   const stride::tests::ScratchFolder scratch;
   Frames frames(scratch / "film/arm");
+  frames.begin();
   CHECK(text_of(scratch / "film/arm/frames.csv") == "time,file\n");
   frames.add(at(0), {'a'});
   frames.add(at(0.1), {'b', 'c'});
@@ -50,6 +52,7 @@ TEST_CASE("each frame is a picture and a line") {
 TEST_CASE("what is taken back is gone, and its places are taken again") {
   const stride::tests::ScratchFolder scratch;
   Frames frames(scratch / "arm");
+  frames.begin();
   for (int i = 0; i < 5; ++i) frames.add(at(i), {'a'});
   frames.remove_after(at(1.5));
   CHECK(text_of(scratch / "arm/frames.csv") == "time,file\n0,00000.jpg\n1,00001.jpg\n");
@@ -64,17 +67,65 @@ TEST_CASE("a film replaces the one that was there, and no other file") {
   const stride::tests::ScratchFolder scratch;
   {
     Frames frames(scratch / "arm");
+    frames.begin();
     for (int i = 0; i < 5; ++i) frames.add(at(i), {'a'});
   }
   std::ofstream(scratch / "arm/notes.txt") << "mine";
   Frames frames(scratch / "arm");
+  frames.begin();
   frames.add(at(0), {'b'});
   CHECK(files_in(scratch / "arm") == std::set<std::string>{"00000.jpg", "frames.csv", "notes.txt"});
+}
+
+TEST_CASE("a film is adopted up to a time, as far as it is whole") {
+  const stride::tests::ScratchFolder scratch;
+  const auto write = [&] {
+    Frames frames(scratch / "arm");
+    frames.begin();
+    for (int i = 0; i < 5; ++i) frames.add(at(i - 1), {'a'});
+  };
+  const auto adopted_at = [&](double time) {
+    Frames frames(scratch / "arm");
+    frames.adopt(at(time));
+    CHECK(files_in(scratch / "arm").size() == frames.size() + 1);
+    const std::size_t adopted = frames.size();
+    frames.add(at(10), {'b'});
+    return std::pair(adopted, text_of(scratch / "arm/frames.csv"));
+  };
+  write();
+  CHECK(adopted_at(1.5) ==
+        std::pair(std::size_t{3}, std::string("time,file\n-1,00000.jpg\n0,00001.jpg\n1,00002.jpg\n"
+                                              "10,00003.jpg\n")));
+  CHECK(text_of(scratch / "arm/00003.jpg") == "b");
+  CHECK(text_of(scratch / "arm/00002.jpg") == "a");
+  write();
+  CHECK(adopted_at(3).first == 5);
+  write();
+  CHECK(adopted_at(-2).first == 0);
+  const std::pair<const char*, std::size_t> damaged[] = {
+      {"", 0},
+      {"time\n-1,00000.jpg\n", 0},
+      {"time,file\n-1,00000.jpg\n0,00001", 1},
+      {"time,file\n-1,00000.jpg\n0,00001.jpg", 1},
+      {"time,file\n-1,00000.jpg\n0.0,00001.jpg\n", 1},
+      {"time,file\n-1,00000.jpg\n0,00002.jpg\n", 1},
+      {"time,file\n-1,00000.jpg\n-1,00001.jpg\n", 1},
+      {"time,file\n-1,00000.jpg\n\n", 1},
+      {"time,file\n-1,00000.jpg\n1e1,00001.jpg\n", 1},
+      {"time,file\n-1,00000.jpg\n99999999999,00001.jpg\n", 1},
+  };
+  for (const auto& [list, whole] : damaged) {
+    CAPTURE(list);
+    write();
+    std::ofstream(scratch / "arm/frames.csv") << list;
+    CHECK(adopted_at(3).first == whole);
+  }
 }
 
 TEST_CASE("a process that goes on from a fork goes on with the film of then") {
   const stride::tests::ScratchFolder scratch;
   auto frames = std::make_unique<Frames>(scratch / "arm");
+  frames->begin();
   frames->add(at(0), {'a'});
   int go[2];
   REQUIRE(::pipe(go) == 0);
@@ -100,11 +151,24 @@ TEST_CASE("a process that goes on from a fork goes on with the film of then") {
 TEST_CASE("a disk that takes no more is an error with the file") {
   const stride::tests::ScratchFolder scratch;
   Frames frames(scratch / "arm");
+  frames.begin();
   fs::create_symlink("/dev/full", scratch / "arm/00000.jpg");
   CHECK_THROWS_WITH(frames.add(at(0), {'a'}),
                     Contains("arm/00000.jpg'") && Contains("No space left on device"));
   std::ofstream(scratch / "file") << "no folder";
   CHECK_THROWS_WITH(Frames(scratch / "file/arm"), Contains("file/arm'"));
+}
+
+TEST_CASE("times are read as they are written, and not otherwise") {
+  for (const std::int64_t count : {0L, 1L, -1L, 30'000'000'000L, -250'000'000'000L, 1L << 62}) {
+    const stride::Time time{stride::Duration(count)};
+    CHECK(time_of(seconds_text(time)) == time);
+  }
+  for (const char* text : {"", "-", "-0", "1.", ".5", "0.50", "+1", "1 ", "1e3", "--1", "nan",
+                           "0.0000000000001", "99999999999999999999"}) {
+    CAPTURE(text);
+    CHECK(time_of(text) == std::nullopt);
+  }
 }
 
 TEST_CASE("times are written with all their digits") {
