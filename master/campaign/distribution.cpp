@@ -59,9 +59,13 @@ NormalLaw law_of(const Normal& normal) {
   return NormalLaw(normal.mean, std::sqrt(normal.variance));
 }
 
-/// Of the logarithm.
+/// Of the logarithm; not finite, or 0, where the numbers are too far apart.
+double log_variance(const LogNormal& log_normal) {
+  return std::log1p(log_normal.variance / log_normal.mean / log_normal.mean);
+}
+
 NormalLaw law_of(const LogNormal& log_normal) {
-  const double variance = std::log1p(log_normal.variance / log_normal.mean / log_normal.mean);
+  const double variance = log_variance(log_normal);
   return NormalLaw(std::log(log_normal.mean) - variance / 2, std::sqrt(variance));
 }
 
@@ -111,7 +115,7 @@ Share share_at(const std::vector<Weighted>& items, double u) {
 }
 
 double between(const Limits& limits, double share) {
-  const double number = limits.lower + share * (limits.upper - limits.lower);
+  const double number = std::lerp(limits.lower, limits.upper, share);
   return std::clamp(number, limits.lower, limits.upper);
 }
 
@@ -124,7 +128,7 @@ struct Quantile {
     return limited_quantile(law_of(normal), limits_or_none(normal.limits), u);
   }
   double operator()(const LogNormal& log_normal) const {
-    if (log_normal.variance == 0) return log_normal.mean;
+    if (log_variance(log_normal) == 0) return log_normal.mean;
     const double x =
         std::exp(limited_quantile(law_of(log_normal), logarithms(log_normal.limits), u));
     const auto& limits = log_normal.limits;
@@ -151,7 +155,9 @@ struct HasProbability {
     return normal_tails(law_of(normal), limits_or_none(normal.limits)).between() > 0;
   }
   bool operator()(const LogNormal& log_normal) const {
-    if (log_normal.variance == 0) return contains(log_normal.limits, log_normal.mean);
+    const double variance = log_variance(log_normal);
+    if (variance == 0) return contains(log_normal.limits, log_normal.mean);
+    if (!std::isfinite(variance)) return false;
     return normal_tails(law_of(log_normal), logarithms(log_normal.limits)).between() > 0;
   }
   bool operator()(const Poisson& poisson) const {

@@ -175,6 +175,13 @@ Poisson read_poisson(const xml::Element& element) {
   element.allow_attributes({"expectedValue"});
   const Poisson law{finite(element, "expectedValue"), read_optional_limits(element)};
   require_positive_mean(element, law.mean);
+  constexpr double kMostMean = 1e9;
+  if (law.mean > kMostMean) {
+    element.fail(
+        fmt::format("the expectedValue {} of {} is above {}", law.mean, element.tag(), kMostMean),
+        "write a NormalDistribution with this expectedValue and variance, which is nearly "
+        "the same");
+  }
   return law;
 }
 

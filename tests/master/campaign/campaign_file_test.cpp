@@ -186,6 +186,8 @@ TEST_CASE("mistakes in stochastic distributions are found with their lines") {
   CHECK_THAT(error("<LogNormalDistribution expectedValue='0' variance='1'/>"),
              Contains("the expectedValue 0 of <LogNormalDistribution> is not above 0"));
   CHECK_THAT(error("<PoissonDistribution expectedValue='0'/>"), Contains("is not above 0"));
+  CHECK_THAT(error("<PoissonDistribution expectedValue='1e10'/>"),
+             Contains("is above 1000000000") && Contains("write a NormalDistribution"));
   CHECK_THAT(error("<UniformDistribution/>"), Contains("holds no <Range>"));
   CHECK_THAT(error(uniform("3", "2")), Contains("the range from 3 to 2 is empty"));
   CHECK_THAT(error("<ProbabilityDistributionSet><Element value='1' weight='0'/>"

@@ -168,6 +168,9 @@ TEST_CASE("whether anything is within the limits") {
   CHECK_FALSE(has_probability(Normal{0, 0, Limits{1, 2}}));
   CHECK(has_probability(Normal{1, 0, Limits{1, 2}}));
   CHECK_FALSE(has_probability(LogNormal{1, 1, Limits{-3, -1}}));
+  CHECK_FALSE(has_probability(LogNormal{1e-300, 1e308, {}}));
+  CHECK(quantile(LogNormal{1e300, 1e-300, {}}, 0.3) == 1e300);
+  CHECK(quantile(Uniform{{-1e308, 1e308}}, 0.5) == Approx(0).margin(1e292));
   CHECK_FALSE(has_probability(Poisson{3, Limits{1.2, 1.8}}));
   CHECK_FALSE(has_probability(Poisson{3, Limits{-5, -1}}));
   CHECK(has_probability(Poisson{3, Limits{20, 30}}));

@@ -158,8 +158,9 @@ std::vector<Intervention> disturbed(const std::vector<InterventionDeclaration>& 
 }  // namespace
 
 TEST_CASE("messages are disturbed by their inputs or their clocks") {
-  const auto found = disturbed({parse_drop("b.number@1..2"), parse_delay("b.tick=0.25@2..3"),
-                                parse_corrupt("b.bytes@3..4"), parse_corrupt("b.tick=12,16,9@4..")});
+  const auto found =
+      disturbed({parse_drop("b.number@1..2"), parse_delay("b.tick=0.25@2..3"),
+                 parse_corrupt("b.bytes@3..4"), parse_corrupt("b.tick=12,16,9@4..")});
   REQUIRE(found.size() == 4);
   for (const Intervention& intervention : found) CHECK(intervention.clock == VariableId{1, 0});
   CHECK(found[0].kind == Intervention::Kind::Drop);
