@@ -2,16 +2,10 @@
 #ifndef STRIDE_MASTER_SCENARIO_INTERVENTION_ELEMENT_H
 #define STRIDE_MASTER_SCENARIO_INTERVENTION_ELEMENT_H
 
-#include <array>
-#include <string_view>
-
 #include "master/scenario/interventions.h"
 #include "master/util/xml/element.h"
 
 namespace stride::scenario {
-
-inline constexpr std::array<std::string_view, 5> kInterventionElements{"Set", "Force", "Drop",
-                                                                       "Delay", "Corrupt"};
 
 /// Reads an element that has one of these names, in whatever namespace. Throws core::Error (Input)
 /// for attributes that are unknown, missing or wrong.
