@@ -3,8 +3,9 @@
 
 packages_build=(
   ca-certificates ccache cmake g++ git ninja-build pkg-config
-  libarchive-dev libcli11-dev libeigen3-dev libfmt-dev libjpeg62-turbo-dev libmujoco-dev libosmesa6 libseccomp-dev
-  libspdlog-dev libsystemc-dev libtinyxml2-dev libutfcpp-dev nlohmann-json3-dev zlib1g-dev
+  libarchive-dev libboost-dev libcli11-dev libeigen3-dev libfmt-dev libjpeg62-turbo-dev libmd-dev libmujoco-dev
+  libosmesa6 librandom123-dev libseccomp-dev libspdlog-dev libsystemc-dev libtinyxml2-dev libutfcpp-dev
+  nlohmann-json3-dev zlib1g-dev
 )
 packages_test=(
   binutils catch2 chromium chromium-driver clang-format-14 fish fonts-dejavu-core gtkwave libbenchmark-dev

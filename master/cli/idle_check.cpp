@@ -12,14 +12,14 @@
 
 #include "master/algorithm/idle/idle_agreement.h"
 #include "master/cli/idle_cause.h"
-#include "master/report/csv_reader.h"
+#include "master/util/csv_reader.h"
 #include "master/util/error.h"
 #include "master/util/time_text.h"
 
 namespace stride::cli {
 namespace {
 
-using report::CsvReader;
+using core::CsvReader;
 
 /// Of the greatest value, for what has no tolerance of its own.
 constexpr double kEffect = 1e-3;

@@ -227,6 +227,7 @@ int main(int argc, char** argv) {
       "'stride COMMAND --help' shows more about a command.");
   add_verbose(app);
   stride::cli::add_run(app);
+  stride::cli::add_campaign(app);
   stride::cli::add_report(app);
   stride::cli::add_check(app);
   stride::cli::add_inspect(app);

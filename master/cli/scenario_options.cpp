@@ -3,11 +3,15 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+
+#include "master/cli/output.h"
+#include "master/ssp/parameters.h"
 
 namespace stride::cli {
 namespace {
@@ -83,6 +87,18 @@ void add_host_options(CLI::App& command, scenario::HostRequest& request) {
                    "Run units in processes of their own without a sandbox; overrides the scenario");
 }
 
+/// A value for what is not there is a mistake, as it is of --set.
+void add_parameters(scenario::ScenarioRequest& request, const std::vector<std::string>& files) {
+  for (const std::string& file : files) {
+    std::vector<std::string> warnings;
+    for (ssp::ParameterValue& value : ssp::read_parameter_set(file, warnings)) {
+      value.is_required = true;
+      request.parameters.push_back(std::move(value));
+    }
+    print_warnings(warnings);
+  }
+}
+
 void add_interventions(CLI::App& command, scenario::ScenarioRequest& request) {
   const auto add = [&](const char* option, std::vector<std::string>& texts, const char* form,
                        const std::string& help) {
@@ -100,9 +116,10 @@ void add_interventions(CLI::App& command, scenario::ScenarioRequest& request) {
       "Time for which an input, or an input clock, receives no messages");
   add("--delay", request.delays, "COMPONENT.VARIABLE=SECONDS@SECONDS..[SECONDS]",
       "How much later an input, or an input clock, receives the messages of some time");
-  add("--corrupt", request.corruptions, "COMPONENT.VARIABLE[=BITS[,HEADER]]@SECONDS..[SECONDS]",
+  add("--corrupt", request.corruptions,
+      "COMPONENT.VARIABLE[=BITS[,HEADER[,SEED]]]@SECONDS..[SECONDS]",
       "How many bits are inverted in each message that an input receives in some time, 1 if left "
-      "out, and how many first bytes are left alone");
+      "out, how many first bytes are left alone, and the seed that chooses the bits");
 }
 
 }  // namespace
@@ -125,6 +142,14 @@ void add_scenario_options(CLI::App& command, scenario::ScenarioRequest& request)
       ->type_name("SECONDS");
   command.add_flag("--no-checks", request.no_checks, "Ignore the scenario's checks");
   add_host_options(command, request.hosts);
+  command
+      .add_option_function<std::vector<std::string>>(
+          "--parameters",
+          [&request](const std::vector<std::string>& files) { add_parameters(request, files); },
+          "Parameter set (.ssv) whose values replace those of the scenario; may be given several "
+          "times")
+      ->type_name("FILE.ssv")
+      ->allow_extra_args(false);
   command
       .add_option("--set", request.sets,
                   "Start value of a parameter or input; may be given several times")

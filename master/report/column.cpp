@@ -105,7 +105,7 @@ std::size_t Column::size() const {
   return std::visit([](const auto& values) { return values.size(); }, values_);
 }
 
-void Column::append(const CsvReader::Field& field) {
+void Column::append(const core::CsvReader::Field& field) {
   if (is_deduced_) deduce(field);
   if (Doubles* doubles = std::get_if<Doubles>(&values_); doubles && core::is_real(info_.type)) {
     append_number(field.text);
@@ -143,7 +143,7 @@ void Column::append_integer(std::string_view text) {
 }
 
 /// Where the type of the column is not known: makes it what the field fits into.
-void Column::deduce(const CsvReader::Field& field) {
+void Column::deduce(const core::CsvReader::Field& field) {
   const bool is_boolean = !field.is_quoted && (field.text == "true" || field.text == "false");
   const bool is_number = !field.is_quoted && parse<double>(field.text);
   const ValueType type =

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "master/model/description.h"
-#include "master/report/csv_reader.h"
+#include "master/util/csv_reader.h"
 
 namespace stride::report {
 
@@ -65,7 +65,7 @@ class Column {
 
   /// Throws std::invalid_argument, whose text contains what was expected, for what is not of the
   /// type.
-  void append(const CsvReader::Field& field);
+  void append(const core::CsvReader::Field& field);
   /// Of the rows from `first` on, keeps those that are listed, in ascending order.
   void keep(std::size_t first, std::span<const std::size_t> rows);
   /// Forgets the texts that no row has any more.
@@ -74,7 +74,7 @@ class Column {
  private:
   void append_number(std::string_view text);
   void append_integer(std::string_view text);
-  void deduce(const CsvReader::Field& field);
+  void deduce(const core::CsvReader::Field& field);
   void become_doubles();
   void become_texts();
 

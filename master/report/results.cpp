@@ -94,7 +94,7 @@ class FilmReader {
 
   /// The list is open.
   void read(core::FileStream list, Film& film) {
-    Table table(CsvReader(results_.path() / path_ / recorders::kFilmList, std::move(list)));
+    Table table(core::CsvReader(results_.path() / path_ / recorders::kFilmList, std::move(list)));
     if (table.columns().empty()) return;
     const std::size_t time = table.place("time");
     const std::size_t file = table.place("file");

@@ -11,9 +11,9 @@
 
 namespace stride::report {
 
-Table::Table(CsvReader reader) : reader_(std::move(reader)) {
+Table::Table(core::CsvReader reader) : reader_(std::move(reader)) {
   if (!reader_.next()) return;
-  for (const CsvReader::Field& field : reader_.fields()) columns_.push_back(field.value());
+  for (const core::CsvReader::Field& field : reader_.fields()) columns_.push_back(field.value());
 }
 
 std::optional<std::size_t> Table::find(const std::string& column) const {

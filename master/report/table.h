@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "master/report/csv_reader.h"
+#include "master/util/csv_reader.h"
 
 namespace stride::report {
 
@@ -16,8 +16,8 @@ namespace stride::report {
 class Table {
  public:
   /// Reads the header. Throws core::Error (Input), as its functions do.
-  explicit Table(const std::filesystem::path& file) : Table(CsvReader(file)) {}
-  explicit Table(CsvReader reader);
+  explicit Table(const std::filesystem::path& file) : Table(core::CsvReader(file)) {}
+  explicit Table(core::CsvReader reader);
 
   const std::vector<std::string>& columns() const { return columns_; }
   /// The index of a column; nothing, or an error, where there is none of this name.
@@ -35,8 +35,8 @@ class Table {
   /// which take() throws core::Error (Input), are left out, as is the rest behind quotation marks
   /// that are out of place. Returns these; nothing if there are none.
   std::optional<Unread> for_each_row(const std::function<bool()>& take);
-  const std::vector<CsvReader::Field>& fields() const { return reader_.fields(); }
-  const CsvReader::Field& field(std::size_t place) const { return fields()[place]; }
+  const std::vector<core::CsvReader::Field>& fields() const { return reader_.fields(); }
+  const core::CsvReader::Field& field(std::size_t place) const { return fields()[place]; }
   /// The field as a time [ps].
   std::int64_t time(std::size_t place) const;
 
@@ -47,7 +47,7 @@ class Table {
  private:
   void check_field_count() const;
 
-  CsvReader reader_;
+  core::CsvReader reader_;
   std::vector<std::string> columns_;
 };
 

@@ -12,6 +12,8 @@
 
 #include "master/recorders/results_folder.h"
 #include "master/recorders/unit_folders.h"
+#include "master/scenario/intervention_element.h"
+#include "master/scenario/parse_attribute.h"
 #include "master/ssp/ssp.h"
 #include "master/util/number_text.h"
 #include "master/util/suggest.h"
@@ -55,16 +57,6 @@ bool is_of_root_or_system(const xml::Element& annotation, const xml::Element& ro
   if (owner->index() == root.index()) return true;
   const auto above = owner->parent();
   return owner->is(ssp::kSsd, "System") && above && above->index() == root.index();
-}
-
-/// What `parse` makes of the attribute, which is there; a std::invalid_argument is its mistake.
-template <class Parse>
-auto parse_attribute(const xml::Element& element, const char* name, Parse&& parse) {
-  try {
-    return parse(element.required(name));
-  } catch (const std::invalid_argument& mistake) {
-    element.fail(fmt::format("{}: {}", name, mistake.what()));
-  }
 }
 
 using SetSetting = void (StepSettings::*)(std::string_view);
@@ -202,60 +194,8 @@ IdleNumber read_idle_number(const xml::Element& element, double (*parse)(std::st
   return {element.required("variable"), parse_attribute(element, "value", parse), element.where()};
 }
 
-Time read_time(const xml::Element& element, const char* attribute) {
-  return Time(parse_attribute(element, attribute, core::parse_seconds));
-}
-
-void read_set(const xml::Element& element, ScenarioAnnotation& annotation) {
-  element.allow_attributes({"variable", "value", "at"});
-  element.allow_children({});
-  annotation.interventions.push_back({.kind = core::Intervention::Kind::Set,
-                                      .variable = element.required("variable"),
-                                      .value = element.required("value"),
-                                      .from = read_time(element, "at"),
-                                      .where = element.where()});
-}
-
-/// What lasts for some time; it has no value yet.
-InterventionDeclaration& add_intervention(const xml::Element& element,
-                                          core::Intervention::Kind kind,
-                                          ScenarioAnnotation& annotation) {
-  element.allow_children({});
-  InterventionDeclaration& declared = annotation.interventions.emplace_back(
-      InterventionDeclaration{.kind = kind,
-                              .variable = element.required("variable"),
-                              .from = read_time(element, "from"),
-                              .where = element.where()});
-  if (element.attribute("until")) declared.until = read_time(element, "until");
-  return declared;
-}
-
-/// Without a value the input is held.
-void read_force(const xml::Element& element, ScenarioAnnotation& annotation) {
-  element.allow_attributes({"variable", "value", "from", "until"});
-  const auto value = element.attribute("value");
-  const auto kind = value ? core::Intervention::Kind::Force : core::Intervention::Kind::Hold;
-  add_intervention(element, kind, annotation).value = value;
-}
-
-void read_drop(const xml::Element& element, ScenarioAnnotation& annotation) {
-  element.allow_attributes({"variable", "from", "until"});
-  add_intervention(element, core::Intervention::Kind::Drop, annotation);
-}
-
-void read_delay(const xml::Element& element, ScenarioAnnotation& annotation) {
-  element.allow_attributes({"variable", "time", "from", "until"});
-  add_intervention(element, core::Intervention::Kind::Delay, annotation).value =
-      element.required("time");
-}
-
-void read_corrupt(const xml::Element& element, ScenarioAnnotation& annotation) {
-  element.allow_attributes({"variable", "bits", "header", "seed", "from", "until"});
-  InterventionDeclaration& declared =
-      add_intervention(element, core::Intervention::Kind::Corrupt, annotation);
-  declared.value =
-      fmt::format("{},{}", element.attribute_or("bits", "1"), element.attribute_or("header", "0"));
-  declared.seed = element.number<std::uint64_t>("seed").value_or(declared.seed);
+void read_own_intervention(const xml::Element& element, ScenarioAnnotation& annotation) {
+  annotation.interventions.push_back(read_intervention(element));
 }
 
 void read_terminal_connection(const xml::Element& element, ScenarioAnnotation& annotation) {
@@ -320,11 +260,11 @@ constexpr ScenarioElement kElements[] = {
      [](const auto& element, auto& to) {
        to.idle.tolerances.push_back(read_idle_number(element, core::parse_above_zero));
      }},
-    {"Set", true, read_set},
-    {"Force", true, read_force},
-    {"Drop", true, read_drop},
-    {"Delay", true, read_delay},
-    {"Corrupt", true, read_corrupt},
+    {"Set", true, read_own_intervention},
+    {"Force", true, read_own_intervention},
+    {"Drop", true, read_own_intervention},
+    {"Delay", true, read_own_intervention},
+    {"Corrupt", true, read_own_intervention},
     {"TerminalConnection", true, read_terminal_connection},
 };
 

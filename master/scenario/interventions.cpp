@@ -12,6 +12,7 @@
 #include "master/scenario/find_variable.h"
 #include "master/util/diagnostics.h"
 #include "master/util/time_text.h"
+#include "master/util/xml/element.h"
 
 namespace stride::scenario {
 namespace {
@@ -23,7 +24,7 @@ constexpr const char* kSetForm = "COMPONENT.VARIABLE=VALUE@TIME";
 constexpr const char* kForceForm = "COMPONENT.VARIABLE[=VALUE]@FROM..[UNTIL]";
 constexpr const char* kDropForm = "COMPONENT.VARIABLE@FROM..[UNTIL]";
 constexpr const char* kDelayForm = "COMPONENT.VARIABLE=SECONDS@FROM..[UNTIL]";
-constexpr const char* kCorruptForm = "COMPONENT.VARIABLE[=BITS[,HEADER]]@FROM..[UNTIL]";
+constexpr const char* kCorruptForm = "COMPONENT.VARIABLE[=BITS[,HEADER[,SEED]]]@FROM..[UNTIL]";
 
 [[noreturn]] void fail_form(const char* option, const std::string& text, const char* form) {
   core::fail_input({}, fmt::format("{} {}: expected {}", option, text, form));
@@ -336,6 +337,13 @@ InterventionDeclaration parse_corrupt(const std::string& text) {
   InterventionDeclaration declared = parse_from_until("--corrupt", text, kCorruptForm);
   if (!declared.value) declared.value = "1";
   declared.kind = InterventionKind::Corrupt;
+  const std::size_t header = declared.value->find(',');
+  const std::size_t seed = header == text.npos ? header : declared.value->find(',', header + 1);
+  if (seed == text.npos) return declared;
+  const auto number = xml::to_number<std::uint64_t>(declared.value->substr(seed + 1));
+  if (!number) fail_form("--corrupt", text, kCorruptForm);
+  declared.seed = *number;
+  declared.value->resize(seed);
   return declared;
 }
 

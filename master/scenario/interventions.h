@@ -38,8 +38,8 @@ InterventionDeclaration parse_force(const std::string& text);
 InterventionDeclaration parse_drop(const std::string& text);
 /// Likewise of `--delay`, "COMPONENT.VARIABLE=SECONDS@FROM..[UNTIL]".
 InterventionDeclaration parse_delay(const std::string& text);
-/// Likewise of `--corrupt`, "COMPONENT.VARIABLE[=BITS[,HEADER]]@FROM..[UNTIL]"; one bit where none
-/// is given.
+/// Likewise of `--corrupt`, "COMPONENT.VARIABLE[=BITS[,HEADER[,SEED]]]@FROM..[UNTIL]"; one bit
+/// where none is given.
 InterventionDeclaration parse_corrupt(const std::string& text);
 
 /// The run for which interventions are meant.

@@ -40,10 +40,10 @@ Duration parse_option(const std::string& option, const std::string& text,
   }
 }
 
-/// The values of --set, which have precedence.
-std::vector<ssp::ParameterValue> set_values(const std::vector<std::string>& sets) {
-  std::vector<ssp::ParameterValue> values;
-  for (const std::string& text : sets) {
+/// The parameters, and the values of --set, which have precedence.
+std::vector<ssp::ParameterValue> set_values(const ScenarioRequest& request) {
+  std::vector<ssp::ParameterValue> values = request.parameters;
+  for (const std::string& text : request.sets) {
     const auto [name, value] = split_option("--set", text, "component.variable=value");
     ssp::ParameterValue& added = values.emplace_back();
     added.name = name;
@@ -132,8 +132,7 @@ std::vector<std::shared_ptr<importer::Fmu>> load_fmus(const Scenario& scenario) 
 }
 
 LoadedScenario::LoadedScenario(const ScenarioRequest& request)
-    : scenario_(
-          read_scenario(request.scenario, {find_unit, set_values(request.sets), request.files})) {
+    : scenario_(read_scenario(request.scenario, {find_unit, set_values(request), request.files})) {
   for (const std::string& text : request.swaps) swap(text);
   if (scenario_.system.components.empty()) {
     core::fail_input(of_file(), "the system has no component, so there is nothing to simulate");
@@ -379,13 +378,13 @@ void LoadedScenario::choose_idle_skips(const ScenarioRequest& request) {
 }
 
 /// A unit that takes steps of one size only cannot have one that ends in between.
-void LoadedScenario::check_instants_of_interventions() const {
+void LoadedScenario::check_instants(std::span<const core::Intervention> interventions) const {
   const auto rigid = std::ranges::find_if(
       fmus_, [](const auto& fmu) { return !fmu->description()->can_vary_step; });
   if (rigid == fmus_.end() || !options_.step.policy->has_grid) return;
   const auto& component =
       scenario_.system.components[static_cast<std::size_t>(rigid - fmus_.begin())];
-  for (const core::Intervention& intervention : options_.interventions) {
+  for (const core::Intervention& intervention : interventions) {
     for (const Time time : {intervention.from, intervention.until.value_or(intervention.from)}) {
       if ((time - options_.start) % options_.step.size == Duration{}) continue;
       core::fail_input(
@@ -399,19 +398,28 @@ void LoadedScenario::check_instants_of_interventions() const {
   }
 }
 
+std::vector<core::Intervention> LoadedScenario::resolve(
+    std::vector<InterventionDeclaration> further) const {
+  const auto& own = scenario_.annotation.interventions;
+  further.insert(further.begin(), own.begin(), own.end());
+  auto resolved = resolve_interventions(*system_, further, {options_.start, latest_intervention_});
+  check_instants(resolved);
+  return resolved;
+}
+
 /// Those of the scenario are within its own time, also with --stop. What changes a unit changes its
 /// twin.
 void LoadedScenario::choose_interventions(const ScenarioRequest& request) {
-  const Time stop = request.stop.empty() ? options_.stop
-                                         : std::max(options_.stop, scenario_.stop.value_or(Time{}));
-  std::vector<InterventionDeclaration> declared = scenario_.annotation.interventions;
+  latest_intervention_ = request.stop.empty()
+                             ? options_.stop
+                             : std::max(options_.stop, scenario_.stop.value_or(Time{}));
+  std::vector<InterventionDeclaration> declared = request.interventions;
   for (const std::string& text : request.set_at) declared.push_back(parse_set_at(text));
   for (const std::string& text : request.forces) declared.push_back(parse_force(text));
   for (const std::string& text : request.drops) declared.push_back(parse_drop(text));
   for (const std::string& text : request.delays) declared.push_back(parse_delay(text));
   for (const std::string& text : request.corruptions) declared.push_back(parse_corrupt(text));
-  options_.interventions = resolve_interventions(*system_, declared, {options_.start, stop});
-  check_instants_of_interventions();
+  options_.interventions = resolve(std::move(declared));
   const std::size_t count = options_.interventions.size();
   for (std::size_t i = 0; i < count; ++i) {
     for (const IdleTwin& pair : idle_twins_) {

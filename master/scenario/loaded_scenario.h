@@ -16,6 +16,7 @@
 #include "master/model/system.h"
 #include "master/scenario/hosting.h"
 #include "master/scenario/idle_twins.h"
+#include "master/scenario/interventions.h"
 #include "master/scenario/scenario.h"
 #include "master/scenario/signal_selection.h"
 #include "master/scenario/unit_log.h"
@@ -26,16 +27,18 @@ namespace stride::scenario {
 /// The settings of the command line for a scenario.
 struct ScenarioRequest {
   std::filesystem::path scenario;
-  std::vector<std::string> swaps;        ///< "component=FILE"
-  std::vector<std::string> sets;         ///< "component.variable=value"
-  std::vector<std::string> set_at;       ///< "component.variable=value@time"
-  std::vector<std::string> forces;       ///< "component.variable[=value]@from..[until]"
-  std::vector<std::string> drops;        ///< "component.variable@from..[until]"
-  std::vector<std::string> delays;       ///< "component.variable=seconds@from..[until]"
-  std::vector<std::string> corruptions;  ///< "component.variable[=bits]@from..[until]"
-  std::vector<std::string> signals;      ///< globs that replace the scenario's
-  std::string stop;                      ///< seconds; empty = the scenario's
-  StepSettings step;                     ///< overrides the scenario
+  std::vector<std::string> swaps;               ///< "component=FILE"
+  std::vector<ssp::ParameterValue> parameters;  ///< start values, which `sets` replace
+  std::vector<std::string> sets;                ///< "component.variable=value"
+  std::vector<std::string> set_at;              ///< "component.variable=value@time"
+  std::vector<std::string> forces;              ///< "component.variable[=value]@from..[until]"
+  std::vector<std::string> drops;               ///< "component.variable@from..[until]"
+  std::vector<std::string> delays;              ///< "component.variable=seconds@from..[until]"
+  std::vector<std::string> corruptions;         ///< "component.variable[=bits]@from..[until]"
+  std::vector<InterventionDeclaration> interventions;  ///< further ones
+  std::vector<std::string> signals;                    ///< globs that replace the scenario's
+  std::string stop;                                    ///< seconds; empty = the scenario's
+  StepSettings step;                                   ///< overrides the scenario
   bool no_idle_skip = false;
   std::string max_skip;  ///< seconds, for all components; empty = the scenario's
   bool no_checks = false;
@@ -65,6 +68,10 @@ class LoadedScenario {
   const std::vector<recorders::Plot>& plots() const { return plots_; }
   /// The checks of the scenario; options() watch their signals.
   const std::vector<checks::Definition>& checks() const { return checks_; }
+
+  /// The interventions of the scenario and these, in the order of their instants, as options()
+  /// would have them. Throws core::Error (Input) as the constructor does.
+  std::vector<core::Intervention> resolve(std::vector<InterventionDeclaration> further) const;
 
   /// As it was before the first unit was loaded.
   const core::ProcessState& process() const { return *process_; }
@@ -96,7 +103,7 @@ class LoadedScenario {
   void check_steps();
   void choose_idle_skips(const ScenarioRequest& request);
   void choose_interventions(const ScenarioRequest& request);
-  void check_instants_of_interventions() const;
+  void check_instants(std::span<const core::Intervention> interventions) const;
   void choose_signals(const ScenarioRequest& request);
   void end_with_whole_steps();
   void warn_of_other_steps() const;
@@ -113,6 +120,7 @@ class LoadedScenario {
   std::optional<core::System> system_;
   std::vector<std::optional<Hosting>> hostings_;
   core::RunOptions options_;
+  Time latest_intervention_{};
   std::vector<recorders::Plot> plots_;
   std::vector<checks::Definition> checks_;
   std::vector<IdleTwin> idle_twins_;

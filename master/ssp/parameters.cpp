@@ -287,4 +287,11 @@ std::vector<ParameterValue> read_parameters(const xml::Element& owner,
   return values;
 }
 
+std::vector<ParameterValue> read_parameter_set(const std::filesystem::path& file,
+                                               std::vector<std::string>& warnings) {
+  const xml::Document document(file, "", kPrefixes);
+  warnings.insert(warnings.end(), document.warnings().begin(), document.warnings().end());
+  return read_set(document.root(), {}, warnings);
+}
+
 }  // namespace stride::ssp

@@ -28,6 +28,11 @@ struct BindingContext {
 std::vector<ParameterValue> read_parameters(const xml::Element& owner,
                                             const BindingContext& context);
 
+/// The values of a file that is a parameter set (.ssv), in its order, with their places in it; what
+/// is odd, but no mistake, is added to `warnings`. Throws core::Error (Input).
+std::vector<ParameterValue> read_parameter_set(const std::filesystem::path& file,
+                                               std::vector<std::string>& warnings);
+
 }  // namespace stride::ssp
 
 #endif

@@ -158,8 +158,9 @@ std::vector<Intervention> disturbed(const std::vector<InterventionDeclaration>& 
 }  // namespace
 
 TEST_CASE("messages are disturbed by their inputs or their clocks") {
-  const auto found = disturbed({parse_drop("b.number@1..2"), parse_delay("b.tick=0.25@2..3"),
-                                parse_corrupt("b.bytes@3..4"), parse_corrupt("b.tick=12,16@4..")});
+  const auto found =
+      disturbed({parse_drop("b.number@1..2"), parse_delay("b.tick=0.25@2..3"),
+                 parse_corrupt("b.bytes@3..4"), parse_corrupt("b.tick=12,16,9@4..")});
   REQUIRE(found.size() == 4);
   for (const Intervention& intervention : found) CHECK(intervention.clock == VariableId{1, 0});
   CHECK(found[0].kind == Intervention::Kind::Drop);
@@ -168,8 +169,10 @@ TEST_CASE("messages are disturbed by their inputs or their clocks") {
   CHECK(found[1].delay == duration_from_seconds(0.25));
   CHECK(found[2].bits == 1);
   CHECK(found[2].header == 0);
+  CHECK(found[2].seed == 1);
   CHECK(found[3].bits == 12);
   CHECK(found[3].header == 16);
+  CHECK(found[3].seed == 9);
   CHECK(!found[3].until);
 }
 
@@ -196,6 +199,8 @@ TEST_CASE("messages that cannot be disturbed so are an error") {
              Contains("--drop b.bytes=1@1..: expected COMPONENT.VARIABLE@FROM..[UNTIL]"));
   CHECK_THAT(error_of([] { parse_delay("b.bytes@1.."); }),
              Contains("expected COMPONENT.VARIABLE=SECONDS@"));
+  CHECK_THAT(error_of([] { parse_corrupt("b.bytes=1,2,x@1.."); }),
+             Contains("expected COMPONENT.VARIABLE[=BITS[,HEADER[,SEED]]]@"));
 }
 
 TEST_CASE("two interventions on the messages of one clock contradict each other") {

@@ -350,3 +350,21 @@ TEST_CASE("Two lists of bindings are one, with a warning") {
   REQUIRE(scenario.warnings.size() == 1);
   CHECK_THAT(scenario.warnings[0], Contains("a second <ssd:ParameterBindings>"));
 }
+
+TEST_CASE("a file that is a parameter set is read with the places of its values") {
+  const TemporaryFolder folder;
+  std::vector<std::string> warnings;
+  const auto values = read_parameter_set(
+      folder.write("x.ssv", set("\n" + parameter("a.x", "<ssv:Float64 value='2' unit='m'/>") +
+                                "\n" + parameter("a.y", "<ssv:Boolean value='true'/>"))),
+      warnings);
+  REQUIRE(values.size() == 2);
+  CHECK(values[0].name == "a.x");
+  CHECK(values[0].value == "2");
+  CHECK(values[0].unit.name == "m");
+  CHECK(values[1].where.line == 3);
+  CHECK_FALSE(values[1].is_required);
+  CHECK(warnings.empty());
+  CHECK_THAT(error_of([&] { read_parameter_set(folder.write("y.ssv", "<x/>"), warnings); }),
+             Contains("y.ssv:1: <x> is not a parameter set"));
+}

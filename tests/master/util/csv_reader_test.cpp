@@ -1,13 +1,14 @@
-#include "master/report/csv_reader.h"
+#include "master/util/csv_reader.h"
 
 #include <random>
 
 #include <catch2/catch.hpp>
 
 #include "master/recorders/signal_text.h"
-#include "tests/master/report/support.h"
+#include "tests/master/ssp/support.h"
 
-using namespace stride::report;
+using namespace stride::core;
+using namespace stride::tests;
 using Catch::Contains;
 
 namespace {

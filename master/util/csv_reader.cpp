@@ -1,4 +1,4 @@
-#include "master/report/csv_reader.h"
+#include "master/util/csv_reader.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -11,15 +11,15 @@
 #include "master/util/error.h"
 #include "master/util/input_file.h"
 
-namespace stride::report {
+namespace stride::core {
 namespace {
 
 constexpr std::size_t kCapacity = std::size_t{1} << 16;
 constexpr std::size_t kLongestRow = std::size_t{1} << 28;
 
-core::FileStream open_stream(const std::filesystem::path& file) {
-  core::Descriptor opened = core::open_input(file);
-  core::FileStream stream(::fdopen(opened.number(), "rb"), &std::fclose);
+FileStream open_stream(const std::filesystem::path& file) {
+  Descriptor opened = open_input(file);
+  FileStream stream(::fdopen(opened.number(), "rb"), &std::fclose);
   if (stream) opened.release();
   return stream;
 }
@@ -28,11 +28,11 @@ core::FileStream open_stream(const std::filesystem::path& file) {
 
 CsvReader::CsvReader(std::filesystem::path file) : CsvReader(file, open_stream(file)) {}
 
-CsvReader::CsvReader(std::filesystem::path file, core::FileStream stream)
+CsvReader::CsvReader(std::filesystem::path file, FileStream stream)
     : file_(std::move(file)), stream_(std::move(stream)), buffer_(kCapacity) {
   if (stream_) return;
-  core::fail_input({.where = {file_.string(), 0}},
-                   fmt::format("cannot read the file: {}", std::generic_category().message(errno)));
+  fail_input({.where = {file_.string(), 0}},
+             fmt::format("cannot read the file: {}", std::generic_category().message(errno)));
 }
 
 std::string CsvReader::Field::value() const {
@@ -125,11 +125,11 @@ bool CsvReader::refill() {
 }
 
 void CsvReader::fail(const std::string& message) const {
-  core::fail_input({.where = {file_.string(), static_cast<int>(line_)}}, message);
+  fail_input({.where = {file_.string(), static_cast<int>(line_)}}, message);
 }
 
 void CsvReader::fail(const std::string& column, const std::string& message) const {
   fail(fmt::format("column '{}': {}", column, message));
 }
 
-}  // namespace stride::report
+}  // namespace stride::core

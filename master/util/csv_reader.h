@@ -1,6 +1,6 @@
-// A results file of comma-separated fields (RFC 4180), row by row.
-#ifndef STRIDE_MASTER_REPORT_CSV_READER_H
-#define STRIDE_MASTER_REPORT_CSV_READER_H
+// A file of comma-separated fields (RFC 4180), row by row.
+#ifndef STRIDE_MASTER_UTIL_CSV_READER_H
+#define STRIDE_MASTER_UTIL_CSV_READER_H
 
 #include <filesystem>
 #include <string>
@@ -9,7 +9,7 @@
 
 #include "master/util/untrusted_folder.h"
 
-namespace stride::report {
+namespace stride::core {
 
 /// Reads a file of any length piece by piece. A last line without a line feed was cut off when its
 /// writer was killed; it is ignored.
@@ -25,7 +25,7 @@ class CsvReader {
   /// Throws core::Error (Input) where the file cannot be read or is no regular file.
   explicit CsvReader(std::filesystem::path file);
   /// Of a file that is open; `file` is what errors name.
-  CsvReader(std::filesystem::path file, core::FileStream stream);
+  CsvReader(std::filesystem::path file, FileStream stream);
 
   /// Reads the next row; returns whether there is one. Throws core::Error (Input) that names the
   /// line for quotation marks that are out of place, and for a row that is too long to be one.
@@ -50,7 +50,7 @@ class CsvReader {
   bool refill();
 
   std::filesystem::path file_;
-  core::FileStream stream_;
+  FileStream stream_;
   std::vector<char> buffer_;
   std::size_t begin_ = 0, end_ = 0;  ///< what is still to be split
   std::vector<Field> fields_;
@@ -60,6 +60,6 @@ class CsvReader {
   bool is_cut_ = false;
 };
 
-}  // namespace stride::report
+}  // namespace stride::core
 
 #endif

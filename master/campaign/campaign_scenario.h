@@ -1,0 +1,67 @@
+// The scenario of a campaign, loaded once: what its parameters are.
+#ifndef STRIDE_MASTER_CAMPAIGN_CAMPAIGN_SCENARIO_H
+#define STRIDE_MASTER_CAMPAIGN_CAMPAIGN_SCENARIO_H
+
+#include <string>
+#include <vector>
+
+#include "master/campaign/definition.h"
+#include "master/campaign/fingerprints.h"
+#include "master/campaign/plan.h"
+#include "master/campaign/value_kind.h"
+#include "master/model/connector_elements.h"
+#include "master/scenario/loaded_scenario.h"
+
+namespace stride::campaign {
+
+class CampaignScenario {
+ public:
+  /// Loads the scenario with its units, of which none is instantiated, and the alternatives of
+  /// swaps. Throws core::Error (Input) for what they and the names of the campaign have wrong:
+  /// unknown components, variables and signals, parameters that name the same variable, and
+  /// parameters without effect. `version` is that of stride.
+  CampaignScenario(const Campaign& campaign, const std::string& version);
+
+  /// A start value that a column gives; a connector of the system may lead to several.
+  struct StartTarget {
+    std::size_t column = 0;
+    core::StartDeclaration declaration;
+  };
+  /// The scenario with another unit in the place of a component's.
+  struct LoadedAlternative {
+    std::size_t swap = 0;
+    std::string name;
+    scenario::LoadedScenario loaded;
+  };
+
+  const scenario::LoadedScenario& loaded() const { return loaded_; }
+  const std::vector<StartTarget>& start_targets() const { return targets_; }
+  const std::vector<LoadedAlternative>& alternatives() const { return alternatives_; }
+  /// Of the columns of the campaign's plan.
+  const std::vector<ValueKind>& kinds() const { return kinds_; }
+  const Fingerprints& fingerprints() const { return fingerprints_; }
+
+ private:
+  void check_names(const Campaign& campaign) const;
+  void find_start_targets(const Campaign& campaign, const std::vector<PlanColumn>& columns);
+  std::vector<core::ConnectorElements> elements_of(std::size_t column) const;
+  void check_effects(const std::vector<PlanColumn>& columns) const;
+  void find_kinds(const Campaign& campaign, const std::vector<PlanColumn>& columns);
+  ValueKind start_kind(std::size_t column) const;
+  ValueKind part_kind(const NamedIntervention& intervention, const std::string& part) const;
+  ValueKind seed_kind(std::size_t column, const Parameter& seed) const;
+  void check_aggregates(const Campaign& campaign) const;
+  void load_alternatives(const Campaign& campaign);
+  void take_fingerprints(const Campaign& campaign);
+
+  scenario::LoadedScenario loaded_;
+  core::NameIndex names_;
+  std::vector<StartTarget> targets_;
+  std::vector<ValueKind> kinds_;
+  std::vector<LoadedAlternative> alternatives_;
+  Fingerprints fingerprints_;
+};
+
+}  // namespace stride::campaign
+
+#endif

@@ -1,0 +1,29 @@
+// The parts of an intervention that a campaign can vary, by the names of their attributes.
+#ifndef STRIDE_MASTER_CAMPAIGN_INTERVENTION_PARTS_H
+#define STRIDE_MASTER_CAMPAIGN_INTERVENTION_PARTS_H
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "master/scenario/interventions.h"
+
+namespace stride::campaign {
+
+/// Whether the case has the intervention at all: "true" or "false".
+inline constexpr const char* kEnabledPart = "enabled";
+
+/// "from", "until", "value", "enabled", as the intervention has them.
+std::vector<std::string> parts_of(core::Intervention::Kind kind);
+
+/// Sets one of these, but for kEnabledPart. Throws std::invalid_argument whose text contains what
+/// was expected.
+void set_part(scenario::InterventionDeclaration& declared, const std::string& part,
+              const std::string& text);
+
+/// The option of `stride run` that makes the intervention, and its value.
+std::pair<std::string, std::string> option_of(const scenario::InterventionDeclaration& declared);
+
+}  // namespace stride::campaign
+
+#endif

@@ -1,0 +1,153 @@
+#include "master/campaign/plan_folder.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "master/campaign/plan_json.h"
+#include "master/recorders/results_folder.h"
+#include "master/recorders/signal_text.h"
+#include "master/ssp/ssp.h"
+#include "master/util/input_file.h"
+#include "master/util/replacement.h"
+#include "master/util/words.h"
+#include "master/util/xml/writer.h"
+
+namespace stride::campaign {
+namespace {
+
+namespace fs = std::filesystem;
+
+void write_whole(const fs::path& file, const std::string& text) {
+  core::Replacement replacement(file);
+  replacement.file().write(text);
+  replacement.commit();
+}
+
+/// An empty text is in quotation marks, so that it is not taken for no value.
+std::string value_field(const Text& value) {
+  if (!value) return "";
+  return value->empty() ? "\"\"" : recorders::csv_field(*value);
+}
+
+void write_table(const Plan& plan, const fs::path& file) {
+  core::Replacement replacement(file);
+  core::OutputFile& output = replacement.file();
+  output.write("case");
+  for (const PlanColumn& column : plan.columns()) {
+    output.write(',');
+    output.write(recorders::csv_field(column.parameter.name));
+  }
+  output.write(",seed,hash\n");
+  for (std::uint64_t i = 0; i < plan.size(); ++i) {
+    const Case row = plan.at(i);
+    output.write_number(i);
+    for (const Text& value : row.values) {
+      output.write(',');
+      output.write(value_field(value));
+    }
+    output.write(',');
+    output.write_number(row.seed);
+    output.write(',');
+    output.write(plan.hash(row));
+    output.write('\n');
+  }
+  replacement.commit();
+}
+
+void refuse_other_plan(const Plan& plan, const fs::path& folder) {
+  const auto other = identity_in(folder);
+  if (!other || *other == plan_identity(plan)) return;
+  core::fail_input({.where = {folder.string(), 0}},
+                   "this folder belongs to another plan: the campaign, a file of its scenario, a "
+                   "unit or stride itself is not the same",
+                   "choose another folder with --out, or remove this one");
+}
+
+void write_value(xml::Writer& writer, const ValueKind& kind, const std::string& text) {
+  const std::string tag = std::string("ssv:") + kind.variable_type;
+  writer.open(tag.c_str());
+  if (kind.is_array) {
+    for (const std::string& word : core::words_of(text)) {
+      writer.open("ssv:Value");
+      writer.attribute("value", word);
+      writer.close();
+    }
+  } else {
+    writer.attribute("value", text);
+  }
+  writer.close();
+}
+
+std::string parameter_set(const Plan& plan, const Case& row) {
+  xml::Writer writer;
+  writer.open("ssv:ParameterSet");
+  writer.attribute("xmlns:ssv", ssp::kSsv);
+  writer.attribute("version", "2.0");
+  writer.attribute("name", fmt::format("case {}", row.index));
+  writer.open("ssv:Parameters");
+  for (std::size_t i = 0; i < row.values.size(); ++i) {
+    if (!row.values[i]) continue;
+    writer.open("ssv:Parameter");
+    writer.attribute("name", plan.columns()[i].parameter.name);
+    write_value(writer, plan.kinds()[i], *row.values[i]);
+    writer.close();
+  }
+  writer.close();
+  writer.close();
+  return writer.document();
+}
+
+}  // namespace
+
+fs::path default_folder(const fs::path& campaign) {
+  return fs::path("campaigns") / campaign.stem();
+}
+
+std::optional<std::string> identity_in(const fs::path& folder) {
+  const fs::path file = folder / kPlanDescription;
+  if (!core::path_exists(file)) return std::nullopt;
+  const auto json = nlohmann::json::parse(core::read_input(file), nullptr, false);
+  if (json.is_object() && json.contains("identity") && json["identity"].is_string()) {
+    return json["identity"].get<std::string>();
+  }
+  core::fail_input({.where = {file.string(), 0}}, "this is not the description of a plan",
+                   "choose another folder with --out");
+}
+
+void write_plan(const Plan& plan, const fs::path& folder) {
+  refuse_other_plan(plan, folder);
+  recorders::make_results_folder(folder);
+  const recorders::ResultsLock lock(folder);
+  write_table(plan, folder / kPlanTable);
+  write_whole(folder / kPlanDescription, plan_json(plan));
+}
+
+void refuse_parameter_sets_of(const Plan& plan) {
+  const Campaign& campaign = plan.campaign();
+  const bool has_swaps = !campaign.swaps.empty();
+  if (!has_swaps && campaign.interventions.empty()) return;
+  const std::string& name =
+      has_swaps ? campaign.swaps.front().name : campaign.interventions.front().name;
+  core::fail_input(
+      {.where = has_swaps ? campaign.swaps.front().where : campaign.interventions.front().where},
+      fmt::format("a parameter set (.ssv) cannot hold the {} '{}'",
+                  has_swaps ? "swap" : "intervention", name),
+      "leave --ssv out; --case INDEX prints all settings of a case");
+}
+
+fs::path parameter_set_name(const Plan& plan, std::uint64_t index) {
+  const std::size_t digits = std::max<std::size_t>(6, std::to_string(plan.size() - 1).size());
+  return fs::path(kParameterSets) / fmt::format("{:0{}}.ssv", index, digits);
+}
+
+void write_parameter_sets(const Plan& plan, const fs::path& folder) {
+  refuse_parameter_sets_of(plan);
+  recorders::make_results_folder(folder / kParameterSets);
+  for (std::uint64_t i = 0; i < plan.size(); ++i) {
+    write_whole(folder / parameter_set_name(plan, i), parameter_set(plan, plan.at(i)));
+  }
+}
+
+}  // namespace stride::campaign

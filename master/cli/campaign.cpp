@@ -1,0 +1,179 @@
+// stride campaign: many variations of a scenario.
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "master/campaign/campaign_file.h"
+#include "master/campaign/campaign_scenario.h"
+#include "master/campaign/plan.h"
+#include "master/campaign/plan_check.h"
+#include "master/campaign/plan_folder.h"
+#include "master/cli/commands.h"
+#include "master/cli/crash_guard.h"
+#include "master/cli/output.h"
+#include "master/cli/output_paths.h"
+#include "master/cli/table.h"
+
+namespace stride::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct PlanArguments {
+  fs::path file;
+  fs::path out;
+  bool ssv = false;
+  std::optional<std::uint64_t> only;  ///< the case to be printed
+};
+
+constexpr std::size_t kMostAlternatives = 5;
+constexpr std::uint64_t kShownCases = 5;
+
+std::string table_text(const campaign::ValueTable& table, std::size_t place) {
+  const auto found = std::ranges::find(table.parameters, place);
+  const auto column = static_cast<std::size_t>(found - table.parameters.begin());
+  std::vector<std::string> texts;
+  for (const auto& row : table.rows) {
+    texts.push_back(row.values[column] ? *row.values[column] : "(the scenario's)");
+  }
+  const std::string list = core::abridged(texts, kMostAlternatives);
+  return table.parameters.size() == 1 ? list : "together with others: " + list;
+}
+
+/// How the values of the column come about.
+std::string variation_text(const campaign::Campaign& campaign, std::size_t place) {
+  if (place >= campaign.parameters.size()) return "a seed of its own in each case";
+  if (const auto* const drawn = std::get_if<campaign::Stochastic>(&campaign.variation)) {
+    for (const auto& [parameter, distribution, where] : drawn->parameters) {
+      if (parameter == place) return to_text(distribution);
+    }
+    return "";
+  }
+  for (const auto& factor : std::get<campaign::Deterministic>(campaign.variation).factors) {
+    if (const auto* const table = std::get_if<campaign::ValueTable>(&factor)) {
+      if (std::ranges::find(table->parameters, place) == table->parameters.end()) continue;
+      return table_text(*table, place);
+    }
+    const auto& range = std::get<campaign::ValueRange>(factor);
+    if (range.parameter != place) continue;
+    return fmt::format("{} values from {} to {}", range.count,
+                       step_text(range.first, range.step, 0),
+                       step_text(range.first, range.step, range.count - 1));
+  }
+  return "";
+}
+
+std::string parameter_table(const campaign::Plan& plan) {
+  Table table({{"parameter"}, {"values", Table::Align::Left, true}});
+  for (std::size_t i = 0; i < plan.columns().size(); ++i) {
+    table.add({plan.columns()[i].parameter.name, variation_text(plan.campaign(), i)});
+  }
+  return table.text(output_width());
+}
+
+std::string case_table(const campaign::Plan& plan) {
+  std::vector<Table::Column> columns{{"case", Table::Align::Right}};
+  for (const auto& column : plan.columns()) {
+    columns.push_back({column.parameter.name, Table::Align::Right, true});
+  }
+  Table table(std::move(columns));
+  for (std::uint64_t i = 0; i < std::min(plan.size(), kShownCases); ++i) {
+    const campaign::Case row = plan.at(i);
+    std::vector<std::string> fields{std::to_string(i)};
+    for (const campaign::Text& value : row.values) fields.push_back(value.value_or(""));
+    table.add(std::move(fields));
+  }
+  return table.text(output_width());
+}
+
+std::string method_text(const campaign::Campaign& campaign) {
+  const auto* const drawn = std::get_if<campaign::Stochastic>(&campaign.variation);
+  if (drawn == nullptr) return "all combinations";
+  return fmt::format("{}, random seed {}", name(drawn->method), campaign.random_seed);
+}
+
+void print_plan(const campaign::Plan& plan, const fs::path& folder, bool ssv) {
+  const campaign::Campaign& campaign = plan.campaign();
+  print_text("{}: {} cases of {}, {}\n", campaign.file.stem().string(), plan.size(),
+             campaign.scenario.string(), method_text(campaign));
+  print_text("\nParameters\n{}", parameter_table(plan));
+  print_text("\n{} cases\n{}", plan.size() > kShownCases ? "First" : "All", case_table(plan));
+  print_text("\nPlan in {}: {} {}{}\n", folder.string(), campaign::kPlanTable,
+             campaign::kPlanDescription,
+             ssv ? fmt::format(" {}", campaign::parameter_set_name(plan, 0).string() +
+                                          (plan.size() > 1 ? " …" : ""))
+                 : "");
+}
+
+/// What the command writes is none of what it reads.
+void check_plan_outputs(const PlanArguments& arguments, const fs::path& folder,
+                        const campaign::CampaignScenario& scenario) {
+  std::vector<KeptPath> kept = inputs_of(scenario.loaded());
+  kept.push_back({arguments.file, "the campaign"});
+  for (const char* file : {campaign::kPlanTable, campaign::kPlanDescription}) {
+    const OutputPath output{fmt::format("{} in the folder {}", file, folder.string()),
+                            folder / file};
+    refuse_kept_paths({&output, 1}, kept);
+  }
+}
+
+void print_case(const campaign::Plan& plan, std::uint64_t index) {
+  if (index >= plan.size()) {
+    core::fail_input({}, fmt::format("--case {}: there are {} cases, the last one is {}", index,
+                                     plan.size(), plan.size() - 1));
+  }
+  print_text("stride run {}\n", plan.arguments(plan.at(index)));
+}
+
+void plan_campaign(const PlanArguments& arguments) {
+  const CrashGuard guard;
+  campaign::Campaign read = campaign::read_campaign(arguments.file);
+  print_warnings(read.warnings);
+  const campaign::CampaignScenario scenario(read, STRIDE_VERSION);
+  const LimitedEnd end;
+  const campaign::Plan plan(std::move(read), scenario.kinds(), scenario.fingerprints());
+  campaign::check_plan(plan, scenario);
+  if (arguments.only) return print_case(plan, *arguments.only);
+  const fs::path folder =
+      arguments.out.empty() ? campaign::default_folder(arguments.file) : arguments.out;
+  check_plan_outputs(arguments, folder, scenario);
+  if (arguments.ssv) campaign::refuse_parameter_sets_of(plan);
+  campaign::write_plan(plan, folder);
+  if (arguments.ssv) campaign::write_parameter_sets(plan, folder);
+  print_plan(plan, folder, arguments.ssv);
+}
+
+}  // namespace
+
+void add_campaign(CLI::App& app) {
+  CLI::App* group = app.add_subcommand("campaign", "Plan many variations of a scenario");
+  group->require_subcommand(1);
+  CLI::App* command = group->add_subcommand(
+      "plan", "Make the table of a campaign's cases, check all of their values, and run nothing");
+  const auto arguments = std::make_shared<PlanArguments>();
+  command
+      ->add_option("FILE", arguments->file,
+                   "The campaign: a ParameterValueDistribution of OpenSCENARIO (.xosc) whose "
+                   "scenario is a .ssd, .ssp or .fmu")
+      ->required()
+      ->type_name("");
+  command
+      ->add_option("--out,--output,-o", arguments->out,
+                   "Folder of the campaign; otherwise campaigns/ and the name of FILE")
+      ->type_name("FOLDER");
+  command->add_flag("--ssv", arguments->ssv,
+                    "Write the values of each case as a parameter set, too, for 'stride run "
+                    "--parameters' and other tools");
+  command
+      ->add_option("--case", arguments->only,
+                   "Print the command that runs this case, counted from 0, and write nothing")
+      ->type_name("INDEX");
+  command->callback([arguments] { plan_campaign(*arguments); });
+}
+
+}  // namespace stride::cli

@@ -1,0 +1,108 @@
+// Campaigns for tests.
+#ifndef STRIDE_TESTS_MASTER_CAMPAIGN_SUPPORT_H
+#define STRIDE_TESTS_MASTER_CAMPAIGN_SUPPORT_H
+
+#include <string>
+
+#include "master/campaign/campaign_file.h"
+#include "tests/build.h"
+#include "tests/master/ssp/support.h"
+
+namespace stride::tests {
+
+/// A campaign over "x.ssd", whose distributions begin in line 5.
+inline std::string campaign_text(const std::string& distributions,
+                                 const std::string& extension = "") {
+  return "<OpenSCENARIO>\n"
+         "<FileHeader revMajor='1' revMinor='3' date='2026-01-01T00:00:00' description='' "
+         "author=''/>\n"
+         "<ParameterValueDistribution>\n"
+         "<ScenarioFile filepath='x.ssd'/>\n" +
+         distributions + "\n</ParameterValueDistribution>\n" +
+         (extension.empty() ? ""
+                            : "<stride:Campaign xmlns:stride='urn:org.stride:campaign:1'>\n" +
+                                  extension + "\n</stride:Campaign>\n") +
+         "</OpenSCENARIO>\n";
+}
+
+inline campaign::Campaign read_text(const std::string& text) {
+  const TemporaryFolder folder;
+  return campaign::read_campaign(folder.write("c.xosc", text));
+}
+
+inline std::string deterministic(const std::string& inside) {
+  return "<Deterministic>\n" + inside + "\n</Deterministic>";
+}
+
+inline std::string stochastic(const std::string& inside, const std::string& runs = "4") {
+  return "<Stochastic numberOfTestRuns='" + runs + "' randomSeed='7'>\n" + inside +
+         "\n</Stochastic>";
+}
+
+/// A set of values for one parameter.
+inline std::string value_set(const std::string& parameter,
+                             std::initializer_list<const char*> values) {
+  std::string text = "<DeterministicSingleParameterDistribution parameterName='" + parameter +
+                     "'><DistributionSet>";
+  for (const char* value : values) text += "<Element value='" + std::string(value) + "'/>";
+  return text + "</DistributionSet></DeterministicSingleParameterDistribution>";
+}
+
+inline std::string value_range(const std::string& parameter, const std::string& lower,
+                               const std::string& step, const std::string& upper) {
+  return "<DeterministicSingleParameterDistribution parameterName='" + parameter +
+         "'><DistributionRange stepWidth='" + step + "'><Range lowerLimit='" + lower +
+         "' upperLimit='" + upper +
+         "'/></DistributionRange></DeterministicSingleParameterDistribution>";
+}
+
+inline std::string drawn(const std::string& parameter, const std::string& distribution) {
+  return "<StochasticDistribution parameterName='" + parameter + "'>" + distribution +
+         "</StochasticDistribution>";
+}
+
+inline std::string uniform(const std::string& lower, const std::string& upper) {
+  return "<UniformDistribution><Range lowerLimit='" + lower + "' upperLimit='" + upper +
+         "'/></UniformDistribution>";
+}
+
+/// A folder with "c.xosc", and "x.ssd": `a`, which has all types and echoes them, and two
+/// low-passes `b` and `c`, b.y to c.u; the run ends at 1 s.
+class CampaignFolder {
+ public:
+  explicit CampaignFolder(const std::string& campaign) {
+    const std::string units = unit_folder().string(), test_units = test_unit_folder().string();
+    folder_.write("x.ssd",
+                  "<ssd:SystemStructureDescription name='x' version='2.0' "
+                  "xmlns:ssd='http://ssp-standard.org/SSP1/SystemStructureDescription'>"
+                  "<ssd:System name='root'><ssd:Elements>"
+                  "<ssd:Component name='a' source='" +
+                      test_units +
+                      "/types.fmu'/>"
+                      "<ssd:Component name='b' source='" +
+                      units +
+                      "/minimal.fmu'/>"
+                      "<ssd:Component name='c' source='" +
+                      units +
+                      "/minimal.fmu'/>"
+                      "</ssd:Elements><ssd:Connections>"
+                      "<ssd:Connection startElement='b' startConnector='y' endElement='c' "
+                      "endConnector='u'/></ssd:Connections></ssd:System>"
+                      "<ssd:DefaultExperiment stopTime='1'/></ssd:SystemStructureDescription>");
+    file_ = folder_.write("c.xosc", campaign);
+  }
+
+  std::filesystem::path operator/(const std::string& name) const { return folder_ / name; }
+  std::filesystem::path write(const std::string& name, const std::string& text) const {
+    return folder_.write(name, text);
+  }
+  campaign::Campaign read() const { return campaign::read_campaign(file_); }
+
+ private:
+  TemporaryFolder folder_;
+  std::filesystem::path file_;
+};
+
+}  // namespace stride::tests
+
+#endif
