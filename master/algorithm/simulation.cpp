@@ -97,6 +97,11 @@ class Simulation::Run {
     interventions_.add(std::move(interventions), time_);
   }
 
+  void run_rest() {
+    pauses_.check_paused();
+    end_behind([&] { go_on(); });
+  }
+
   void abandon() noexcept {
     add_wall_time(statistics_);
     sampling_.end();
@@ -113,12 +118,20 @@ class Simulation::Run {
   void perform(Begin&& begin) {
     if (std::exchange(has_run_, true)) throw std::logic_error("a simulation runs once");
     began_ = WallClock::Source::now();
-    std::exception_ptr failure;
-    try {
+    end_behind([&] {
       clock_.timed(statistics_.phases.initialization, begin);
       is_initialized_ = true;
       sampling_.begin();
       go_on();
+    });
+  }
+
+  /// What follows the last step, whether the steps succeed or not.
+  template <class Steps>
+  void end_behind(Steps&& steps) {
+    std::exception_ptr failure;
+    try {
+      steps();
       if (idle_) idle_->catch_up_all(time_);
       if (statistics_.end != RunEnd::Interrupted) verdicts_ = read_verdicts(system_, units_);
     } catch (...) {
@@ -487,6 +500,8 @@ void Simulation::persist(StateArchive& state) { run_->persist(state); }
 void Simulation::add_interventions(std::vector<Intervention> interventions) {
   run_->add_interventions(std::move(interventions));
 }
+
+void Simulation::run_rest() { run_->run_rest(); }
 
 void Simulation::abandon() noexcept { run_->abandon(); }
 

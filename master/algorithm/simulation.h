@@ -58,6 +58,10 @@ class Simulation {
   /// In a pause: further interventions, beside those of the options. They begin later than now.
   void add_interventions(std::vector<Intervention> interventions);
 
+  /// In a pause, in a fork of the process: makes the rest of the run, as run() does. Of the paused
+  /// call nothing may go on behind it.
+  void run_rest();
+
   /// Calls the observers' on_finish(), and no unit, where run() cannot go on: for a process that a
   /// unit has damaged. The statistics are those up to there.
   void abandon() noexcept;

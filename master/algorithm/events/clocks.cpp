@@ -82,6 +82,14 @@ void Clocks::persist_period(StateArchive& state, Schedule& clock, Time start_tim
   clock.next = tick_time(clock.base, clock.shift, clock.interval, clock.count);
 }
 
+void Clocks::resume(const Clocks& other) {
+  clocked_ = other.clocked_;
+  is_stale_ = true;
+  next_.reset();
+  due_.clear();
+  find_due(Time::min());
+}
+
 void Clocks::start(Schedule& clock, Time start_time) {
   clock.base = start_time;
   if (clock.attributes->interval) {

@@ -41,6 +41,9 @@ class Clocks {
   /// At a communication point at which nothing more is due. Reading is instead of begin().
   void persist(StateArchive& state, Time start, Time now);
 
+  /// Instead of begin(): continues from the state of another object for the same system.
+  void resume(const Clocks& other);
+
   /// The next tick, after the last due().
   std::optional<Time> next() const { return next_; }
   /// The components of which a clock ticks at `time`, in order.

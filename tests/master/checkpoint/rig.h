@@ -30,7 +30,7 @@ class Rig {
     journaled = journaled_unit.get();
     unit_ = std::move(journaled_unit);
     if (!coasts || unit_->capability<core::StateSaving>() == nullptr) return;
-    core::CheckpointInterval interval(5, false);
+    core::SaveInterval interval(5, false);
     unit_ = std::make_unique<core::CoastingUnit>(std::move(unit_), *description_, interval,
                                                  std::size_t{1} << 20);
   }
