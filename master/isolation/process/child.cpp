@@ -1,11 +1,13 @@
 #include "master/isolation/process/child.h"
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <exception>
+#include <memory>
 #include <utility>
 
 #include <poll.h>
@@ -85,7 +87,9 @@ int reap(pid_t child) {
   return status;
 }
 
-class Watch {
+}  // namespace
+
+class Child::Watch {
  public:
   Watch(pid_t child, Descriptor answer, Descriptor output, const ChildOptions& options)
       : child_(child),
@@ -93,15 +97,24 @@ class Watch {
         output_(std::move(output)),
         options_(options),
         begin_(Clock::now()) {}
+  ~Watch() {
+    if (!is_over_ && owner_ == ::getpid()) reap(child_);
+  }
+  Watch(const Watch&) = delete;
+  Watch& operator=(const Watch&) = delete;
 
-  ChildOutcome run() {
+  std::optional<ChildOutcome> wait(std::chrono::milliseconds patience) {
+    const auto end = Clock::now() + patience;
     std::optional<End> cut_off;
     while (!has_ended(child_) && !cut_off) {
-      wait();
+      const auto rest = std::chrono::ceil<std::chrono::milliseconds>(end - Clock::now());
+      if (rest.count() <= 0) return std::nullopt;
+      wait_for_output(std::min(rest, kGlance));
       read();
       cut_off = reason_to_stop();
     }
     const int status = reap(child_);
+    is_over_ = true;
     read();
     ChildOutcome outcome = cut_off ? ChildOutcome{*cut_off, 0, {}, {}} : judge(status);
     outcome.printed = std::move(printed_);
@@ -109,11 +122,11 @@ class Watch {
   }
 
  private:
-  void wait() const {
+  void wait_for_output(std::chrono::milliseconds patience) const {
     std::array<pollfd, 2> files{{{answer_.number(), POLLIN, 0}, {output_.number(), POLLIN, 0}}};
     const bool is_over = !answer_.is_open() && !output_.is_open();
     // when its pipes are closed it is about to end
-    ::poll(files.data(), files.size(), is_over ? 1 : static_cast<int>(kGlance.count()));
+    ::poll(files.data(), files.size(), is_over ? 1 : static_cast<int>(patience.count()));
   }
 
   void read() {
@@ -139,14 +152,14 @@ class Watch {
 
   pid_t child_;
   Descriptor answer_, output_;
-  const ChildOptions& options_;
+  ChildOptions options_;
   Clock::time_point begin_;
   std::string text_, printed_;
+  bool is_over_ = false;
+  pid_t owner_ = ::getpid();  ///< another child must not end this one
 };
 
-}  // namespace
-
-ChildOutcome run_in_child(const std::function<std::string()>& work, const ChildOptions& options) {
+Child::Child(const std::function<std::string()>& work, const ChildOptions& options) {
   Pipe answer;
   Pipe output;
   const pid_t parent = ::getpid();
@@ -160,7 +173,22 @@ ChildOutcome run_in_child(const std::function<std::string()>& work, const ChildO
   ::setpgid(child, child);  // in both processes, in whichever order
   answer.write.close();
   output.write.close();
-  return Watch(child, std::move(answer.read), std::move(output.read), options).run();
+  watch_ = std::make_unique<Watch>(child, std::move(answer.read), std::move(output.read), options);
+}
+
+Child::~Child() = default;
+Child::Child(Child&&) noexcept = default;
+
+std::optional<ChildOutcome> Child::wait(std::chrono::milliseconds patience) {
+  return watch_->wait(patience);
+}
+
+ChildOutcome run_in_child(const std::function<std::string()>& work, const ChildOptions& options) {
+  constexpr std::chrono::hours kLong{1};
+  Child child(work, options);
+  while (true) {
+    if (std::optional<ChildOutcome> outcome = child.wait(kLong)) return std::move(*outcome);
+  }
 }
 
 std::string signal_name(int signal) {

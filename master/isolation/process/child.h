@@ -5,6 +5,7 @@
 #include <chrono>
 #include <csignal>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -32,11 +33,28 @@ struct ChildOptions {
   const volatile std::sig_atomic_t* interrupted = nullptr;
 };
 
-/// Runs the work in a fork of this process and waits for its end. The child has its own process
-/// group, which is killed as a whole when the child has ended, and it is killed when the thread
-/// that called this ends; nothing of it stays. Its standard input is empty, it leaves no core dump,
-/// and no destructor of its runs after the work. It may itself call this function. Throws
-/// std::system_error if there can be no child.
+/// Work in a fork of this process, which goes on beside it. The child has its own process group,
+/// which is killed as a whole when the child has ended, and it is killed when the thread that made
+/// this object ends; nothing of it stays. Its standard input is empty, it leaves no core dump, and
+/// no destructor of its runs after the work. It may itself have children.
+class Child {
+ public:
+  /// Throws std::system_error if there can be no child.
+  explicit Child(const std::function<std::string()>& work, const ChildOptions& options = {});
+  /// Kills the child, unless its outcome is known.
+  ~Child();
+  Child(Child&&) noexcept;
+  Child& operator=(Child&&) = delete;
+
+  /// Its outcome, once it has ended; nothing if it goes on for longer than the patience.
+  std::optional<ChildOutcome> wait(std::chrono::milliseconds patience);
+
+ private:
+  class Watch;
+  std::unique_ptr<Watch> watch_;
+};
+
+/// Runs the work in a Child and waits for its end.
 ChildOutcome run_in_child(const std::function<std::string()>& work,
                           const ChildOptions& options = {});
 

@@ -154,3 +154,32 @@ TEST_CASE("a child may have children of its own") {
   });
   CHECK(outcome.text == "SIGFPE");
 }
+
+TEST_CASE("children work beside each other, and are waited for as long as one likes") {
+  SharedMemory memory(sizeof(std::atomic<int>));
+  auto* const ready = new (memory.data()) std::atomic<int>(0);
+  const auto work = [&] {
+    ++*ready;
+    while (*ready < 3) std::this_thread::sleep_for(1ms);
+    return std::string("both");
+  };
+  Child first(work);
+  Child second(work);
+  while (*ready < 2) std::this_thread::sleep_for(1ms);
+  CHECK_FALSE(first.wait(0ms));
+  CHECK_FALSE(second.wait(5ms));
+  ++*ready;
+  CHECK(second.wait(1h)->text == "both");
+  CHECK(first.wait(1h)->text == "both");
+  CHECK_FALSE(has_child_left());
+}
+
+TEST_CASE("a child that is not waited for is killed") {
+  {
+    const Child child([]() -> std::string {
+      wait_for_ever();
+      return {};
+    });
+  }
+  CHECK_FALSE(has_child_left());
+}
