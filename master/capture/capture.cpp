@@ -87,7 +87,11 @@ void Capture::persist(core::StateArchive& state) {
   state.fixed(files_, [&](File& file) { file.unit->persist(state); });
 }
 
-void Capture::on_finish() {
+void Capture::continue_in_copies(const std::filesystem::path& folder) {
+  for (File& file : files_) file.file->continue_in_copy(folder / file.file->path().filename());
+}
+
+void Capture::flush() {
   for (File& file : files_) file.file->flush();
 }
 

@@ -43,7 +43,11 @@ class Capture final : public core::Observer {
   /// At a communication point, of the captured units and their files, which a run that goes on was
   /// constructed to keep.
   void persist(core::StateArchive& state);
-  void on_finish() override;
+  /// In a fork of the process, behind a flush() in that one: goes on in copies in this folder.
+  void continue_in_copies(const std::filesystem::path& folder);
+  /// Hands to the system what is committed.
+  void flush();
+  void on_finish() override { flush(); }
 
   /// Writes the end mark: why the run ended. Throws core::Error (Run) if that fails.
   void end(const std::string& ending);

@@ -14,6 +14,7 @@
 
 #include "master/util/error.h"
 #include "master/util/hex.h"
+#include "master/util/input_file.h"
 #include "master/util/state_archive.h"
 #include "master/util/time_text.h"
 
@@ -85,6 +86,10 @@ bool is_pipe(const std::filesystem::path& path) {
 
 OutputFile::OutputFile(std::filesystem::path path, Hints hints, Existing existing)
     : path_(std::move(path)), hints_(hints) {
+  open(existing);
+}
+
+void OutputFile::open(Existing existing) {
   descriptor_ = open_without_waiting(path_, flags(existing));
   if (descriptor_ >= 0) {
     identity_ = FileIdentity::of(descriptor_);
@@ -313,6 +318,35 @@ std::string OutputFile::last_bytes(std::int64_t place) const {
   if (file >= 0) ::close(file);
   bytes.resize(static_cast<std::size_t>(std::max<ssize_t>(count, 0)));
   return bytes;
+}
+
+void OutputFile::continue_in_copy(std::filesystem::path path) {
+  const std::filesystem::path original = std::exchange(absolute_path_, {});
+  const std::int64_t size = std::exchange(taken_, 0);
+  ::close(std::exchange(descriptor_, -1));
+  path_ = std::move(path);
+  rest_->size = 0;  // what is there may be that of the other process
+  rest_->place = rest_->line_end = 0;
+  open(Existing::Emptied);
+  copy_from(original, size);
+}
+
+/// The other process may write on behind it.
+void OutputFile::copy_from(const std::filesystem::path& original, std::int64_t size) {
+  const Descriptor file = open_input(original);
+  std::string piece(UnwrittenRest::kCapacity, '\0');
+  while (size > 0) {
+    const auto most =
+        static_cast<std::size_t>(std::min<std::int64_t>(size, UnwrittenRest::kCapacity));
+    const std::size_t count = read_from(file, piece.data(), most);
+    if (count == 0) {
+      fail_run({.where = {original.string(), 0}}, "the file was cut off while it was copied",
+               kTakenHint);
+    }
+    write(std::string_view(piece).substr(0, count));
+    size -= static_cast<std::int64_t>(count);
+  }
+  flush();
 }
 
 void OutputFile::close() {

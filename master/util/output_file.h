@@ -93,6 +93,10 @@ class OutputFile {
   /// Flushes and closes. Does nothing if it was closed, or failed, before.
   void close();
 
+  /// In a fork of the process that has written the file, behind a flush() in that one: goes on in a
+  /// copy of what was written, at this path. Throws as the constructor and flush() do.
+  void continue_in_copy(std::filesystem::path path);
+
   /// Hands the whole lines of all open files to the system, where the process has to end. For
   /// signal handlers: throws nothing, allocates nothing and takes no lock. A line that was begun is
   /// cut off.
@@ -121,6 +125,9 @@ class OutputFile {
   std::string last_bytes(std::int64_t place) const;
   [[noreturn]] void fail(int error);
   [[noreturn]] void fail_taken(bool is_back);
+
+  void open(Existing existing);
+  void copy_from(const std::filesystem::path& original, std::int64_t size);
 
   std::filesystem::path path_;
   std::filesystem::path absolute_path_;  ///< of a regular file

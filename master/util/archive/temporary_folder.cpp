@@ -163,8 +163,10 @@ TemporaryFolder::~TemporaryFolder() {
   if (owner_ == ::getpid()) remove();
 }
 
-void TemporaryFolder::remove_all() noexcept {
-  core::Listed<TemporaryFolder>::for_each([](const TemporaryFolder& folder) { folder.remove(); });
+void TemporaryFolder::remove_all(pid_t owner) noexcept {
+  core::Listed<TemporaryFolder>::for_each([owner](const TemporaryFolder& folder) {
+    if (folder.owner_ == owner) folder.remove();
+  });
 }
 
 void TemporaryFolder::remove() const noexcept { remove_with_lock(path_); }

@@ -30,8 +30,9 @@ class TemporaryFolder {
   /// The folder of the folders of this user; it need not exist.
   static std::filesystem::path parent();
 
-  /// Removes all of this process, where no destructors will run; also in a fork of it.
-  static void remove_all() noexcept;
+  /// Removes all of a process, where no destructors will run: of this one, or of one that it is a
+  /// fork of.
+  static void remove_all(pid_t owner) noexcept;
 
   /// Removes what crashed runs of this user have left; what cannot be removed stays.
   static void sweep_abandoned() noexcept;
