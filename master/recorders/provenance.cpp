@@ -1,0 +1,102 @@
+#include "master/recorders/provenance.h"
+
+#include <algorithm>
+#include <system_error>
+#include <utility>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "master/util/error.h"
+#include "master/util/input_file.h"
+#include "master/util/sha256.h"
+
+namespace stride::recorders {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string sha256_of_folder(const fs::path& folder) {
+  std::vector<fs::path> files;
+  std::error_code error;
+  fs::recursive_directory_iterator entry(folder, error);
+  for (; !error && entry != fs::recursive_directory_iterator(); entry.increment(error)) {
+    if (core::is_file(entry->path())) files.push_back(entry->path());
+  }
+  if (error) {
+    core::fail_input({.where = {folder.string(), 0}},
+                     fmt::format("cannot list the folder: {}", error.message()));
+  }
+  std::ranges::sort(files);
+  core::Sha256 digest;
+  for (const fs::path& file : files) {
+    const std::string name = file.lexically_relative(folder).generic_string();
+    digest.add(fmt::format("{} {}\n", core::sha256_of_file(file), name));
+  }
+  return core::to_hex(digest.digest());
+}
+
+const Source* find(const Provenance& provenance, const std::string& what, const fs::path& name) {
+  const auto found = std::ranges::find_if(provenance.sources, [&](const Source& source) {
+    return source.what == what && source.path.filename() == name;
+  });
+  return found == provenance.sources.end() ? nullptr : &*found;
+}
+
+}  // namespace
+
+Source make_source(std::string what, const fs::path& path) {
+  return {std::move(what), fs::absolute(path),
+          core::is_folder(path) ? sha256_of_folder(path) : core::sha256_of_file(path)};
+}
+
+std::vector<std::string> differences(const Provenance& before, const Provenance& now) {
+  std::vector<std::string> texts;
+  if (before.version != now.version) {
+    texts.push_back(fmt::format("it is of stride {}, and this is {}", before.version, now.version));
+  }
+  for (const Source& source : before.sources) {
+    const Source* const other = find(now, source.what, source.path.filename());
+    if (other == nullptr) {
+      texts.push_back(
+          fmt::format("{}, {}, is not used any more", source.what, source.path.string()));
+    } else if (other->sha256 != source.sha256) {
+      texts.push_back(fmt::format("{}, {}, is not what it was", source.what, other->path.string()));
+    }
+  }
+  for (const Source& source : now.sources) {
+    if (find(before, source.what, source.path.filename()) != nullptr) continue;
+    texts.push_back(fmt::format("{}, {}, was not used", source.what, source.path.string()));
+  }
+  return texts;
+}
+
+nlohmann::ordered_json to_json(const Provenance& provenance) {
+  nlohmann::ordered_json sources = nlohmann::ordered_json::array();
+  for (const Source& source : provenance.sources) {
+    sources.push_back(
+        {{"what", source.what}, {"path", source.path.string()}, {"sha256", source.sha256}});
+  }
+  nlohmann::ordered_json commands = nlohmann::ordered_json::array();
+  for (const Command& command : provenance.commands) {
+    commands.push_back({{"words", command.words}, {"folder", command.folder.string()}});
+  }
+  return {{"version", provenance.version},
+          {"commands", std::move(commands)},
+          {"sources", std::move(sources)}};
+}
+
+Provenance provenance_of(const nlohmann::ordered_json& json) {
+  Provenance provenance{json.at("version"), {}, {}};
+  for (const nlohmann::ordered_json& command : json.at("commands")) {
+    provenance.commands.push_back({command.at("words").get<std::vector<std::string>>(),
+                                   command.at("folder").get<std::string>()});
+  }
+  for (const nlohmann::ordered_json& source : json.at("sources")) {
+    provenance.sources.push_back(
+        {source.at("what"), source.at("path").get<std::string>(), source.at("sha256")});
+  }
+  return provenance;
+}
+
+}  // namespace stride::recorders

@@ -1,0 +1,45 @@
+// What results were made from.
+#ifndef STRIDE_MASTER_RECORDERS_PROVENANCE_H
+#define STRIDE_MASTER_RECORDERS_PROVENANCE_H
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+namespace stride::recorders {
+
+/// A file, or a folder, that decides what a run does, by its content.
+struct Source {
+  std::string what;  ///< "the scenario", "unit 'sensor'"
+  std::filesystem::path path;
+  std::string sha256;  ///< of a folder: of the names and contents of the files in it
+  bool operator==(const Source&) const = default;
+};
+
+struct Command {
+  std::vector<std::string> words;  ///< behind the program's name
+  std::filesystem::path folder;    ///< the working folder, absolute
+};
+
+struct Provenance {
+  std::string version;  ///< of stride
+  /// That of the run, and of each time that it was resumed.
+  std::vector<Command> commands;
+  std::vector<Source> sources;
+};
+
+/// Reads the files. Throws core::Error (Input) for what cannot be read.
+Source make_source(std::string what, const std::filesystem::path& path);
+
+/// For each source that differs, or is missing: in words.
+std::vector<std::string> differences(const Provenance& before, const Provenance& now);
+
+nlohmann::ordered_json to_json(const Provenance& provenance);
+/// Throws nlohmann::json::exception for what is no provenance.
+Provenance provenance_of(const nlohmann::ordered_json& json);
+
+}  // namespace stride::recorders
+
+#endif
