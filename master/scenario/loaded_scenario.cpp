@@ -413,13 +413,18 @@ void LoadedScenario::choose_interventions(const ScenarioRequest& request) {
   latest_intervention_ = request.stop.empty()
                              ? options_.stop
                              : std::max(options_.stop, scenario_.stop.value_or(Time{}));
-  std::vector<InterventionDeclaration> declared = request.interventions;
+  std::vector<InterventionDeclaration>& declared = further_interventions_;
+  declared = request.interventions;
   for (const std::string& text : request.set_at) declared.push_back(parse_set_at(text));
   for (const std::string& text : request.forces) declared.push_back(parse_force(text));
   for (const std::string& text : request.drops) declared.push_back(parse_drop(text));
   for (const std::string& text : request.delays) declared.push_back(parse_delay(text));
   for (const std::string& text : request.corruptions) declared.push_back(parse_corrupt(text));
-  options_.interventions = resolve(std::move(declared));
+  for (const BranchReference& branch : request.branches) {
+    const std::vector<InterventionDeclaration> further = find_branch(branch).interventions;
+    declared.insert(declared.end(), further.begin(), further.end());
+  }
+  options_.interventions = resolve(declared);
   const std::size_t count = options_.interventions.size();
   for (std::size_t i = 0; i < count; ++i) {
     for (const IdleTwin& pair : idle_twins_) {
@@ -429,6 +434,20 @@ void LoadedScenario::choose_interventions(const ScenarioRequest& request) {
       options_.interventions.push_back(std::move(of_twin));
     }
   }
+}
+
+std::vector<core::Intervention> LoadedScenario::interventions_of_branch(
+    std::span<const InterventionDeclaration> declarations, Time begin) const {
+  for (const InterventionDeclaration& declared : declarations) {
+    if (declared.from >= begin) continue;
+    core::fail_input({.where = declared.where},
+                     fmt::format("it begins at {} s, before its branch does at {} s",
+                                 core::to_text(declared.from), core::to_text(begin)));
+  }
+  std::vector<InterventionDeclaration> all = further_interventions_;
+  all.insert(all.end(), declarations.begin(), declarations.end());
+  resolve(std::move(all));  // they may contradict each other
+  return resolve_interventions(*system_, declarations, {options_.start, latest_intervention_});
 }
 
 void LoadedScenario::choose_signals(const ScenarioRequest& request) {

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,6 +15,7 @@
 #include "master/checks/definition.h"
 #include "master/importer/fmu.h"
 #include "master/model/system.h"
+#include "master/scenario/branches.h"
 #include "master/scenario/hosting.h"
 #include "master/scenario/idle_twins.h"
 #include "master/scenario/interventions.h"
@@ -36,6 +38,7 @@ struct ScenarioRequest {
   std::vector<std::string> delays;              ///< "component.variable=seconds@from..[until]"
   std::vector<std::string> corruptions;         ///< "component.variable[=bits]@from..[until]"
   std::vector<InterventionDeclaration> interventions;  ///< further ones
+  std::vector<BranchReference> branches;               ///< whose interventions are added
   std::vector<std::string> signals;                    ///< globs that replace the scenario's
   std::string stop;                                    ///< seconds; empty = the scenario's
   StepSettings step;                                   ///< overrides the scenario
@@ -72,6 +75,11 @@ class LoadedScenario {
   /// The interventions of the scenario and these, in the order of their instants, as options()
   /// would have them. Throws core::Error (Input) as the constructor does.
   std::vector<core::Intervention> resolve(std::vector<InterventionDeclaration> further) const;
+  /// Those of a future of the run that begins at this instant, beside the scenario's and the
+  /// command line's. Throws core::Error (Input) as resolve_interventions() does, also for one that
+  /// begins earlier.
+  std::vector<core::Intervention> interventions_of_branch(
+      std::span<const InterventionDeclaration> declarations, Time begin) const;
 
   /// As it was before the first unit was loaded.
   const core::ProcessState& process() const { return *process_; }
@@ -124,6 +132,7 @@ class LoadedScenario {
   std::vector<recorders::Plot> plots_;
   std::vector<checks::Definition> checks_;
   std::vector<IdleTwin> idle_twins_;
+  std::vector<InterventionDeclaration> further_interventions_;  ///< than the scenario's
 };
 
 /// The two sides of an option's value "LEFT=RIGHT". Throws core::Error (Input) with the expected
