@@ -9,6 +9,7 @@ class App;
 namespace stride::cli {
 
 void add_run(CLI::App& app);
+void add_resume(CLI::App& app);
 void add_check(CLI::App& app);
 void add_inspect(CLI::App& app);
 void add_complete(CLI::App& app);

@@ -73,7 +73,7 @@ Guarded guarded;
     (*guarded.conclusion.load())(error.what());
   } catch (...) {  // the rest is lost
   }
-  archive::TemporaryFolder::remove_all();
+  archive::TemporaryFolder::remove_all(guarded.process);
   ::_exit(kRunFailed);
 }
 

@@ -17,6 +17,7 @@
 #include <spdlog/spdlog.h>
 #include <unistd.h>
 
+#include "master/cli/command_line.h"
 #include "master/cli/commands.h"
 #include "master/cli/crash_guard.h"
 #include "master/cli/end_note.h"
@@ -215,6 +216,7 @@ int main(int argc, char** argv) {
   std::signal(SIGXFSZ, SIG_IGN);  // then writing fails with an error; the signal would kill
   stride::cli::go_on_watched();
   stride::cli::keep_hard_limits();
+  stride::cli::note_command_line(argc, argv);
   CLI::App app(
       "stride couples simulators: it loads units of FMI 3.0, 2.0 and 1.0 as plug-ins\n"
       "and runs them in steps, as a scenario (an SSP system file, .ssd) wires them.\n",
@@ -227,6 +229,7 @@ int main(int argc, char** argv) {
       "'stride COMMAND --help' shows more about a command.");
   add_verbose(app);
   stride::cli::add_run(app);
+  stride::cli::add_resume(app);
   stride::cli::add_campaign(app);
   stride::cli::add_report(app);
   stride::cli::add_check(app);
@@ -237,7 +240,7 @@ int main(int argc, char** argv) {
   stride::cli::add_build(app);
   stride::cli::add_trace(app);
   stride::cli::add_reference(app);
-  for (const char* command : {"run", "check", "inspect", "verify", "complete", "pack"}) {
+  for (const char* command : {"run", "resume", "check", "inspect", "verify", "complete", "pack"}) {
     add_verbose(*app.get_subcommand(command));
   }
   return stride::cli::leave_with(execute(app, argc, argv));

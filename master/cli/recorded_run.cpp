@@ -13,6 +13,7 @@
 #include "master/cli/crash_guard.h"
 #include "master/cli/end_note.h"
 #include "master/cli/output.h"
+#include "master/cli/provenance.h"
 #include "master/cli/report_page.h"
 #include "master/cli/table.h"
 #include "master/recorders/results_folder.h"
@@ -23,10 +24,14 @@
 #include "master/util/output_file.h"
 #include "master/util/process/spare_files.h"
 #include "master/util/replacement.h"
+#include "master/util/state_archive.h"
 #include "master/util/time_text.h"
 
 namespace stride::cli {
 namespace {
+
+/// The state of all but units and observers.
+constexpr const char* kSimulation = "simulation";
 
 /// Calls write(), which writes of a run that is over: whatever is wrong with a file then, it is not
 /// the input that is.
@@ -38,6 +43,22 @@ void as_run_failure(Write&& write) {
     if (failure.kind() == core::Error::Kind::Run) throw;
     throw core::Error(core::Error::Kind::Run, failure.context(), failure.message(), failure.hint());
   }
+}
+
+/// Of an object with persist().
+template <class Object>
+void add_state(checkpoint::Checkpoint& checkpoint, const std::string& name, Object& object) {
+  core::StateArchive state;
+  object.persist(state);
+  checkpoint.states[name] = state.bytes();
+}
+
+template <class Object>
+void restore_state(const checkpoint::Checkpoint& checkpoint, const std::string& name,
+                   Object& object) {
+  core::StateArchive state(state_of(checkpoint, name));
+  object.persist(state);
+  state.end();
 }
 
 /// "unit 'X'" if there is only one.
@@ -116,6 +137,47 @@ Recorders::Recorders(const core::System& system, const ResultsTarget& results) {
   if (!files.activity.empty()) activity_.emplace(system, folder / files.activity);
 }
 
+Recorders::Recorders(const core::System& system, const ResultsTarget& results,
+                     const Resumption& resumption)
+    : has_other_signals_(resumption.has_other_signals) {
+  using Existing = core::OutputFile::Existing;
+  const auto& [folder, files] = results;
+  const Existing signals = has_other_signals_ ? Existing::Emptied : Existing::Kept;
+  if (!files.signals.empty()) signals_.emplace(system, folder / files.signals, signals);
+  if (!files.events.empty()) events_.emplace(system, folder / files.events, Existing::Kept);
+  if (!files.trace.empty()) trace_.emplace(system, folder / files.trace, signals);
+  if (!files.activity.empty()) activity_.emplace(system, folder / files.activity, Existing::Kept);
+}
+
+void Recorders::add_to(checkpoint::Checkpoint& checkpoint) {
+  if (signals_) add_state(checkpoint, "signals", *signals_);
+  if (events_) add_state(checkpoint, "events", *events_);
+  if (trace_) add_state(checkpoint, "trace", *trace_);
+  if (activity_) add_state(checkpoint, "activity", *activity_);
+}
+
+void Recorders::restore(const checkpoint::Checkpoint& checkpoint) {
+  if (signals_ && !has_other_signals_) restore_state(checkpoint, "signals", *signals_);
+  if (events_) restore_state(checkpoint, "events", *events_);
+  if (trace_ && !has_other_signals_) restore_state(checkpoint, "trace", *trace_);
+  if (activity_) restore_state(checkpoint, "activity", *activity_);
+}
+
+void Recorders::flush() {
+  if (signals_) signals_->flush();
+  if (events_) events_->flush();
+  if (trace_) trace_->flush();
+  if (activity_) activity_->flush();
+}
+
+void Recorders::continue_in_copies(const ResultsTarget& results) {
+  const auto& [folder, files] = results;
+  if (signals_) signals_->continue_in_copy(folder / files.signals);
+  if (events_) events_->continue_in_copy(folder / files.events);
+  if (trace_) trace_->continue_in_copy(folder / files.trace);
+  if (activity_) activity_->continue_in_copy(folder / files.activity);
+}
+
 void Recorders::add_to(core::Simulation& simulation) {
   if (signals_) simulation.add_observer(*signals_);
   if (events_) simulation.add_observer(*events_);
@@ -135,7 +197,7 @@ RecordedRun::RecordedRun(const RunSetup& setup, std::vector<std::unique_ptr<core
   if (!setup_.capture.is_empty()) simulation_.add_observer(setup_.capture);
   if (!setup_.display.quiet) simulation_.add_observer(summary_, summary_.signals());
   simulation_.add_observer(progress_);
-  announce();
+  if (!setup_.is_resumed) announce();
 }
 
 /// So that a run which ends without a word is not taken for none, or for a good one.
@@ -151,11 +213,66 @@ void RecordedRun::announce() const {
 }
 
 void RecordedRun::run() {
+  execute([&] { simulation_.run(); });
+}
+
+void RecordedRun::resume(const Resumption& resumption) {
   try {
-    simulation_.run();
+    execute([&] {
+      core::StateArchive state(state_of(resumption.from, kSimulation));
+      simulation_.resume(state, [&] {
+        state.end();
+        restore(resumption);
+      });
+    });
+  } catch (const core::BadState& mistake) {
+    fail_checkpoint(resumption.file, mistake);
+  }
+}
+
+/// What the observers have seen.
+void RecordedRun::restore(const Resumption& resumption) {
+  const checkpoint::Checkpoint& from = resumption.from;
+  if (!checks_.is_empty()) restore_state(from, "checks", checks_);
+  if (from.states.contains("summary") && !setup_.display.quiet) {
+    restore_state(from, "summary", summary_);
+  }
+  if (!setup_.capture.is_empty()) restore_state(from, "captures", setup_.capture);
+  setup_.recorders.restore(from);
+  announce();
+}
+
+void RecordedRun::flush() {
+  setup_.recorders.flush();
+  setup_.capture.flush();
+}
+
+void RecordedRun::run_rest(std::vector<core::Intervention> interventions) {
+  has_test_report_ = false;
+  setup_.recorders.continue_in_copies(setup_.results);
+  setup_.capture.continue_in_copies(setup_.results.folder);
+  simulation_.add_interventions(std::move(interventions));
+  announce();
+  execute([&] { simulation_.run_rest(); });
+}
+
+void RecordedRun::add_to(checkpoint::Checkpoint& checkpoint) {
+  add_state(checkpoint, kSimulation, simulation_);
+  if (!checks_.is_empty()) add_state(checkpoint, "checks", checks_);
+  if (!setup_.display.quiet) add_state(checkpoint, "summary", summary_);
+  if (!setup_.capture.is_empty()) add_state(checkpoint, "captures", setup_.capture);
+  setup_.recorders.add_to(checkpoint);
+}
+
+template <class Go>
+void RecordedRun::execute(Go&& go) {
+  try {
+    go();
     setup_.capture.end(name(simulation_.statistics().end));
   } catch (const core::TakenFileError&) {
     throw;  // the files of the end might be taken, too
+  } catch (const core::BadState&) {
+    throw;  // nothing was run, and the results are still those of before
   } catch (const std::exception& failure) {
     restore_process();
     conclude_failure(failure.what());
@@ -288,7 +405,9 @@ void RecordedRun::write_statistics(std::optional<std::string> error) {
     failure = std::current_exception();
     if (!error) error = mistake.what();
   }
-  setup_.test_report.write(setup_.options, simulation_.statistics(), verdicts_, error);
+  if (has_test_report_) {
+    setup_.test_report.write(setup_.options, simulation_.statistics(), verdicts_, error);
+  }
   if (failure) std::rethrow_exception(failure);
 }
 
@@ -317,8 +436,13 @@ void RecordedRun::require_end() const {
   const core::RunStatistics& statistics = simulation_.statistics();
   if (statistics.end != core::RunEnd::Interrupted) return;
   warn_of_verdicts();
+  const bool has_checkpoint =
+      setup_.checkpoints != nullptr && !setup_.checkpoints->at_interruption().empty();
   core::fail_run({{}, {}, {}, statistics.reached},
-                 "the run was interrupted; its results up to there are complete");
+                 "the run was interrupted; its results up to there are complete",
+                 has_checkpoint ? fmt::format("it goes on with: stride resume {}",
+                                              setup_.results.folder.string())
+                                : "");
 }
 
 void RecordedRun::print_summary() const {

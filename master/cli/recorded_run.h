@@ -13,8 +13,10 @@
 #include "master/algorithm/unit.h"
 #include "master/algorithm/verdict.h"
 #include "master/capture/capture.h"
+#include "master/checkpoint/checkpoint_file.h"
 #include "master/checks/checks.h"
 #include "master/cli/progress.h"
+#include "master/cli/run_arguments.h"
 #include "master/cli/summary.h"
 #include "master/cli/test_report.h"
 #include "master/recorders/activity_recorder.h"
@@ -49,14 +51,22 @@ class Recorders {
  public:
   /// Creates the files. Throws core::Error.
   Recorders(const core::System& system, const ResultsTarget& results);
+  /// Goes on with the files that a run has left; of its signals only where they are the same.
+  Recorders(const core::System& system, const ResultsTarget& results, const Resumption& resumption);
 
   void add_to(core::Simulation& simulation);
+  void add_to(checkpoint::Checkpoint& checkpoint);
+  void restore(const checkpoint::Checkpoint& checkpoint);
+  /// Before a fork, and in it.
+  void flush();
+  void continue_in_copies(const ResultsTarget& results);
 
  private:
   std::optional<recorders::CsvRecorder> signals_;
   std::optional<recorders::EventRecorder> events_;
   std::optional<recorders::VcdRecorder> trace_;
   std::optional<recorders::ActivityRecorder> activity_;
+  bool has_other_signals_ = false;
 };
 
 /// What a run is made from, and must outlive it.
@@ -68,6 +78,8 @@ struct RunSetup {
   Recorders& recorders;
   capture::Capture& capture;
   TestReport& test_report;
+  bool is_resumed = false;
+  const Checkpoints* checkpoints = nullptr;  ///< if there are any
 };
 
 /// One simulation with its recorders, checks, captures, summary, progress and reports.
@@ -76,9 +88,25 @@ class RecordedRun {
   /// `units` are the instances of the scenario, with the captured ones wrapped by the capture.
   RecordedRun(const RunSetup& setup, std::vector<std::unique_ptr<core::Unit>> units);
 
+  /// Before the run, which it must outlive.
+  void set_control(core::RunControl& control) { simulation_.set_control(control); }
+
   /// Throws core::Error (Run) if the run fails or is interrupted, and if a check or a verdict
   /// failed. Whatever happens, the results are complete up to the last communication point.
   void run();
+  /// Instead of run(), for units that are what they were at the checkpoint. Throws core::Error
+  /// (Input) also where the checkpoint does not suit; the results are then what they were.
+  void resume(const Resumption& resumption);
+
+  /// In a pause, before the process is forked: what is written so far is in the files.
+  void flush();
+  /// Instead of what follows a pause, in a fork of the process: the rest of the run, with these
+  /// interventions. The results, whose target has changed, begin with copies of those before; there
+  /// is no test report. Throws as run() does.
+  void run_rest(std::vector<core::Intervention> interventions);
+
+  /// At a communication point: adds the states of all but the units.
+  void add_to(checkpoint::Checkpoint& checkpoint);
 
   const core::RunStatistics& statistics() const { return simulation_.statistics(); }
 
@@ -87,6 +115,9 @@ class RecordedRun {
   void abandon(const std::string& error);
 
  private:
+  template <class Go>
+  void execute(Go&& go);
+  void restore(const Resumption& resumption);
   void restore_process() const;
   void conclude_failure(const std::string& error);
   void conclude();
@@ -104,6 +135,7 @@ class RecordedRun {
 
   const RunSetup setup_;
   core::Simulation simulation_;
+  bool has_test_report_ = true;
   checks::Checks checks_;
   std::vector<core::Verdict> verdicts_;
   Summary summary_;

@@ -88,6 +88,10 @@ void run_with_checks(RunArguments arguments) {
     core::fail_input({}, "--check-idle and --no-idle-skip contradict each other",
                      "use one of them");
   }
+  if (arguments.checkpoints.are_wanted() || arguments.branches.request) {
+    core::fail_input({}, "--check-idle cannot be combined with checkpoints and branches",
+                     "use it in a run of its own");
+  }
   arguments.full_run = results_folder(arguments) / kFullRunFolder;
   arguments.promise_failure =
       failure_in_child(kPromiseTest, [&] { run_beside_twins(arguments.scenario); });

@@ -17,11 +17,6 @@ void add_recording_options(CLI::App& command, RunArguments& arguments) {
                   "Results folder; otherwise results/ and the scenario's name")
       ->type_name("FOLDER");
   command
-      .add_option("--threads", arguments.threads,
-                  "Step units on up to N threads where that is faster; the results are the same")
-      ->type_name("N")
-      ->check(CLI::Range(1, kMostThreads));
-  command
       .add_option("--capture", arguments.captures,
                   "Write all inputs of a component to a file that can be replayed to it alone; may "
                   "be given several times")
@@ -32,6 +27,23 @@ void add_recording_options(CLI::App& command, RunArguments& arguments) {
   command.add_flag("--film", arguments.scenario.film,
                    "Pictures of the MuJoCo worlds in units/COMPONENT/film/, every 0.1 s of "
                    "simulated time, or as in --film=SECONDS");
+  command.add_flag("--no-report", arguments.no_report, "Write no report.html");
+  command.add_flag("--no-trace", arguments.no_trace, "Write no signals.vcd");
+}
+
+}  // namespace
+
+std::filesystem::path results_folder(const RunArguments& arguments) {
+  if (!arguments.out.empty()) return arguments.out;
+  return std::filesystem::path("results") / scenario::stem(arguments.scenario.scenario);
+}
+
+void add_thread_and_junit_options(CLI::App& command, RunArguments& arguments) {
+  command
+      .add_option("--threads", arguments.threads,
+                  "Step units on up to N threads where that is faster; the results are the same")
+      ->type_name("N")
+      ->check(CLI::Range(1, kMostThreads));
   command
       .add_option_function<std::string>(
           "--junit",
@@ -42,7 +54,6 @@ void add_recording_options(CLI::App& command, RunArguments& arguments) {
           "Write a test report in the XML of JUnit, with a test case for the run, each "
           "check and each unit's verdict")
       ->type_name("FILE");
-  command.add_flag("--no-trace", arguments.no_trace, "Write no signals.vcd");
 }
 
 void add_display_options(CLI::App& command, RunArguments& arguments) {
@@ -53,21 +64,16 @@ void add_display_options(CLI::App& command, RunArguments& arguments) {
           "How to show progress: automatically (on a terminal a line that is rewritten, elsewhere "
           "a line now and then), in plain lines, in JSON objects for programs, or not at all")
       ->type_name("auto|plain|json|none");
-  command.add_flag("--no-report", arguments.no_report, "Write no report.html");
   command.add_flag("--open", arguments.open, "Open the report in a browser when the run is over");
   command.add_flag("--quiet,-q", arguments.quiet, "Print nothing but warnings and errors");
-}
-
-}  // namespace
-
-std::filesystem::path results_folder(const RunArguments& arguments) {
-  if (!arguments.out.empty()) return arguments.out;
-  return std::filesystem::path("results") / scenario::stem(arguments.scenario.scenario);
 }
 
 void add_run_options(CLI::App& command, RunArguments& arguments) {
   add_scenario_options(command, arguments.scenario);
   add_recording_options(command, arguments);
+  add_thread_and_junit_options(command, arguments);
+  add_checkpoint_options(command, arguments.checkpoints);
+  add_branch_options(command, arguments.branches);
   add_display_options(command, arguments);
 }
 

@@ -4,10 +4,15 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "master/checkpoint/checkpoint_file.h"
+#include "master/cli/branches.h"
+#include "master/cli/checkpoints.h"
 #include "master/cli/progress.h"
 #include "master/scenario/loaded_scenario.h"
 
@@ -16,6 +21,16 @@ class App;
 }
 
 namespace stride::cli {
+
+/// A run that goes on.
+struct Resumption {
+  checkpoint::Checkpoint from;
+  std::filesystem::path file;       ///< of the checkpoint
+  std::filesystem::path results{};  ///< where the results up to it are
+  bool has_other_signals = false;   ///< than those recorded before: their files begin anew
+  /// Files outside of the results that go on elsewhere: from, to.
+  std::vector<std::pair<std::filesystem::path, std::filesystem::path>> copies{};
+};
 
 /// Why work in a process of its own has failed.
 struct ChildFailure {
@@ -28,6 +43,9 @@ struct RunArguments {
   std::filesystem::path out;
   std::vector<std::string> captures;  ///< "component=FILE"
   std::filesystem::path junit;        ///< empty: none
+  CheckpointTimes checkpoints{};
+  BranchOptions branches{};
+  std::shared_ptr<const Resumption> resumed{};  ///< null: the run begins at its start
   std::size_t threads = 1;
   std::optional<ProgressStyle> progress;
   bool no_trace = false;
@@ -44,6 +62,10 @@ std::filesystem::path results_folder(const RunArguments& arguments);
 
 /// The options of a run but --check-idle. `arguments` must outlive the command line.
 void add_run_options(CLI::App& command, RunArguments& arguments);
+
+/// Those of them that a resumed run has, too.
+void add_thread_and_junit_options(CLI::App& command, RunArguments& arguments);
+void add_display_options(CLI::App& command, RunArguments& arguments);
 
 }  // namespace stride::cli
 

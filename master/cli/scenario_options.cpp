@@ -99,7 +99,9 @@ void add_parameters(scenario::ScenarioRequest& request, const std::vector<std::s
   }
 }
 
-void add_interventions(CLI::App& command, scenario::ScenarioRequest& request) {
+}  // namespace
+
+void add_intervention_options(CLI::App& command, scenario::ScenarioRequest& request) {
   const auto add = [&](const char* option, std::vector<std::string>& texts, const char* form,
                        const std::string& help) {
     command.add_option(option, texts, help + "; may be given several times")
@@ -121,8 +123,6 @@ void add_interventions(CLI::App& command, scenario::ScenarioRequest& request) {
       "How many bits are inverted in each message that an input receives in some time, 1 if left "
       "out, how many first bytes are left alone, and the seed that chooses the bits");
 }
-
-}  // namespace
 
 void add_scenario_options(CLI::App& command, scenario::ScenarioRequest& request) {
   command
@@ -155,7 +155,7 @@ void add_scenario_options(CLI::App& command, scenario::ScenarioRequest& request)
                   "Start value of a parameter or input; may be given several times")
       ->type_name("COMPONENT.VARIABLE=VALUE")
       ->allow_extra_args(false);
-  add_interventions(command, request);
+  add_intervention_options(command, request);
   command
       .add_option("--swap", request.swaps,
                   "Another unit for a component; may be given several times")

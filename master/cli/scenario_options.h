@@ -12,6 +12,9 @@ namespace stride::cli {
 /// The options that every command on a scenario has. `request` must outlive the command line.
 void add_scenario_options(CLI::App& command, scenario::ScenarioRequest& request);
 
+/// Those of them that change something in the middle of a run.
+void add_intervention_options(CLI::App& command, scenario::ScenarioRequest& request);
+
 }  // namespace stride::cli
 
 #endif

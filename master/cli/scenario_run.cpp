@@ -1,5 +1,6 @@
 #include "master/cli/scenario_run.h"
 
+#include <algorithm>
 #include <exception>
 #include <memory>
 #include <optional>
@@ -10,22 +11,30 @@
 #include <fmt/format.h>
 
 #include "master/capture/capture.h"
+#include "master/checkpoint/journals.h"
+#include "master/cli/branch_runs.h"
+#include "master/cli/branches.h"
+#include "master/cli/checkpoints.h"
 #include "master/cli/crash_guard.h"
 #include "master/cli/end_note.h"
 #include "master/cli/idle_check.h"
 #include "master/cli/interruption.h"
 #include "master/cli/output.h"
 #include "master/cli/output_paths.h"
+#include "master/cli/provenance.h"
 #include "master/cli/recorded_run.h"
 #include "master/cli/report_page.h"
 #include "master/cli/summary.h"
 #include "master/cli/test_report.h"
+#include "master/recorders/provenance.h"
 #include "master/recorders/results_folder.h"
 #include "master/recorders/unit_folders.h"
 #include "master/util/input_file.h"
 #include "master/util/output_file.h"
 #include "master/util/process/process_state.h"
 #include "master/util/process/spare_files.h"
+#include "master/util/state_archive.h"
+#include "master/util/time_text.h"
 
 namespace stride::cli {
 namespace {
@@ -136,45 +145,226 @@ void Records::add(const std::string& error) {
   tests.write_late(error);
 }
 
-void run(const RunArguments& arguments, Records& records, CrashGuard& guard) {
-  const Interruption interruption;
-  const scenario::LoadedScenario loaded(arguments.scenario);
-  const recorders::ResultFiles files = chosen_files(arguments, loaded.scenario());
-  const std::filesystem::path folder = results_folder(arguments);
-  refuse_results(folder, loaded.scenario().annotation.results, inputs_of(loaded));
-  recorders::make_results_folder(folder);
-  recorders::check_name_lengths(folder, files);
-  const recorders::ResultsLock lock(folder);
-  recorders::remove_results(folder, loaded.scenario().annotation.results);
-  records.results = {folder, files};
-  const std::vector<std::string> components = loaded.component_names();
-  recorders::clean_unit_folders(folder, components);
-  core::RunOptions options = run_options(arguments, loaded, files);
-  capture::Capture capture(loaded.system(), loaded.scenario().name, options, captures(arguments));
-  const recorders::UnitFolders unit_folders(folder, components);
-  const EndOfUnits end{loaded.process()};
-  auto units = loaded.instantiate(folder, &Interruption::flag());
-  capture.wrap(units, options);
-  const RunDisplay display{progress_style(arguments), arguments.quiet, arguments.open};
-  Recorders recorders(loaded.system(), *records.results);
-  RecordedRun recorded(
-      {loaded, options, *records.results, display, recorders, capture, records.tests},
-      std::move(units));
-  const CrashGuard::Scope scope(guard, [&](const std::string& error) { recorded.abandon(error); });
+/// The results folder of a run, which no other run may use meanwhile. What an earlier run has left
+/// there goes, unless this run goes on with it.
+class ResultsOfRun {
+ public:
+  ResultsOfRun(const RunArguments& arguments, const scenario::LoadedScenario& loaded)
+      : target_{results_folder(arguments), chosen_files(arguments, loaded.scenario())},
+        lock_(made(target_, loaded)) {
+    const auto& resumed = arguments.resumed;
+    const bool goes_on =
+        resumed && recorders::resolved(resumed->results) == recorders::resolved(target_.folder);
+    if (!goes_on) {
+      recorders::remove_results(target_.folder, loaded.scenario().annotation.results);
+      remove_checkpoints(target_.folder);
+      recorders::clean_unit_folders(target_.folder, loaded.component_names());
+    }
+    if (!resumed) return;
+    if (!goes_on) recorders::copy_results(resumed->results, target_.folder, target_.files);
+    for (const auto& [from, to] : resumed->copies) core::copy_input(from, to);
+  }
+
+  ResultsTarget& target() { return target_; }
+
+ private:
+  static const std::filesystem::path& made(const ResultsTarget& target,
+                                           const scenario::LoadedScenario& loaded) {
+    refuse_results(target.folder, loaded.scenario().annotation.results, inputs_of(loaded));
+    recorders::make_results_folder(target.folder);
+    recorders::check_name_lengths(target.folder, target.files);
+    return target.folder;
+  }
+
+  ResultsTarget target_;
+  recorders::ResultsLock lock_;
+};
+
+/// Whether its units may have to be rebuilt.
+bool is_journaled(const RunArguments& arguments) {
+  return arguments.checkpoints.are_wanted() || arguments.branches.request || arguments.resumed;
+}
+
+std::size_t interventions_until(const core::RunOptions& options, Time time) {
+  return static_cast<std::size_t>(std::ranges::count_if(
+      options.interventions,
+      [&](const core::Intervention& intervention) { return intervention.from <= time; }));
+}
+
+/// What was not there before would have had to begin in the part that is over.
+void require_later_interventions(const core::RunOptions& options,
+                                 const checkpoint::Checkpoint& from) {
+  if (interventions_until(options, from.time) == from.interventions) return;
+  core::fail_input({},
+                   fmt::format("an intervention begins at or before {} s, where the run goes on",
+                               core::to_text(from.time)),
+                   "let it begin later, or resume the run from an earlier checkpoint");
+}
+
+/// What a checkpoint has to agree with; nothing where the run has none.
+std::optional<recorders::Provenance> provenance(const RunArguments& arguments,
+                                                const scenario::LoadedScenario& loaded) {
+  if (!is_journaled(arguments)) return std::nullopt;
+  recorders::Provenance made = provenance_of(loaded);
+  if (!arguments.resumed) return made;
+  const recorders::Provenance& before = arguments.resumed->from.provenance;
+  require_same(before, made, arguments.resumed->file);
+  require_later_interventions(loaded.options(), arguments.resumed->from);
+  made.commands.insert(made.commands.begin(), before.commands.begin(), before.commands.end());
+  return made;
+}
+
+/// The instances of a run, in the decorators that it needs.
+class UnitsOfRun {
+ public:
+  UnitsOfRun(const RunArguments& arguments, const scenario::LoadedScenario& loaded,
+             const std::filesystem::path& results, capture::Capture& capture,
+             core::RunOptions& options)
+      : journals_(loaded.system()), instances_(loaded.instantiate(results, &Interruption::flag())) {
+    if (is_journaled(arguments)) journals_.wrap(instances_, options.stop);
+    if (arguments.resumed) restore(*arguments.resumed);
+    capture.wrap(instances_, options);
+  }
+
+  checkpoint::Journals& journals() { return journals_; }
+  std::vector<std::unique_ptr<core::Unit>> take() { return std::move(instances_); }
+
+ private:
+  void restore(const Resumption& resumption) {
+    try {
+      journals_.restore(resumption.from);
+    } catch (const core::BadState& mistake) {
+      fail_checkpoint(resumption.file, mistake);
+    }
+  }
+
+  checkpoint::Journals journals_;
+  std::vector<std::unique_ptr<core::Unit>> instances_;
+};
+
+Recorders make_recorders(const RunArguments& arguments, const scenario::LoadedScenario& loaded,
+                         const ResultsTarget& target) {
+  if (!arguments.resumed) return Recorders(loaded.system(), target);
+  return Recorders(loaded.system(), target, *arguments.resumed);
+}
+
+/// A run and all that belongs to it, from the first file that is read to the last that is written.
+class ScenarioRun {
+ public:
+  ScenarioRun(const RunArguments& arguments, Records& records);
+
+  void run(CrashGuard& guard);
+
+ private:
+  using Existing = core::OutputFile::Existing;
+
+  bool is_resumed() const { return arguments_.resumed != nullptr; }
+  Checkpoints::Span span() const;
+  checkpoint::Checkpoint take(Time now);
+  void make_run();
+
+  const RunArguments& arguments_;
+  Records& records_;
+  const Interruption interruption_;
+  const scenario::LoadedScenario loaded_;
+  const std::optional<recorders::Provenance> provenance_;
+  ResultsOfRun results_;
+  core::RunOptions options_;
+  capture::Capture capture_;
+  const recorders::UnitFolders unit_folders_;
+  const EndOfUnits end_{loaded_.process()};
+  UnitsOfRun units_;
+  const RunDisplay display_;
+  Recorders recorders_;
+  Checkpoints checkpoints_;
+  Branches branches_;
+  RecordedRun recorded_;
+  BranchRuns branch_runs_;
+};
+
+ScenarioRun::ScenarioRun(const RunArguments& arguments, Records& records)
+    : arguments_(arguments),
+      records_(records),
+      loaded_(arguments.scenario),
+      provenance_(provenance(arguments, loaded_)),
+      results_(arguments, loaded_),
+      options_(run_options(arguments, loaded_, results_.target().files)),
+      capture_(loaded_.system(), loaded_.scenario().name, options_, captures(arguments),
+               is_resumed() ? Existing::Kept : Existing::Emptied),
+      unit_folders_(results_.target().folder, loaded_.component_names()),
+      units_(arguments, loaded_, results_.target().folder, capture_, options_),
+      display_{progress_style(arguments), arguments.quiet, arguments.open},
+      recorders_(make_recorders(arguments, loaded_, results_.target())),
+      checkpoints_(arguments.checkpoints, span(), results_.target().folder,
+                   [this](Time now) { return take(now); }),
+      branches_(read_branches(arguments, loaded_, options_), arguments.branches,
+                &Interruption::flag()),
+      recorded_({loaded_, options_, results_.target(), display_, recorders_, capture_,
+                 records.tests, is_resumed(), &checkpoints_},
+                units_.take()),
+      branch_runs_({arguments, loaded_, results_.target(), recorded_,
+                    [this](Time now) { return take(now); }}) {
+  records.results = results_.target();
+  if (arguments.checkpoints.are_wanted()) recorded_.set_control(checkpoints_);
+  if (!arguments.branches.request) return;
+  branch_runs_.connect(branches_);
+  recorded_.set_control(branches_);
+}
+
+Checkpoints::Span ScenarioRun::span() const {
+  return {options_.start, is_resumed() ? arguments_.resumed->from.time : options_.start,
+          options_.stop};
+}
+
+checkpoint::Checkpoint ScenarioRun::take(Time now) {
+  checkpoint::Checkpoint taken{.provenance = *provenance_,
+                               .time = now,
+                               .results = std::filesystem::absolute(results_.target().folder),
+                               .interventions = interventions_until(options_, now)};
+  units_.journals().add_to(taken);
+  recorded_.add_to(taken);
+  return taken;
+}
+
+void ScenarioRun::run(CrashGuard& guard) {
+  const CrashGuard::Scope scope(guard, [&](const std::string& error) { recorded_.abandon(error); });
   try {
-    recorded.run();
-    conclude_idle_check(arguments, loaded, recorded.statistics(), *records.results);
+    make_run();
+    checkpoints_.require_all();
+    branches_.require_all();
+    conclude_idle_check(arguments_, loaded_, recorded_.statistics(), results_.target());
   } catch (const core::TakenFileError& failure) {
     end_with(failure.what());
   } catch (const std::exception& failure) {
-    records.failure = failure.what();
+    records_.failure = failure.what();
     throw;
   }
+}
+
+/// Whatever becomes of it, its branches come to their ends.
+void ScenarioRun::make_run() {
+  std::exception_ptr failure;
+  try {
+    if (is_resumed()) {
+      recorded_.resume(*arguments_.resumed);
+    } else {
+      recorded_.run();
+    }
+  } catch (const std::exception&) {
+    failure = std::current_exception();
+  }
+  branches_.wait();
+  if (!arguments_.quiet) print_text("{}", branches_.text());
+  if (failure) std::rethrow_exception(failure);
 }
 
 }  // namespace
 
 void run_scenario(RunArguments arguments) {
+  if (arguments.branches.request && arguments.checkpoints.are_wanted()) {
+    core::fail_input({}, "--branch and checkpoints exclude each other",
+                     "let one run write the checkpoint, and another one have the branches");
+  }
   arguments.scenario.files = check_output_paths(arguments);
   const core::ProcessState process;
   Records records{{arguments.junit, arguments.scenario.scenario}};
@@ -187,7 +377,7 @@ void run_scenario(RunArguments arguments) {
     records.add(error);
   });
   try {
-    run(arguments, records, guard);
+    ScenarioRun(arguments, records).run(guard);
   } catch (const std::exception& failure) {
     process.restore();
     if (!records.tests.is_written()) records.tests.write(failure.what());

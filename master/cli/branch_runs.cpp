@@ -1,0 +1,100 @@
+#include "master/cli/branch_runs.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <iterator>
+#include <system_error>
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "master/checkpoint/checkpoint_file.h"
+#include "master/cli/crash_guard.h"
+#include "master/recorders/results_folder.h"
+#include "master/recorders/unit_folders.h"
+#include "master/scenario/branches.h"
+#include "master/util/error.h"
+#include "master/util/time_text.h"
+
+namespace stride::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Only one of them would be copied.
+bool has_threads() {
+  std::error_code error;
+  const fs::directory_iterator tasks("/proc/self/task", error);
+  return error || std::distance(begin(tasks), end(tasks)) > 1;
+}
+
+struct EndOfBranch {
+  ~EndOfBranch() { end_guarding(); }
+};
+
+}  // namespace
+
+std::vector<Branch> read_branches(const RunArguments& arguments,
+                                  const scenario::LoadedScenario& loaded,
+                                  const core::RunOptions& options) {
+  if (!arguments.branches.request) return {};
+  const auto& [time, file] = *arguments.branches.request;
+  if (time < options.start || time >= options.stop) {
+    core::fail_input(
+        {}, fmt::format("--branch {}:{}: the run is from {} s to {} s", core::to_text(time),
+                        file.string(), core::to_text(options.start), core::to_text(options.stop)));
+  }
+  std::vector<Branch> branches;
+  for (const scenario::BranchDeclaration& declared : scenario::read_branches(file)) {
+    branches.push_back(
+        {declared.name, loaded.interventions_of_branch(declared.interventions, time)});
+  }
+  return branches;
+}
+
+void BranchRuns::connect(Branches& branches) {
+  branches.set_work([this](Time now) { prepare(now); },
+                    [this](const Branch& branch) { make_rest(branch); });
+}
+
+/// A unit's file that is open, or whose path it knows, would be that of all branches.
+bool BranchRuns::can_fork() const {
+  const auto is_hosted = [](const auto& hosting) { return hosting.has_value(); };
+  return std::ranges::none_of(setup_.loaded.hostings(), is_hosted) && !has_threads() &&
+         setup_.arguments.scenario.film.empty() &&
+         !recorders::has_unit_files(setup_.results.folder);
+}
+
+void BranchRuns::prepare(Time now) {
+  setup_.recorded.flush();
+  fs::create_directories(setup_.results.folder / kBranchesFolder);
+  if (can_fork()) return;
+  checkpoint_ = fs::absolute(setup_.results.folder) / kBranchesFolder / "begin.zip";
+  checkpoint::write_checkpoint(checkpoint_, setup_.take(now));
+}
+
+fs::path BranchRuns::folder(const Branch& branch) const {
+  return fs::absolute(setup_.results.folder) / kBranchesFolder / branch.name;
+}
+
+void BranchRuns::make_rest(const Branch& branch) {
+  if (!checkpoint_.empty()) resume(branch);
+  const EndOfBranch end;
+  const CrashGuard guard([&](const std::string& error) { setup_.recorded.abandon(error); });
+  setup_.results.folder = folder(branch);
+  recorders::make_results_folder(setup_.results.folder);
+  const recorders::ResultsLock lock(setup_.results.folder);
+  recorders::remove_results(setup_.results.folder, setup_.loaded.scenario().annotation.results);
+  setup_.recorded.run_rest(branch.interventions);
+}
+
+void BranchRuns::resume(const Branch& branch) const {
+  const std::string out = folder(branch).string();
+  const std::string which = fmt::format(
+      "{}:{}", fs::absolute(setup_.arguments.branches.request->file).string(), branch.name);
+  ::execl("/proc/self/exe", "stride", "resume", checkpoint_.c_str(), "--out", out.c_str(),
+          "--branch", which.c_str(), "--quiet", "--progress", "none", nullptr);
+  throw std::system_error(errno, std::generic_category(), "execl");
+}
+
+}  // namespace stride::cli

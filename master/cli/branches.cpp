@@ -1,0 +1,160 @@
+#include "master/cli/branches.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <string_view>
+#include <thread>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "master/cli/table.h"
+#include "master/util/error.h"
+#include "master/util/time_text.h"
+
+namespace stride::cli {
+namespace {
+
+using End = isolation::ChildOutcome::End;
+
+constexpr int kMostJobs = 1024;
+
+BranchRequest parse_branch(const std::string& text) {
+  const std::size_t colon = text.find(':');
+  if (colon == std::string::npos || colon + 1 == text.size()) {
+    core::fail_input({}, fmt::format("--branch {}: expected SECONDS:FILE", text),
+                     "name the instant at which the branches begin, and the file that lists them");
+  }
+  try {
+    return {Time(core::parse_seconds(text.substr(0, colon))), text.substr(colon + 1)};
+  } catch (const std::invalid_argument& mistake) {
+    core::fail_input({}, fmt::format("--branch {}: {}", text, mistake.what()));
+  }
+}
+
+std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
+
+/// What a process prints ends with its error.
+std::string last_error(const std::string& printed) {
+  constexpr std::string_view kMark = "stride: error: ";
+  const std::size_t mark = printed.rfind(kMark);
+  std::string text = mark == std::string::npos ? printed : printed.substr(mark + kMark.size());
+  while (!text.empty() && text.back() == '\n') text.pop_back();
+  return text;
+}
+
+}  // namespace
+
+void add_branch_options(CLI::App& command, BranchOptions& options) {
+  command
+      .add_option_function<std::string>(
+          "--branch", [&](const std::string& text) { options.request = parse_branch(text); },
+          "Run further futures, which begin at this simulated time with the interventions that the "
+          "file lists, beside the run itself")
+      ->type_name("SECONDS:FILE");
+  command
+      .add_option("--jobs", options.jobs,
+                  "How many branches run at the same time; otherwise as many as there are cores")
+      ->type_name("N")
+      ->check(CLI::Range(1, kMostJobs));
+}
+
+Branches::Branches(std::vector<Branch> branches, const BranchOptions& options,
+                   const volatile std::sig_atomic_t* interrupted)
+    : time_(options.request ? options.request->time : Time{}),
+      branches_(std::move(branches)),
+      jobs_(options.jobs != 0 ? options.jobs : std::max(std::thread::hardware_concurrency(), 1U)),
+      interrupted_(interrupted),
+      failures_(branches_.size()) {}
+
+void Branches::set_work(Prepare prepare, Rest rest) {
+  prepare_ = std::move(prepare);
+  rest_ = std::move(rest);
+}
+
+Branches::~Branches() { wait(); }
+
+std::optional<core::Pause> Branches::next(Time /*now*/) {
+  if (has_forked_) return std::nullopt;
+  return core::Pause{.time = time_, .before = true};
+}
+
+void Branches::on_pause(Time now) {
+  has_forked_ = true;
+  prepare_(now);
+  for (std::size_t i = 0; i < branches_.size(); ++i) {
+    while (running_.size() >= jobs_) collect(std::chrono::milliseconds(20));
+    const auto work = [&] {
+      rest_(branches_[i]);
+      return std::string();
+    };
+    running_.push_back({i, isolation::Child(work, {.limit = {}, .interrupted = interrupted_})});
+  }
+}
+
+/// Those that have ended by then.
+bool Branches::collect(std::chrono::milliseconds patience) {
+  for (auto running = running_.begin(); running != running_.end(); ++running) {
+    const auto outcome = running->child.wait(patience / static_cast<int>(running_.size()));
+    if (!outcome) continue;
+    note_end(running->branch, *outcome);
+    running_.erase(running);
+    return true;
+  }
+  return false;
+}
+
+void Branches::note_end(std::size_t branch, const isolation::ChildOutcome& outcome) {
+  std::optional<std::string>& failure = failures_[branch];
+  switch (outcome.end) {
+    case End::Answered:
+      break;
+    case End::Threw:
+      failure = outcome.text;
+      break;
+    case End::Interrupted:
+    case End::TimedOut:
+      failure = "it was interrupted";
+      break;
+    case End::Exited:
+      if (outcome.code != 0) failure = last_error(outcome.printed);
+      break;
+    case End::Killed:
+      failure = fmt::format("its process was killed by {}", isolation::signal_name(outcome.code));
+  }
+}
+
+void Branches::wait() {
+  while (!running_.empty()) collect(std::chrono::milliseconds(100));
+}
+
+std::string Branches::text() const {
+  if (!has_forked_) return "";
+  Table table({{"branch"}, {"outcome"}, {"because", Table::Align::Left, true}});
+  for (std::size_t i = 0; i < branches_.size(); ++i) {
+    table.add({branches_[i].name, failures_[i] ? "FAILED" : "passed",
+               first_line(failures_[i].value_or(""))});
+  }
+  return fmt::format("\nBranches from {} s on\n{}", core::to_text(time_), table.text());
+}
+
+void Branches::require_all() const {
+  if (branches_.empty()) return;
+  if (!has_forked_) {
+    core::fail_run({}, fmt::format("the run ended before {} s, where its branches begin",
+                                   core::to_text(time_)));
+  }
+  const auto is_failed = [](const std::optional<std::string>& failure) { return bool(failure); };
+  const auto failed = std::ranges::count_if(failures_, is_failed);
+  if (failed == 0) return;
+  std::string text = fmt::format("{} of {} branches {} failed", failed, branches_.size(),
+                                 failed == 1 ? "has" : "have");
+  for (std::size_t i = 0; i < branches_.size(); ++i) {
+    if (!failures_[i]) continue;
+    text += fmt::format("\n  {}: {}", branches_[i].name, first_line(*failures_[i]));
+  }
+  core::fail_run({}, text);
+}
+
+}  // namespace stride::cli

@@ -1,0 +1,45 @@
+#include "master/cli/provenance.h"
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "master/cli/command_line.h"
+#include "master/cli/output_paths.h"
+#include "master/util/error.h"
+#include "master/util/input_file.h"
+
+namespace stride::cli {
+
+recorders::Provenance provenance_of(const scenario::LoadedScenario& loaded) {
+  recorders::Provenance made{STRIDE_VERSION, {command_line()}, {}};
+  for (const KeptPath& input : inputs_of(loaded)) {
+    if (!core::path_exists(input.path)) continue;  // a unit in a package, which is there itself
+    recorders::Source source = recorders::make_source(input.what, input.path);
+    if (std::ranges::find(made.sources, source) == made.sources.end()) {
+      made.sources.push_back(std::move(source));
+    }
+  }
+  return made;
+}
+
+void require_same(const recorders::Provenance& before, const recorders::Provenance& now,
+                  const std::filesystem::path& checkpoint) {
+  const std::vector<std::string> texts = recorders::differences(before, now);
+  if (texts.empty()) return;
+  core::fail_input({.where = {checkpoint.string(), 0}},
+                   fmt::format("the checkpoint is of another run: {}", fmt::join(texts, "; ")),
+                   "put back what was changed, or let the run begin at its start");
+}
+
+void fail_checkpoint(const std::filesystem::path& checkpoint, const core::BadState& mistake) {
+  core::fail_input(
+      {.where = {checkpoint.string(), 0}},
+      fmt::format("the checkpoint is not one of this run, or damaged: {}", mistake.what()),
+      "name another checkpoint, or let the run begin at its start");
+}
+
+}  // namespace stride::cli

@@ -1,0 +1,26 @@
+// What a run is made from, for whoever repeats it or goes on with it.
+#ifndef STRIDE_MASTER_CLI_PROVENANCE_H
+#define STRIDE_MASTER_CLI_PROVENANCE_H
+
+#include <filesystem>
+
+#include "master/recorders/provenance.h"
+#include "master/scenario/loaded_scenario.h"
+#include "master/util/state_archive.h"
+
+namespace stride::cli {
+
+/// Of a run that this command line has loaded. Reads the files. Throws core::Error (Input).
+recorders::Provenance provenance_of(const scenario::LoadedScenario& loaded);
+
+/// Throws core::Error (Input), at the checkpoint, that names all that differs.
+void require_same(const recorders::Provenance& before, const recorders::Provenance& now,
+                  const std::filesystem::path& checkpoint);
+
+/// Throws core::Error (Input): the checkpoint suits the files, but is none of this run.
+[[noreturn]] void fail_checkpoint(const std::filesystem::path& checkpoint,
+                                  const core::BadState& mistake);
+
+}  // namespace stride::cli
+
+#endif

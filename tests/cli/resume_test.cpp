@@ -1,0 +1,355 @@
+// A run that goes on from a checkpoint, as if it had not ended.
+#include <csignal>
+#include <fstream>
+#include <random>
+#include <set>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/cli/failures.h"
+
+using namespace stride::tests;
+using namespace std::chrono_literals;
+using Catch::Matchers::Contains;
+
+namespace {
+
+constexpr const char* kRecords[] = {"signals.csv", "events.csv", "signals.vcd", "activity.csv"};
+
+/// What run.json says of a run's course, without what it has cost.
+nlohmann::json course(nlohmann::json run) {
+  static const std::set<std::string> kCosts{
+      "wall_time",          "calls",   "saves",   "repeated_steps", "measured_steps", "scenario",
+      "uncertainties",      "resumed", "threads", "parallel_steps", "host",           "phases",
+      "phase_uncertainties"};
+  if (run.is_array()) {
+    for (auto& item : run) item = course(item);
+    return run;
+  }
+  if (!run.is_object()) return run;
+  nlohmann::json kept;
+  for (const auto& [key, value] : run.items()) {
+    if (kCosts.count(key) == 0) kept[key] = course(value);
+  }
+  return kept;
+}
+
+void check_same_results(const fs::path& whole, const fs::path& resumed) {
+  CAPTURE(resumed.string());
+  for (const char* const file : kRecords) {
+    CAPTURE(file);
+    const bool is_same = read(whole / file) == read(resumed / file);
+    CHECK(is_same);
+  }
+  CHECK(course(nlohmann::json::parse(read(whole / "run.json"))) ==
+        course(nlohmann::json::parse(read(resumed / "run.json"))));
+}
+
+std::vector<fs::path> checkpoints(const Workspace& workspace) {
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(workspace / "out/checkpoints")) {
+    files.push_back(entry.path());
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+/// The run as a whole, then with checkpoints, then from each of these.
+void check_resumption(const Parts& parts, const Arguments& options, const Arguments& instants) {
+  const Workspace whole(parts);
+  const Workspace cut(parts);
+  const Outcome first = whole.run(options);
+  INFO(first.err);
+  REQUIRE(first.exit_code == 0);
+  Arguments arguments = options;
+  for (const std::string& instant : instants) {
+    arguments.insert(arguments.end(), {"--checkpoint", instant});
+  }
+  const Outcome second = cut.run(arguments);
+  INFO(second.err);
+  REQUIRE(second.exit_code == 0);
+  check_same_results(whole / "out", cut / "out");
+  const std::vector<fs::path> files = checkpoints(cut);
+  REQUIRE(files.size() == instants.size());
+  for (const fs::path& file : files) {
+    CAPTURE(file.string());
+    const Outcome resumed = cut.stride({"resume", file.string(), "--quiet"});
+    INFO(resumed.err);
+    REQUIRE(resumed.exit_code == 0);
+    check_same_results(whole / "out", cut / "out");
+    const Outcome elsewhere = cut.stride({"resume", file.string(), "--out", "elsewhere"});
+    INFO(elsewhere.err);
+    REQUIRE(elsewhere.exit_code == 0);
+    check_same_results(whole / "out", cut / "elsewhere");
+  }
+  CHECK(cut.left_behind().empty());
+}
+
+Parts plain_parts(const std::string& annotation = "") {
+  return {component("a", "minimal.fmu") + component("b", "minimal.fmu"), connection("a.y", "b.u"),
+          annotation};
+}
+
+/// A ticker that ticks each 0.141 s, and who listens to it.
+Parts ticking_parts(const std::string& annotation = "") {
+  return {component("ticker", "ticker.fmu") + component("listener", "listener.fmu"),
+          connection("ticker.tick.clock", "listener.message.clock") +
+              connection("ticker.tick.number", "listener.message.number") +
+              connection("ticker.tick.picoseconds", "listener.message.picoseconds"),
+          annotation};
+}
+
+}  // namespace
+
+TEST_CASE("a run goes on from a checkpoint to the same results") {
+  check_resumption(plain_parts(), {"--quiet", "--set", "a.u=1"}, {"0", "0.25", "0.7501", "1"});
+}
+
+TEST_CASE("a run goes on in the middle of interventions") {
+  check_resumption(plain_parts(),
+                   {"--quiet", "--set", "a.u=1", "--set-at", "a.u=3@0.4142", "--force",
+                    "b.u@0.31..0.62", "--force", "b.u=5@0.7..0.8"},
+                   {"0.31", "0.4", "0.5", "0.75", "0.9"});
+}
+
+TEST_CASE("a run goes on with messages that are on their way") {
+  check_resumption(ticking_parts(),
+                   {"--quiet", "--delay", "listener.message.number=0.1@0.2..0.6", "--drop",
+                    "listener.message.number@0.7..0.9"},
+                   {"0.141", "0.15", "0.3", "0.43", "0.75", "0.99"});
+}
+
+TEST_CASE("a run goes on with extrapolated inputs, sequential steps and error control") {
+  check_resumption(plain_parts(),
+                   {"--quiet", "--set", "a.u=1", "--extrapolation", "quadratic", "--step", "0.02"},
+                   {"0.02", "0.5"});
+  check_resumption(plain_parts(), {"--quiet", "--set", "a.u=1", "--coupling", "gauss-seidel"},
+                   {"0.5"});
+  check_resumption(
+      plain_parts(),
+      {"--quiet", "--set", "a.u=1", "--policy", "error-controlled", "--extrapolation", "linear"},
+      {"0.1", "0.5"});
+}
+
+TEST_CASE("a run with units in processes of their own goes on") {
+  check_resumption(ticking_parts(), {"--quiet", "--isolate"}, {"0.2", "0.5"});
+  check_resumption(plain_parts(), {"--quiet", "--set", "a.u=1", "--isolate=b"}, {"0.5"});
+}
+
+TEST_CASE("a run on several threads goes on") {
+  check_resumption(plain_parts(), {"--quiet", "--set", "a.u=1", "--threads", "2"}, {"0.5"});
+}
+
+TEST_CASE("captured stimuli go on, and a copy of them where the results go elsewhere") {
+  const Workspace whole(plain_parts());
+  const Workspace cut(plain_parts());
+  const Arguments options{"--quiet", "--set", "a.u=1", "--capture", "b=stimuli.csv"};
+  REQUIRE(whole.run(options).exit_code == 0);
+  Arguments arguments = options;
+  arguments.insert(arguments.end(), {"--checkpoint", "0.5"});
+  REQUIRE(cut.run(arguments).exit_code == 0);
+  const std::string stimuli = read(whole / "stimuli.csv");
+  CHECK(read(cut / "stimuli.csv") == stimuli);
+  REQUIRE(cut.stride({"resume", "out", "--quiet"}).exit_code == 0);
+  CHECK(read(cut / "stimuli.csv") == stimuli);
+  const Outcome elsewhere =
+      cut.stride({"resume", "out", "--quiet", "--out", "elsewhere", "--set-at", "a.u=7@0.75"});
+  INFO(elsewhere.err);
+  REQUIRE(elsewhere.exit_code == 0);
+  CHECK(read(cut / "stimuli.csv") == stimuli);
+  const std::string other = read(cut / "elsewhere/stimuli.csv");
+  const std::size_t place = stimuli.find("0.751,");
+  REQUIRE(place != std::string::npos);
+  CHECK(other.substr(0, place) == stimuli.substr(0, place));
+  CHECK(other != stimuli);
+}
+
+TEST_CASE("a run can go on for longer than it was meant to") {
+  const Workspace whole(plain_parts());
+  const Workspace cut(plain_parts());
+  REQUIRE(whole.run({"--quiet", "--set", "a.u=1", "--stop", "2"}).exit_code == 0);
+  REQUIRE(cut.run({"--quiet", "--set", "a.u=1", "--checkpoint", "1"}).exit_code == 0);
+  const Outcome outcome = cut.stride({"resume", "out", "--stop", "2", "--quiet"});
+  INFO(outcome.err);
+  REQUIRE(outcome.exit_code == 0);
+  check_same_results(whole / "out", cut / "out");
+}
+
+TEST_CASE("a run goes on with other interventions, as one that has had them from the beginning") {
+  const Workspace whole(plain_parts());
+  const Workspace cut(plain_parts());
+  const Arguments intervention{"--set-at", "a.u=7@0.75", "--force", "b.u=1@0.8.."};
+  Arguments arguments{"--quiet", "--set", "a.u=1"};
+  REQUIRE(cut.run({"--quiet", "--set", "a.u=1", "--checkpoint", "0.5"}).exit_code == 0);
+  arguments.insert(arguments.end(), intervention.begin(), intervention.end());
+  REQUIRE(whole.run(arguments).exit_code == 0);
+  Arguments resume{"resume", "out", "--quiet", "--out", "other"};
+  resume.insert(resume.end(), intervention.begin(), intervention.end());
+  REQUIRE(cut.stride(resume).exit_code == 0);
+  check_same_results(whole / "out", cut / "other");
+
+  const Outcome late = cut.stride({"resume", "out", "--set-at", "a.u=7@0.25", "--out", "late"});
+  CHECK(late.exit_code == 2);
+  CHECK_THAT(late.err, Contains("an intervention begins at or before 0.5 s"));
+}
+
+TEST_CASE("a resumed run is resumed again, with all that it was given") {
+  const Workspace whole(plain_parts());
+  const Workspace cut(plain_parts());
+  REQUIRE(
+      whole.run({"--quiet", "--set", "a.u=1", "--set-at", "a.u=7@0.5", "--stop", "2"}).exit_code ==
+      0);
+  REQUIRE(cut.run({"--quiet", "--set", "a.u=1", "--checkpoint", "0.25"}).exit_code == 0);
+  const Outcome first = cut.stride(
+      {"resume", "out", "--quiet", "--set-at", "a.u=7@0.5", "--stop", "2", "--checkpoint", "1.5"});
+  INFO(first.err);
+  REQUIRE(first.exit_code == 0);
+  const Outcome second = cut.stride({"resume", "out", "--quiet"});
+  INFO(second.err);
+  REQUIRE(second.exit_code == 0);
+  check_same_results(whole / "out", cut / "out");
+}
+
+TEST_CASE("other signals are recorded from the checkpoint on") {
+  const Workspace cut(plain_parts());
+  REQUIRE(
+      cut.run({"--quiet", "--set", "a.u=1", "--signals", "b.y", "--checkpoint", "0.5"}).exit_code ==
+      0);
+  const Outcome same = cut.stride({"resume", "out", "--signals", "*", "--quiet"});
+  CHECK(same.exit_code == 2);
+  CHECK_THAT(same.err, Contains("--out FOLDER"));
+  REQUIRE(cut.stride({"resume", "out", "--signals", "*", "--quiet", "--out", "more"}).exit_code ==
+          0);
+  const Csv more(cut / "more/signals.csv");
+  CHECK(more.has("a.y"));
+  CHECK(more.row(0)[0] == "0.501");
+  CHECK(more.numbers("b.y").back() == cut.signals().numbers("b.y").back());
+}
+
+TEST_CASE("what has changed since the checkpoint is named") {
+  const Workspace cut(plain_parts());
+  REQUIRE(cut.run({"--quiet", "--checkpoint", "0.5"}).exit_code == 0);
+  const std::string results = cut.result("signals.csv");
+  std::ofstream(cut / "test.ssd", std::ios::app) << "<!-- changed -->\n";
+  const Outcome outcome = cut.stride({"resume", "out"});
+  CHECK_THAT(input_error_of(outcome),
+             Contains("the checkpoint is of another run: the scenario, ") &&
+                 Contains("test.ssd, is not what it was"));
+  CHECK(cut.result("signals.csv") == results);
+}
+
+TEST_CASE("a folder without checkpoints, a file that is none and missing results are errors") {
+  const Workspace cut(plain_parts());
+  REQUIRE(cut.run({"--quiet"}).exit_code == 0);
+  CHECK_THAT(input_error_of(cut.stride({"resume", "out"})),
+             Contains("no checkpoint in this folder of results") && Contains("--checkpoint-every"));
+  CHECK_THAT(input_error_of(cut.stride({"resume", "test.ssd"})), Contains("a checkpoint"));
+  CHECK_THAT(input_error_of(cut.stride({"resume", "nothing.zip"})), Contains("nothing.zip"));
+  REQUIRE(cut.run({"--quiet", "--checkpoint", "0.5"}).exit_code == 0);
+  fs::remove(cut / "out/events.csv");
+  CHECK_THAT(input_error_of(cut.stride({"resume", "out"})),
+             Contains("events.csv: cannot write on in this file"));
+  CHECK_THAT(input_error_of(cut.run({"--checkpoint", "7"})),
+             Contains("--checkpoint 7: the run is from 0 s to 1 s"));
+  CHECK_THAT(input_error_of(cut.run({"--checkpoint-every", "0"})), Contains("above 0"));
+  CHECK_THAT(input_error_of(cut.run({"--checkpoint", "soon"})), Contains("--checkpoint soon"));
+}
+
+TEST_CASE("a damaged checkpoint is an error, and the results stay what they are") {
+  const Workspace cut(ticking_parts());
+  REQUIRE(cut.run({"--quiet", "--checkpoint", "0.5"}).exit_code == 0);
+  const fs::path file = checkpoints(cut).front();
+  const std::string good = read(file);
+  const std::string results = cut.result("signals.csv");
+  std::mt19937 random(1);
+  int errors = 0;
+  for (int i = 0; i < 60; ++i) {
+    std::string bad = good;
+    if (i % 3 == 0) {
+      bad.resize(random() % good.size());
+    } else {
+      bad[random() % good.size()] ^= static_cast<char>(1 << random() % 8);
+    }
+    std::ofstream(file, std::ios::binary | std::ios::trunc) << bad;
+    const Outcome outcome = cut.stride({"resume", file.string(), "--quiet"});
+    INFO(i << ": " << outcome.err);
+    // of a zip archive some bytes mean nothing, such as the times of its files
+    CHECK((outcome.exit_code == 0 || outcome.exit_code == 2));
+    errors += outcome.exit_code == 2;
+    CHECK(cut.result("signals.csv") == results);
+  }
+  CHECK(errors > 40);
+}
+
+TEST_CASE("of periodic checkpoints the last two stay, and a new run removes them all") {
+  const Workspace cut(plain_parts());
+  REQUIRE(cut.run({"--quiet", "--checkpoint-every", "0.1", "--checkpoint", "0.25"}).exit_code == 0);
+  std::vector<std::string> names;
+  for (const fs::path& file : checkpoints(cut)) names.push_back(file.filename().string());
+  CHECK(names ==
+        std::vector<std::string>{"checkpoint_0.25s.zip", "latest_0.9s.zip", "latest_1s.zip"});
+  REQUIRE(cut.run({"--quiet"}).exit_code == 0);
+  CHECK_FALSE(fs::exists(cut / "out/checkpoints"));
+}
+
+TEST_CASE("a run that a signal ends goes on from there") {
+  Parts parts = ticking_parts();
+  parts.experiment = "<ssd:DefaultExperiment stopTime=\"100000\"/>\n";
+  const Workspace cut(parts);
+  const Arguments arguments =
+      stride_command(Workspace::run_arguments({"--quiet", "--checkpoint-on-signal", "--no-trace"}));
+  {
+    Process process(arguments, cut.scratch().path());
+    await_first_results(process, cut);
+    process.send(SIGTERM);
+    const Outcome outcome = process.wait();
+    CHECK(outcome.exit_code == 1);
+    CHECK_THAT(outcome.err, Contains("interrupted") && Contains("stride resume out"));
+  }
+  const std::string last = last_time(cut);
+  const std::string stop = std::to_string(std::stod(last) + 5);
+  const Outcome resumed = cut.stride({"resume", "out", "--quiet", "--stop", stop});
+  INFO(resumed.err);
+  REQUIRE(resumed.exit_code == 0);
+  const Workspace whole(parts);
+  REQUIRE(whole.run({"--quiet", "--no-trace", "--stop", stop}).exit_code == 0);
+  const bool is_same = whole.result("signals.csv") == cut.result("signals.csv");
+  CHECK(is_same);
+}
+
+TEST_CASE("a run that is killed at any instant goes on to the same results") {
+  Parts parts = ticking_parts();
+  parts.experiment = "<ssd:DefaultExperiment stopTime=\"60\"/>\n";
+  const Workspace whole(parts);
+  const auto began = std::chrono::steady_clock::now();
+  REQUIRE(whole.run({"--quiet", "--checkpoint-every", "2"}).exit_code == 0);
+  const auto length = std::chrono::steady_clock::now() - began;
+  const Workspace cut(parts);
+  std::mt19937 random(7);
+  int resumed = 0;
+  for (int i = 0; i < 40; ++i) {
+    fs::remove_all(cut / "out");
+    {
+      Process process(
+          stride_command(Workspace::run_arguments({"--quiet", "--checkpoint-every", "2"})),
+          cut.scratch().path());
+      std::this_thread::sleep_for(length * (random() % 1000) / 1000);
+      process.send(SIGKILL);
+      process.wait();
+    }
+    if (!fs::exists(cut / "out/checkpoints") || fs::is_empty(cut / "out/checkpoints")) continue;
+    const Outcome outcome = cut.stride({"resume", "out", "--quiet"});
+    INFO(outcome.err);
+    if (outcome.exit_code == 2 && outcome.err.find("no checkpoint in") != std::string::npos) {
+      continue;  // killed in the first one
+    }
+    REQUIRE(outcome.exit_code == 0);
+    for (const char* const file : kRecords) {
+      CAPTURE(file);
+      const bool is_same = whole.result(file) == cut.result(file);
+      CHECK(is_same);
+    }
+    ++resumed;
+  }
+  CHECK(resumed > 10);
+}
