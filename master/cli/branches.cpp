@@ -73,8 +73,6 @@ void Branches::set_work(Prepare prepare, Rest rest) {
   rest_ = std::move(rest);
 }
 
-Branches::~Branches() { wait(); }
-
 std::optional<core::Pause> Branches::next(Time /*now*/) {
   if (has_forked_) return std::nullopt;
   return core::Pause{.time = time_, .before = true};
@@ -91,6 +89,7 @@ void Branches::on_pause(Time now) {
     };
     running_.push_back({i, isolation::Child(work, {.limit = {}, .interrupted = interrupted_})});
   }
+  while (!running_.empty()) collect(std::chrono::milliseconds(100));
 }
 
 /// Those that have ended by then.
@@ -123,10 +122,6 @@ void Branches::note_end(std::size_t branch, const isolation::ChildOutcome& outco
     case End::Killed:
       failure = fmt::format("its process was killed by {}", isolation::signal_name(outcome.code));
   }
-}
-
-void Branches::wait() {
-  while (!running_.empty()) collect(std::chrono::milliseconds(100));
 }
 
 std::string Branches::text() const {

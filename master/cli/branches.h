@@ -48,7 +48,7 @@ struct Branch {
 };
 
 /// Forks the run for each branch, before the step that would reach the instant at which they begin.
-/// The run itself goes on beside them.
+/// The run itself goes on when they have ended: what becomes of it, becomes of it alone.
 class Branches final : public core::RunControl {
  public:
   /// The rest of a branch, in a process of its own. What it throws, or what ends the process, is
@@ -61,18 +61,13 @@ class Branches final : public core::RunControl {
   /// `interrupted`: ends the branches when it is no longer 0.
   Branches(std::vector<Branch> branches, const BranchOptions& options,
            const volatile std::sig_atomic_t* interrupted);
-  /// Waits for those that go on.
-  ~Branches() override;
-
   /// Before the run.
   void set_work(Prepare prepare, Rest rest);
 
   std::optional<core::Pause> next(Time now) override;
   void on_pause(Time now) override;
 
-  /// Waits for all.
-  void wait();
-  /// For people, when all have ended: what became of each.
+  /// For people: what became of each.
   std::string text() const;
   /// Throws core::Error (Run) if one has failed, or the run ended before they began.
   void require_all() const;

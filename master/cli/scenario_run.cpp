@@ -262,6 +262,7 @@ class ScenarioRun {
   Checkpoints::Span span() const;
   checkpoint::Checkpoint take(Time now);
   void make_run();
+  void print_branches() const;
 
   const RunArguments& arguments_;
   Records& records_;
@@ -341,9 +342,7 @@ void ScenarioRun::run(CrashGuard& guard) {
   }
 }
 
-/// Whatever becomes of it, its branches come to their ends.
 void ScenarioRun::make_run() {
-  std::exception_ptr failure;
   try {
     if (is_resumed()) {
       recorded_.resume(*arguments_.resumed);
@@ -351,11 +350,14 @@ void ScenarioRun::make_run() {
       recorded_.run();
     }
   } catch (const std::exception&) {
-    failure = std::current_exception();
+    print_branches();
+    throw;
   }
-  branches_.wait();
+  print_branches();
+}
+
+void ScenarioRun::print_branches() const {
   if (!arguments_.quiet) print_text("{}", branches_.text());
-  if (failure) std::rethrow_exception(failure);
 }
 
 }  // namespace
