@@ -332,12 +332,15 @@ class Simulation::Run {
 
   /// The point that the step policy chooses, or the next event if that is earlier.
   Time next_target() {
-    const std::optional<Time> quiet_until =
-        idle_ ? idle_->all_suspended_until(time_) : std::nullopt;
-    const Time target = quiet_until ? step_policy_->next_while_idle(time_, *quiet_until)
-                                    : step_policy_->next(time_);
-    return std::min({target, event_handler_.next_event().value_or(target),
-                     interventions_.next().value_or(target)});
+    const Time target = event_handler_.next_event(regular_target());
+    return interventions_.next(target);
+  }
+  Time regular_target() {
+    if (idle_) {
+      if (const auto quiet_until = idle_->all_suspended_until(time_))
+        return step_policy_->next_while_idle(time_, *quiet_until);
+    }
+    return step_policy_->next(time_);
   }
 
   void handle_events() {

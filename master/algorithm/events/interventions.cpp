@@ -22,7 +22,7 @@ Interventions::Interventions(RunContext& context, EventHandler& event_handler, I
 }
 
 void Interventions::make_all(Time time) {
-  for (; next() == time; ++made_) {
+  for (; is_due(time); ++made_) {
     const Change& change = changes_[made_];
     change.is_end ? end(*change.intervention, time) : begin(*change.intervention, time);
   }

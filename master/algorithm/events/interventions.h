@@ -1,9 +1,9 @@
 #ifndef STRIDE_MASTER_ALGORITHM_EVENTS_INTERVENTIONS_H
 #define STRIDE_MASTER_ALGORITHM_EVENTS_INTERVENTIONS_H
 
+#include <algorithm>
 #include <cstddef>
 #include <memory>
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -25,15 +25,15 @@ class Interventions {
   /// All must outlive this object. `idle`: optional idle scheduler.
   Interventions(RunContext& context, EventHandler& event_handler, IdleScheduler* idle);
 
-  /// The earliest instant at which something is still to be changed.
-  std::optional<Time> next() const {
-    if (made_ == changes_.size()) return std::nullopt;
-    return changes_[made_].time;
+  /// The earliest instant at which something is still to be changed, or `target` if that is
+  /// earlier.
+  Time next(Time target) const {
+    return made_ == changes_.size() ? target : std::min(changes_[made_].time, target);
   }
   /// Between EventHandler::begin_instant() and handle_events() of a communication point: what is
   /// due.
   void make(Time time) {
-    if (next() == time) [[unlikely]]
+    if (is_due(time)) [[unlikely]]
       make_all(time);
   }
 
@@ -45,6 +45,7 @@ class Interventions {
     bool is_end;
   };
 
+  bool is_due(Time time) const { return made_ != changes_.size() && changes_[made_].time == time; }
   void make_all(Time time);
   void begin(const Intervention& intervention, Time time);
   void end(const Intervention& intervention, Time time);
