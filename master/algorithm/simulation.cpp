@@ -332,15 +332,13 @@ class Simulation::Run {
 
   /// The point that the step policy chooses, or the next event if that is earlier.
   Time next_target() {
-    const Time target = event_handler_.next_event(regular_target());
-    return interventions_.next(target);
-  }
-  Time regular_target() {
+    Time target = time_;
     if (idle_) {
-      if (const auto quiet_until = idle_->all_suspended_until(time_))
-        return step_policy_->next_while_idle(time_, *quiet_until);
+      const auto quiet_until = idle_->all_suspended_until(time_);
+      if (quiet_until) target = step_policy_->next_while_idle(time_, *quiet_until);
     }
-    return step_policy_->next(time_);
+    if (target == time_) target = step_policy_->next(time_);
+    return interventions_.next(event_handler_.next_event(target));
   }
 
   void handle_events() {
