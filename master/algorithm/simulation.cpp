@@ -417,12 +417,13 @@ class Simulation::Run {
 
   /// The point that the step policy chooses, or the next event if that is earlier.
   Time next_target() {
-    const std::optional<Time> quiet_until =
-        idle_ ? idle_->all_suspended_until(time_) : std::nullopt;
-    const Time target = quiet_until ? step_policy_->next_while_idle(time_, *quiet_until)
-                                    : step_policy_->next(time_);
-    return std::min({target, event_handler_.next_event().value_or(target),
-                     interventions_.next().value_or(target)});
+    Time target = time_;
+    if (idle_) {
+      const auto quiet_until = idle_->all_suspended_until(time_);
+      if (quiet_until) target = step_policy_->next_while_idle(time_, *quiet_until);
+    }
+    if (target == time_) target = step_policy_->next(time_);
+    return interventions_.next(event_handler_.next_event(target));
   }
 
   void handle_events() {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <utility>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -14,6 +15,9 @@ namespace {
 
 using namespace std::chrono_literals;
 
+/// Where communication steps are shorter, the clock is not read after each of them.
+constexpr auto kShortStep = 10us;
+constexpr int kMostUnread = 15;
 /// Between two updates of a line that is rewritten.
 constexpr auto kRefresh = 100ms;
 /// A log gets a line at each tenth of a run, within these bounds.
@@ -78,13 +82,25 @@ void Progress::on_start(std::span<const core::Signal>) {
 void Progress::on_communication_point(Time time) {
   if (form_ == Form::Nothing) return;
   time_ = time;
-  now_ = Clock::now();
+  if (unread_ > 0) {
+    --unread_;
+    return;
+  }
+  read_clock();
   pace_->note(now_, time);
   if (!is_due(time, now_)) return;
   show(state());
   shown_ = now_;
   const Duration tenth = std::max((stop_ - start_) / 10, Duration(1));
   next_tenth_ = time + (tenth - (time - start_) % tenth);
+}
+
+/// Reading it takes longer than a communication step of small units.
+void Progress::read_clock() {
+  const Clock::time_point before = std::exchange(now_, Clock::now());
+  const bool are_short = now_ - before < kShortStep * (between_ + 1);
+  between_ = are_short ? std::min(2 * between_ + 1, kMostUnread) : 0;
+  unread_ = between_;
 }
 
 bool Progress::is_due(Time time, Clock::time_point now) const {

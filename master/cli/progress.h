@@ -76,6 +76,7 @@ class Progress : public core::Observer {
   };
 
   static Form form_of(ProgressStyle style);
+  void read_clock();
   bool is_due(Time time, Clock::time_point now) const;
   State state() const;
   void show(const State& state) const;
@@ -88,6 +89,8 @@ class Progress : public core::Observer {
   std::optional<Pace> pace_;  ///< from the begin of the run on
   Clock::time_point began_{}, now_{}, shown_{};
   Time time_{}, next_tenth_{};
+  int between_ = 0,
+      unread_ = 0;  ///< communication points between two readings, and the rest of them
 };
 
 }  // namespace stride::cli

@@ -196,7 +196,7 @@ RecordedRun::RecordedRun(const RunSetup& setup, std::vector<std::unique_ptr<core
   if (!checks_.is_empty()) simulation_.add_observer(checks_, checks_.signals());
   if (!setup_.capture.is_empty()) simulation_.add_observer(setup_.capture);
   if (!setup_.display.quiet) simulation_.add_observer(summary_, summary_.signals());
-  simulation_.add_observer(progress_);
+  if (setup_.display.progress != ProgressStyle::None) simulation_.add_observer(progress_);
   if (!setup_.is_resumed) announce();
 }
 

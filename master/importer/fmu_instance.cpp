@@ -99,7 +99,7 @@ bool FmuInstance::declares(core::CapabilityId id) const {
 Status FmuInstance::check_status(const char* name, Status status) {
   if (status == Status::Discard || (status == Status::Pending && may_be_pending())) return status;
   if (status != Status::Ok && status != Status::Warning) fail_call(name, status);
-  if (has_messages_.load(std::memory_order_relaxed)) drop_messages();
+  if (has_messages()) drop_messages();
   return status;
 }
 
@@ -173,7 +173,7 @@ void FmuInstance::fail_thrown(const char* function) {
     what = exception.what();
   } catch (...) {  // it has no text
   }
-  if (is_copy_of_process()) leave_fork();
+  if (is_copy_of_process()) leave_fork(function);
   failed_in_ = function;
   check_mode(function);
   present_.end();
@@ -188,16 +188,17 @@ void FmuInstance::fail_thrown(const char* function) {
 /// process that is made without fork() is seen by its ForkMark alone, which a function that the
 /// unit calls back may set anew.
 void FmuInstance::note_fork() noexcept {
-  core::Listed<FmuInstance>::for_each(
-      [](FmuInstance& instance) { instance.is_fork_ = instance.present_.is_by_this_thread(); });
+  core::Listed<FmuInstance>::for_each([](FmuInstance& instance) {
+    instance.present_.is_by_this_thread() ? instance.add(kFork) : instance.remove(kFork);
+  });
 }
 
 /// What is in memory, as lines of results, is the first process's to write.
-void FmuInstance::leave_fork() const {
+void FmuInstance::leave_fork(const char* function) const {
   const std::string text = core::terminal_text(fmt::format(
       "stride: warning: unit '{}': {} called fork() and returned in both processes; the new "
       "one ends here\n",
-      name_, present_.function()));
+      name_, function));
   (void)!::write(STDERR_FILENO, text.data(), text.size());
   ::_exit(0);
 }
@@ -324,7 +325,7 @@ void FmuInstance::receive(Status status, const char* category, const char* messa
     }
     if (status == Status::Discard || status == Status::Error || status == Status::Fatal) {
       const std::lock_guard lock(messages_mutex_);
-      has_messages_ = true;
+      add(kMessages);
       if (messages_.size() < kMaxMessages) {
         messages_.push_back(text);
         if (is_reason_of_call(status, text)) {
@@ -363,13 +364,13 @@ void FmuInstance::log_held() {
 void FmuInstance::drop_messages() {
   log_held();
   const std::lock_guard lock(messages_mutex_);
-  has_messages_ = false;
+  remove(kMessages);
   messages_.clear();
 }
 
 std::string FmuInstance::take_messages(const std::string& function) {
   const std::lock_guard lock(messages_mutex_);
-  has_messages_ = false;
+  remove(kMessages);
   held_.clear();
   std::vector<std::string> messages = std::exchange(messages_, {});
   if (messages.empty()) return "the unit gives no reason";
@@ -382,7 +383,7 @@ std::string FmuInstance::take_messages(const std::string& function) {
 
 void FmuInstance::take_rejection_reason(const char* function) {
   log_held();
-  rejection_reason_ = has_messages_ ? take_messages(function) : "";
+  rejection_reason_ = has_messages() ? take_messages(function) : "";
 }
 
 void FmuInstance::warn(const std::string& message) const {

@@ -150,13 +150,13 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics, public Call
   }
   [[gnu::always_inline]] void end_call() {
     if (is_copy_of_process()) [[unlikely]]
-      leave_fork();
-    if (!is_in_sequence_) check_mode(present_.function());
+      leave_fork(present_.function());
+    if (!present_.is_in_sequence()) check_mode(present_.function());
     present_.end();
   }
   /// Calls of one unit that nothing else runs between: what is the same for all of them is noted at
   /// the beginning, and at the end it is looked whether the processor is in the mode that all units
-  /// depend on.
+  /// depend on. Other calls of the unit meanwhile belong to the sequence.
   class CallSequence {
    public:
     /// From this time on. `function` is named if the mode is another one.
@@ -275,6 +275,7 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics, public Call
   std::string take_messages(const std::string& function);
   /// Forgets them where the call is no failure, and logs those that were held back.
   void drop_messages();
+  bool has_messages() const { return has(kMessages); }
   /// take_messages() of a rejected step; empty if the unit gave none.
   void take_rejection_reason(const char* function);
   /// What helps where the unit does not accept its present step since it is shorter than the
@@ -325,10 +326,9 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics, public Call
   const char* failed_in_ = nullptr;  ///< the function after whose status nothing goes on
   std::uint64_t calls_ = 0;
   PresentCall present_;
-  bool was_restored_ = false;  ///< from a kept state, and no step has ended since
-  bool is_repeating_ = false;  ///< what it logs has been logged before
-  bool is_in_sequence_ = false;
-  bool is_fork_ = false;   ///< the present function has made this process, by fork()
+  std::atomic<std::uint8_t> notices_{0};  ///< of Notice
+  bool was_restored_ = false;             ///< from a kept state, and no step has ended since
+  bool is_repeating_ = false;             ///< what it logs has been logged before
   int watched_calls_ = 0;  ///< so many of the next ones are followed by restore_process()
   const core::ProcessorMode mode_ = core::ProcessorMode::present();
   std::optional<Time> time_;
@@ -337,7 +337,6 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics, public Call
     Time from{}, to{};
   } present_step_;
   const std::atomic<bool>& is_unusable_;  ///< the library
-  std::atomic<bool> has_messages_ = false;
   std::exception_ptr callback_failure_;
 
   std::string name_;
@@ -348,11 +347,23 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics, public Call
  private:
   [[noreturn]] void fail_not_callable(const char* name) const;
   [[noreturn]] void fail_missing(const char* name, const char* capability) const;
+  /// What a call may leave to be looked at when it has returned.
+  enum Notice : std::uint8_t {
+    kMessages = 1,  ///< messages_ or held_ has some
+    kFork = 2,      ///< the present function has made this process, by fork()
+  };
+  bool has(Notice notice) const { return (notices_.load(std::memory_order_relaxed) & notice) != 0; }
+  void add(Notice notice) { notices_.fetch_or(notice); }
+  void remove(Notice notice) { notices_.fetch_and(static_cast<std::uint8_t>(~notice)); }
+  /// Whether the call that has just returned left nothing but its status.
+  [[gnu::always_inline]] bool is_quiet() const {
+    return notices_.load(std::memory_order_relaxed) == 0 && core::ForkMark::is_set();
+  }
   [[gnu::always_inline]] bool is_copy_of_process() const {
-    return is_fork_ || !core::ForkMark::is_set();
+    return has(kFork) || !core::ForkMark::is_set();
   }
   static void note_fork() noexcept;
-  [[noreturn]] void leave_fork() const;
+  [[noreturn]] void leave_fork(const char* function) const;
   std::string short_step_hint() const;
   [[gnu::always_inline]] void check_mode(const char* function) {
     if (!mode_.is_present()) [[unlikely]]

@@ -34,8 +34,7 @@ template <class Function, class... Arguments>
   require(name, function, "values of this type");
   const auto status =
       static_cast<Status>(guarded(name, [&] { return function(instance_, arguments...); }));
-  const bool is_quiet = !has_messages_.load(std::memory_order_relaxed);
-  if (status == Status::Ok && is_quiet) [[likely]]
+  if (status == Status::Ok && !has_messages()) [[likely]]
     return status;
   return check_status(name, status);
 }
@@ -57,16 +56,14 @@ template <class Function, class... Arguments>
                                                                       Time time)
     : unit_(unit), function_(function) {
   unit.check_callable(function);
-  unit.is_in_sequence_ = true;
   unit.time_ = time;
   unit.present_.begin_sequence(time);
   core::ForkMark::set();
 }
 
 [[gnu::always_inline]] inline FmuInstance::CallSequence::~CallSequence() {
-  unit_.is_in_sequence_ = false;
   unit_.check_mode(function_);
-  unit_.present_.end();
+  unit_.present_.end_sequence();
 }
 
 template <class Function, class... Arguments>
@@ -81,10 +78,9 @@ template <class Function, class... Arguments>
   } catch (...) {
     unit_.fail_thrown(name);
   }
-  if (unit_.is_copy_of_process()) [[unlikely]]
-    unit_.leave_fork();
-  if (status == Status::Ok && !unit_.has_messages_.load(std::memory_order_relaxed)) [[likely]]
+  if (status == Status::Ok && unit_.is_quiet()) [[likely]]
     return status;
+  if (unit_.is_copy_of_process()) unit_.leave_fork(name);
   return unit_.check_status(name, status);
 }
 
@@ -139,7 +135,7 @@ bool FmuInstance::save_by(const char* name, Function* function, void*& state) {
   check_callable(name);
   const auto status =
       static_cast<Status>(guarded(name, [&] { return function(instance_, &state); }));
-  if (status == Status::Ok && !has_messages_.load(std::memory_order_relaxed)) [[likely]]
+  if (status == Status::Ok && !has_messages()) [[likely]]
     return true;
   if (status == Status::Error || status == Status::Discard) {
     state = nullptr;  // what a failed call leaves there is undefined

@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string_view>
 
@@ -14,24 +15,28 @@
 
 namespace stride::importer {
 
-/// Its address identifies a thread.
-inline thread_local char this_thread = 0;
+/// Its address identifies a thread. Both are in the program itself: no library has them, so they
+/// need no look-up.
+[[gnu::tls_model("initial-exec")]] inline thread_local char this_thread = 0;
 
 class PresentCall;
 /// The last one that this thread has begun; its object may be gone.
-inline thread_local const PresentCall* last_call_of_thread = nullptr;
+[[gnu::tls_model("initial-exec")]] inline thread_local const PresentCall* last_call_of_thread =
+    nullptr;
 
-/// What the process that watches this one sees of a call: see core::Outliving.
-struct LeftCall {
+/// What the process that watches this one sees of a call: see core::Outliving. What each call
+/// writes is in one cache line.
+struct alignas(64) LeftCall {
   static constexpr std::size_t kMostOutliving = 1024;
 
   /// The name of the unit and the file of its component are cut off if they are long.
   LeftCall(std::string_view unit_name, const core::Location& where)
       : unit(unit_name), file(where.file), line(where.line) {}
 
-  std::atomic<const char*> function{nullptr};  ///< null if there is no call
+  std::atomic<const char*> function{nullptr};  ///< of the last call; null if there was none
   std::atomic<const char*> thread{nullptr};    ///< which makes it: its address of this_thread
   Time time{};
+  std::atomic<bool> is_unfinished{false};
   bool has_time = false;
   const core::FixedText<128> unit;
   const core::FixedText<256> file;  ///< with `line`, the component's position in the scenario
@@ -42,35 +47,33 @@ struct LeftCall {
 /// read from the memory of the unit. One thread makes calls; others, handlers of signals, and the
 /// process that watches this one may look at any time. Nothing here allocates or locks.
 ///
-/// A copy of the process, which the function may make, has the call as it was then.
+/// Calls that a thread makes one after the other are a sequence: the first of them notes what is
+/// the same for all, and each notes its function, which stays noted until the next one begins.
+///
+/// A copy of the process, which the function may make, knows for itself whether there is a call,
+/// and of which thread. Its function is the one that the first process has called last.
 class PresentCall {
  public:
   /// Each call is written to `note` as well, for another process; null = nowhere.
   PresentCall(std::string_view unit, const core::Location& where, CallNote* note)
       : left_(unit, where), note_(note) {}
 
-  /// `function` must outlive the call.
+  /// `function` must outlive the call. Within a sequence the call is one of it.
   [[gnu::always_inline]] void begin(const char* function,
                                     const std::optional<Time>& time) noexcept {
     left_->has_time = time.has_value();  // not as a whole, which would wait for its last change
-    begin_sequence(time.value_or(Time{}));
+    begin_any(time.value_or(Time{}),
+              extent() == Extent::Sequence ? Extent::Sequence : Extent::Call);
     begin_next(function);
   }
-  /// Before calls that this thread makes one after the other: what is the same for all of them.
-  /// Behind a call with a time.
+  /// Before calls with a time.
   [[gnu::always_inline]] void begin_sequence(Time time) noexcept {
-    last_call_of_thread = this;
-    const char* const thread = &this_thread;
-    thread_.store(thread, std::memory_order_relaxed);
-    left_->thread.store(thread, std::memory_order_relaxed);
-    left_->time = time;
+    begin_any(time, Extent::Sequence);
   }
   /// Another time than that of the sequence from here on.
   [[gnu::always_inline]] void set_time(Time time) noexcept { left_->time = time; }
   /// One of a sequence; no end() is needed between them.
   [[gnu::always_inline]] void begin_next(const char* function) noexcept {
-    function_.store(function, std::memory_order_relaxed);
-    is_unfinished_.store(true, std::memory_order_relaxed);
     left_->function.store(function, std::memory_order_relaxed);
     if (note_ != nullptr) [[unlikely]]
       note_->write(function, left_->time);
@@ -80,9 +83,14 @@ class PresentCall {
     variable_.store(variable, std::memory_order_relaxed);
     if (note_ != nullptr) note_->write_variable(*variable);
   }
+  /// Within a sequence only the other process forgets the call.
   [[gnu::always_inline]] void end() noexcept {
-    is_unfinished_.store(false, std::memory_order_relaxed);
-    left_->function.store(nullptr, std::memory_order_relaxed);
+    if (!is_in_sequence()) return end_sequence();
+    if (note_ != nullptr) note_->clear();
+  }
+  [[gnu::always_inline]] void end_sequence() noexcept {
+    extent_.store(Extent::None, std::memory_order_relaxed);
+    left_->is_unfinished.store(false, std::memory_order_relaxed);
     if (note_ != nullptr) [[unlikely]]
       note_->clear();
   }
@@ -91,12 +99,12 @@ class PresentCall {
     end();
   }
 
+  bool is_in_sequence() const noexcept { return extent() == Extent::Sequence; }
   /// Which thread makes it, or has made the last one: its address of this_thread.
   const char* thread() const noexcept { return thread_.load(std::memory_order_relaxed); }
   /// Null if there is no call.
   const char* function() const noexcept {
-    const bool is_unfinished = is_unfinished_.load(std::memory_order_relaxed);
-    return is_unfinished ? function_.load(std::memory_order_relaxed) : nullptr;
+    return extent() != Extent::None ? last_function() : nullptr;
   }
   bool is_by_this_thread() const noexcept {
     return function() != nullptr && thread() == &this_thread;
@@ -104,7 +112,7 @@ class PresentCall {
   /// The function of the last call of all that this thread has made; null if it is no call of this
   /// object.
   const char* last_function_of_thread() const noexcept {
-    return last_call_of_thread == this ? function_.load(std::memory_order_relaxed) : nullptr;
+    return last_call_of_thread == this ? last_function() : nullptr;
   }
   /// Null if no value is being read.
   const core::ValueReference* variable() const noexcept {
@@ -112,8 +120,24 @@ class PresentCall {
   }
 
  private:
-  std::atomic<const char*> function_{nullptr};  ///< of the last one
-  std::atomic<bool> is_unfinished_{false};
+  enum class Extent : std::uint8_t { None, Call, Sequence };
+
+  [[gnu::always_inline]] void begin_any(Time time, Extent extent) noexcept {
+    LeftCall& left = *left_;
+    last_call_of_thread = this;
+    const char* const thread = &this_thread;
+    thread_.store(thread, std::memory_order_relaxed);
+    extent_.store(extent, std::memory_order_relaxed);
+    left.thread.store(thread, std::memory_order_relaxed);
+    left.time = time;
+    left.is_unfinished.store(true, std::memory_order_relaxed);
+  }
+  Extent extent() const noexcept { return extent_.load(std::memory_order_relaxed); }
+  const char* last_function() const noexcept {
+    return left_->function.load(std::memory_order_relaxed);
+  }
+
+  std::atomic<Extent> extent_{Extent::None};
   std::atomic<const char*> thread_{nullptr};
   core::Outliving<LeftCall> left_;
   CallNote* const note_;

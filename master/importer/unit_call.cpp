@@ -37,7 +37,7 @@ std::vector<UnitCall> left_calls(const char* thread) {
   std::vector<UnitCall> calls;
   core::Outliving<LeftCall>::for_each_left([&](const LeftCall& call) {
     const char* const function = call.function;
-    if (function == nullptr) return;
+    if (function == nullptr || !call.is_unfinished) return;
     calls.push_back({.function = name_at(function),
                      .unit = std::string(call.unit.view()),
                      .where = {std::string(call.file.view()), call.line},

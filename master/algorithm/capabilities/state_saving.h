@@ -4,6 +4,7 @@
 #include <cstddef>
 
 #include "master/algorithm/capability.h"
+#include "master/algorithm/unit.h"
 
 namespace stride::core {
 
@@ -18,6 +19,15 @@ class StateSaving : public Capability {
   virtual void save_state() = 0;
   /// Makes the unit what it was at save_state(), any number of times. Fails if the slot is empty.
   virtual void restore_state() = 0;
+  /// Sets the inputs, saves the state with them, steps and gets the outputs, as Unit::step() does:
+  /// for units to which these cost less together. `unit` is the one that is to be called, which is
+  /// this one or decorates it.
+  virtual StepResult save_with_step(Unit& unit, const StepInterval& interval,
+                                    const StepValues& values) {
+    for (const BoundValues& input : values.inputs) unit.set(input.references, *input.block);
+    save_state();
+    return unit.step(interval, {{}, values.outputs});
+  }
   /// Selects the slot that the functions above, and StateSerialization, use: slot 0 until another
   /// is selected. The other slots keep their states. A unit with one slot throws std::logic_error.
   virtual void select_state(std::size_t slot) = 0;

@@ -45,7 +45,7 @@ class Clocks {
   void resume(const Clocks& other);
 
   /// The next tick, after the last due().
-  std::optional<Time> next() const { return next_; }
+  const std::optional<Time>& next() const { return next_; }
   /// The components of which a clock ticks at `time`, in order.
   std::span<const std::size_t> due(Time time) {
     const bool is_sure = !is_stale_ && due_.empty();

@@ -14,9 +14,9 @@ namespace {
 /// Event iterations at one instant after which the run fails.
 constexpr std::uint32_t kEventLimit = 1000;
 
-std::optional<Time> earlier(std::optional<Time> one, std::optional<Time> other) {
-  if (!one || !other) return one ? one : other;
-  return std::min(*one, *other);
+/// By reference, since a copy of an optional value that was just written stalls the processor.
+void bring_forward(Time& time, const std::optional<Time>& event) {
+  if (event && *event < time) time = *event;
 }
 
 }  // namespace
@@ -72,8 +72,10 @@ void EventHandler::persist(StateArchive& state, Time start, Time now) {
   messages_.persist(state, now);
 }
 
-std::optional<Time> EventHandler::next_event() const {
-  return earlier(earlier(clocks_.next(), announced_), messages_.next_delivery());
+Time EventHandler::next_event(Time target) const {
+  bring_forward(target, clocks_.next());
+  bring_forward(target, announced_);
+  return messages_.has_delivery(target) ? messages_.next_delivery() : target;
 }
 
 void EventHandler::begin_instant(Time time) {

@@ -71,8 +71,8 @@ class EventHandler : private OrderedEvaluation::Participants,
   std::span<const char> had_event() const { return had_event_; }
 
   /// The earliest event announced, tick of a time-based clock, or arrival of a delayed message, for
-  /// later than the last handle_events().
-  std::optional<Time> next_event() const;
+  /// later than the last handle_events(), or `target` if that is earlier.
+  Time next_event(Time target) const;
 
  private:
   std::size_t count() const { return units_.size(); }

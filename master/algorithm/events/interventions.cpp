@@ -48,7 +48,7 @@ void Interventions::go_on(Time now) {
 }
 
 void Interventions::make_all(Time time) {
-  for (; next() == time; ++made_) {
+  for (; is_due(time); ++made_) {
     const Change& change = changes_[made_];
     change.is_end ? end(*change.intervention, time) : begin(*change.intervention, time);
   }

@@ -1,10 +1,10 @@
 #ifndef STRIDE_MASTER_ALGORITHM_EVENTS_INTERVENTIONS_H
 #define STRIDE_MASTER_ALGORITHM_EVENTS_INTERVENTIONS_H
 
+#include <algorithm>
 #include <cstddef>
 #include <deque>
 #include <memory>
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -33,15 +33,15 @@ class Interventions {
   /// is forced is in the exchange.
   void go_on(Time now);
 
-  /// The earliest instant at which something is still to be changed.
-  std::optional<Time> next() const {
-    if (made_ == changes_.size()) return std::nullopt;
-    return changes_[made_].time;
+  /// The earliest instant at which something is still to be changed, or `target` if that is
+  /// earlier.
+  Time next(Time target) const {
+    return made_ == changes_.size() ? target : std::min(changes_[made_].time, target);
   }
   /// Between EventHandler::begin_instant() and handle_events() of a communication point: what is
   /// due.
   void make(Time time) {
-    if (next() == time) [[unlikely]]
+    if (is_due(time)) [[unlikely]]
       make_all(time);
   }
 
@@ -55,6 +55,7 @@ class Interventions {
 
   void plan(const Intervention& intervention);
   void sort();
+  bool is_due(Time time) const { return made_ != changes_.size() && changes_[made_].time == time; }
   void make_all(Time time);
   void begin(const Intervention& intervention, Time time);
   void end(const Intervention& intervention, Time time);

@@ -63,10 +63,8 @@ class MessageExchange {
   void persist(StateArchive& state, Time now);
 
   /// When the next delayed message arrives.
-  std::optional<Time> next_delivery() const {
-    if (delayed_.empty()) return std::nullopt;
-    return delayed_.front().due;
-  }
+  Time next_delivery() const { return delayed_.front().due; }
+  /// Whether there is one up to this time.
   bool has_delivery(Time time) const { return !delayed_.empty() && delayed_.front().due <= time; }
 
  private:

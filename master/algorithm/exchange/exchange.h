@@ -166,7 +166,7 @@ class Exchange {
   using Transfers = std::vector<std::vector<Transfer>>;  // by component; final once it is planned
 
   /// What a step of a unit needs.
-  struct Port {
+  struct alignas(64) Port {
     StepValues values;  ///< the inputs are continuous ones
     bool has_discrete_inputs;
     std::uint64_t written_route = 0;  ///< since which the inputs are written

@@ -81,6 +81,12 @@ StepResult CoastingUnit::step(const StepInterval& interval, const StepValues& va
 }
 
 StepResult CoastingUnit::save_and_step(const StepInterval& interval, const StepValues& values) {
+  if (is_save_due() && interval_.begin_single_step()) [[likely]] {
+    stretch_ = 1;
+    begin_log();
+    interval_.count_step();
+    return state_.save_with_step(inner(), interval, values);
+  }
   StepValues given = values;
   save_behind_inputs(given, false);
   return make_step(interval, given);
@@ -187,9 +193,11 @@ void CoastingUnit::begin_log() {
 
 void CoastingUnit::save_measured() {
   if (!is_measured_) return state_.save_state();
-  const auto began = WallClock::Source::now();
+  using Clock = WallClock::Source;
+  const auto before = Clock::now();
+  const auto began = Clock::now();
   state_.save_state();
-  save_cost_ = WallClock::Source::now() - began;
+  save_cost_ = Clock::now() - began - (began - before);  // a reading may take longer than the save
 }
 
 /// From the first steps in it follows what it can be: later ones allocate nothing.

@@ -57,7 +57,7 @@ class CoastingUnit : public ForwardingUnit, public StateSaving, public Concurren
   /// `values.outputs` must stay what and where they are until the next save of the state.
   StepResult step(const StepInterval& interval, const StepValues& values) override;
   /// set() with the inputs, save_state() and step() in one; the inputs, too, must stay where they
-  /// are.
+  /// are. A state that is saved for this step alone has the inputs in it, so nothing is noted.
   StepResult save_and_step(const StepInterval& interval, const StepValues& values);
   void begin_step(const StepInterval& interval, const StepValues& values,
                   const Extras& extras) override;

@@ -14,6 +14,11 @@ constexpr std::size_t kMemory = 4096;
 constexpr double kNoteCost = 50;
 /// Likewise where it goes to memory.
 constexpr double kFarNoteCost = 150;
+/// Where the caches have no room for the notes of so many steps, they have none for the rest that
+/// they take, either.
+constexpr std::size_t kFewNear = 16;
+/// What they cost then.
+constexpr double kCrampedNoteCost = 100;
 
 /// A moving average over the last eight or so. An interruption of the machine counts as little more
 /// than the rest.
@@ -43,7 +48,7 @@ void SaveInterval::add_costs(Cost save, Cost step) {
 
 /// That no step was rolled back yet does not mean that none will be.
 double SaveInterval::best() const {
-  if (save_cost_ <= kNoteCost) return 1;
+  if (save_cost_ <= (near_ < kFewNear ? kCrampedNoteCost : kNoteCost)) return 1;
   const double share = static_cast<double>(rollbacks_ + 1) / static_cast<double>(steps_ + 1);
   return std::sqrt(2 * save_cost_ / (share * step_cost_));
 }

@@ -24,12 +24,18 @@ class SaveInterval {
 
   /// A save begins a stretch of at most as many steps as are returned.
   std::size_t begin_stretch() {
+    is_measured_ = is_next_measured();
     ++stretches_;
-    const std::size_t measured = stretches_ < kEarly ? kMeasuredEarly : kMeasured;
-    is_measured_ = adapts_ && stretches_ % measured == 0;
     if (is_measured_) [[unlikely]]
       choose();
     return chosen_;
+  }
+  /// Likewise, but only a stretch of one step that is not measured: whether it has begun.
+  bool begin_single_step() {
+    if (chosen_ != 1 || is_next_measured()) return false;
+    is_measured_ = false;
+    ++stretches_;
+    return true;
   }
   /// Whether that save, and the first step of the stretch, are to be measured.
   bool is_measured() const { return is_measured_; }
@@ -49,9 +55,13 @@ class SaveInterval {
   void set_near(std::size_t steps) { near_ = std::max<std::size_t>(steps, 1); }
 
  private:
-  /// One stretch of so many is measured; of the first ones, more.
+  /// One stretch of so many is measured; of the first ones, more. Powers of two.
   static constexpr std::size_t kMeasured = 128, kMeasuredEarly = 16, kEarly = 512;
 
+  bool is_next_measured() const {
+    const std::size_t measured = stretches_ + 1 < kEarly ? kMeasuredEarly : kMeasured;
+    return adapts_ && ((stretches_ + 1) & (measured - 1)) == 0;
+  }
   void choose();
   double best() const;
 

@@ -27,11 +27,11 @@ bool is_main_only(const RunOptions& options, std::size_t component) {
 
 Stepper::UnitStep::UnitStep(Unit& stepped, CoastingUnit* coasting, const StepOrderEntry& its_entry)
     : unit(&stepped),
-      entry(&its_entry),
+      state(coasting),
       component(static_cast<std::uint32_t>(its_entry.component)),
       saves_state(its_entry.saves_state),
       can_vary_step(its_entry.can_vary_step),
-      state(coasting),
+      entry(&its_entry),
       concurrent(stepped.capability<ConcurrentSteps>()) {}
 
 Stepper::Stepper(RunContext& context, const std::vector<StepOrderEntry>& order,
@@ -150,20 +150,20 @@ Time Stepper::make_passes(Time from, Time target) {
   was_parallel_ = balancer_.is_parallel();
   if (from != last_end_) last_end_seconds_ = to_seconds(from);
   const double from_seconds = last_end_seconds_;
-  while (true) {
+  for (bool is_first = true;; is_first = false) {
     const StepInterval interval(from, from_seconds, target);
     last_end_ = target;
     last_end_seconds_ = interval.end_seconds;
-    const Time reached = make_pass(interval);
+    const Time reached = make_pass(interval, is_first);
     if (reached == target) return target;
     target = reached;
   }
 }
 
 /// Returns the target if all units have reached it, else the nearer one for the next pass.
-inline Time Stepper::make_pass(const StepInterval& interval) {
+inline Time Stepper::make_pass(const StepInterval& interval, bool is_first) {
   if (!balancer_.is_parallel() && !has_concurrent_) [[likely]]
-    return step_one_by_one(interval);
+    return step_one_by_one(interval, is_first);
   for (std::size_t i = 0; i < stages_.size(); ++i) {
     const Time reached = step_stage(stages_[i], balancer_.shares(i), interval);
     if (reached != interval.to) return reached;
@@ -172,12 +172,12 @@ inline Time Stepper::make_pass(const StepInterval& interval) {
 }
 
 /// To the end of the stage in which one of the units stopped.
-inline Time Stepper::step_one_by_one(const StepInterval& interval) {
-  const bool may_be_plain = !step_clock_.measures() && interval.from != interval.to;
+inline Time Stepper::step_one_by_one(const StepInterval& interval, bool is_first_pass) {
+  const bool may_be_plain =
+      is_first_pass && !step_clock_.measures() && interval.from != interval.to;
   Time reached = interval.to;
   for (UnitStep& unit_step : unit_steps_) {
-    const bool is_first = unit_step.communication_step != communication_step_;
-    const bool is_plain = may_be_plain & is_first & unit_step.is_plain;
+    const bool is_plain = may_be_plain & unit_step.is_plain;
     if (is_plain && step_plainly(unit_step, interval)) [[likely]] {
       if (reached == interval.to) [[likely]]
         continue;
@@ -278,9 +278,10 @@ inline bool Stepper::step_plainly(UnitStep& unit_step, const StepInterval& inter
   unit_step.result = unit_step.saves_state
                          ? save_and_step(unit_step, interval)
                          : exchange_.step(unit_step.component, *unit_step.unit, interval);
-  unit_step.steps += !unit_step.result.rejected;
+  ++unit_step.steps;
   if (unit_step.result.reached_without_request(interval.to)) [[likely]]
     return true;
+  unit_step.steps -= unit_step.result.rejected;
   unit_step.rolled_back = false;
   unit_step.outcome = unit_step.result.rejected ? Outcome::Rejected : Outcome::Stepped;
   if (unit_step.result.rejected) {

@@ -81,26 +81,28 @@ class Stepper {
   struct alignas(64) UnitStep {
     UnitStep(Unit& stepped, CoastingUnit* coasting, const StepOrderEntry& its_entry);
 
+    // what a plain step needs fills the first cache line
     Unit* unit;
-    const StepOrderEntry* entry;
+    CoastingUnit* state = nullptr;         ///< where saves_state
+    StepResult result{};                   ///< the time that it has reached, and how
+    std::uint64_t communication_step = 0;  ///< the last one that it has begun
+    std::uint64_t steps = 0;
     std::uint32_t component;  ///< these three are the entry's
     bool saves_state;
     bool can_vary_step;
-    bool may_suspend = false;
     bool is_plain = false;  ///< it needs nothing but the step itself
     bool ends_stage = false;
+    std::uint32_t rejections = 0;  ///< in the present communication step
+
+    bool may_suspend = false;
     bool can_save_with_step = false;
-    StepResult result{};                   ///< the time that it has reached, and how
-    Time possible{};                       ///< that it could have reached in a rejected step
-    std::uint64_t communication_step = 0;  ///< the last one that it has begun
-    std::uint64_t steps = 0;
     Outcome outcome = Outcome::Idle;  ///< of the present pass, as the flags behind it
     bool saves_with_step = false;
     bool rolled_back = false;
-    Time undone{};                  ///< the time that it had reached before
-    std::uint32_t rejections = 0;   ///< in the present communication step
-    CoastingUnit* state = nullptr;  ///< where saves_state
-    ConcurrentSteps* concurrent;    ///< null if it steps here
+    Time possible{};  ///< that it could have reached in a rejected step
+    Time undone{};    ///< the time that it had reached before
+    const StepOrderEntry* entry;
+    ConcurrentSteps* concurrent;  ///< null if it steps here
   };
   /// The last unit that cut the present communication step short.
   struct EarlyStop {
@@ -119,8 +121,8 @@ class Stepper {
 
   Time make_timed_passes(Time from, Time target);
   Time make_passes(Time from, Time target);
-  Time make_pass(const StepInterval& interval);
-  Time step_one_by_one(const StepInterval& interval);
+  Time make_pass(const StepInterval& interval, bool is_first);
+  Time step_one_by_one(const StepInterval& interval, bool is_first_pass);
   Time step_stage(const Stage& stage, std::span<const ThreadShare> shares,
                   const StepInterval& interval);
   void step_together(std::span<const ThreadShare> shares, std::span<const ThreadShare> batches,

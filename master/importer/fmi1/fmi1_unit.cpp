@@ -164,7 +164,7 @@ std::optional<double> Fmi1Unit::last_successful_time() {
   double seconds = 0;
   const Status status =
       call_discardable("fmiGetRealStatus", fmi_.GetRealStatus, fmi1LastSuccessfulTime, &seconds);
-  if (has_messages_) drop_messages();
+  if (has_messages()) drop_messages();
   const bool is_known = status == Status::Ok || status == Status::Warning;
   return is_known ? std::optional(seconds) : std::nullopt;
 }

@@ -136,6 +136,22 @@ core::StepResult Fmi2Unit::step(const core::StepInterval& interval,
                                 const core::StepValues& values) {
   CallSequence calls(*this, "fmi2DoStep", interval.from);
   for (const core::BoundValues& input : values.inputs) set(calls, input);
+  return make_step(calls, interval, values.outputs);
+}
+
+core::StepResult Fmi2Unit::save_with_step(core::Unit& unit, const core::StepInterval& interval,
+                                          const core::StepValues& values) {
+  if (&unit != this) return StateSaving::save_with_step(unit, interval, values);
+  CallSequence calls(*this, "fmi2DoStep", interval.from);
+  for (const core::BoundValues& input : values.inputs) set(calls, input);
+  Fmi2Unit::save_state();
+  return make_step(calls, interval, values.outputs);
+}
+
+/// Behind its inputs: the step, and its outputs.
+[[gnu::always_inline]] inline core::StepResult Fmi2Unit::make_step(
+    CallSequence& calls, const core::StepInterval& interval,
+    std::span<const core::BoundValues> outputs) {
   const double size = size_of(interval);
   if (!(size > 0)) {  // to the unit, whose time is a double, it is the same instant
     calls.set_time(interval.to);
@@ -150,7 +166,7 @@ core::StepResult Fmi2Unit::step(const core::StepInterval& interval,
   }
   is_as_saved_ = was_restored_ = false;
   calls.set_time(result.reached);
-  for (const core::BoundValues& output : values.outputs) get(calls, output);
+  for (const core::BoundValues& output : outputs) get(calls, output);
   return result;
 }
 

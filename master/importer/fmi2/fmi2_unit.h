@@ -78,6 +78,8 @@ class Fmi2Unit final
   core::StepResult step(const core::StepInterval& interval,
                         const core::StepValues& values) override;
   void save_state() override;
+  core::StepResult save_with_step(core::Unit& unit, const core::StepInterval& interval,
+                                  const core::StepValues& values) override;
   void restore_state() override;
   void select_state(std::size_t slot) override;
   std::vector<std::uint8_t> serialize_state() override;
@@ -111,6 +113,8 @@ class Fmi2Unit final
   void restore(const SavedState& saved);
   void free_state(SavedState& saved);
 
+  core::StepResult make_step(CallSequence& calls, const core::StepInterval& interval,
+                             std::span<const core::BoundValues> outputs);
   Status do_step(CallSequence& calls, const core::StepInterval& interval, double size);
   Status wait_for_step();
   [[noreturn]] void cancel_step();

@@ -158,7 +158,7 @@ bool Fmi2Unit::query_status(const char* name, Function* function, fmi2StatusKind
                             Value* value) {
   if (function == nullptr) return false;
   const Status status = call_discardable(name, function, kind, value);
-  if (has_messages_) drop_messages();  // of why it has none
+  if (has_messages()) drop_messages();  // of why it has none
   return status == Status::Ok || status == Status::Warning;
 }
 

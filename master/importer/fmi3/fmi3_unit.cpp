@@ -242,37 +242,64 @@ core::StepResult Fmi3Unit::step(const core::StepInterval& interval,
                                 const core::StepValues& values) {
   CallSequence calls(*this, "fmi3DoStep", interval.from);
   for (const core::BoundValues& input : values.inputs) set(calls, input);
+  return make_step(calls, interval, values.outputs);
+}
+
+core::StepResult Fmi3Unit::save_with_step(core::Unit& unit, const core::StepInterval& interval,
+                                          const core::StepValues& values) {
+  if (&unit != this) return StateSaving::save_with_step(unit, interval, values);
+  CallSequence calls(*this, "fmi3DoStep", interval.from);
+  for (const core::BoundValues& input : values.inputs) set(calls, input);
+  Fmi3Unit::save_state();
+  return make_step(calls, interval, values.outputs);
+}
+
+/// Behind its inputs: the step, and its outputs.
+[[gnu::always_inline]] inline core::StepResult Fmi3Unit::make_step(
+    CallSequence& calls, const core::StepInterval& interval,
+    std::span<const core::BoundValues> outputs) {
   const double size = size_of(interval);
-  if (!(size > 0)) {  // to the unit, whose time is a double, it is the same instant
+  if (!(size > 0)) [[unlikely]] {  // to the unit, whose time is a double, it is the same instant
     calls.set_time(interval.to);
     return {.reached = interval.to};
   }
-  bool event_handling_needed = false;
-  bool terminate = false;
-  bool early = false;
-  double last_successful = interval.end_seconds;
+  StepAnswer answer{.last_successful = interval.end_seconds};
   step_point_ = interval.begin_seconds;
   // noSetFMUStatePriorToCurrentPoint
   const fmi3Boolean never_goes_back = !(options_.may_go_back || interval.may_go_back_before);
-  const Status status = calls.call_discardable("fmi3DoStep", fmi_.DoStep, interval.begin_seconds,
-                                               size, never_goes_back, &event_handling_needed,
-                                               &terminate, &early, &last_successful);
+  const Status status = calls.call_discardable(
+      "fmi3DoStep", fmi_.DoStep, interval.begin_seconds, size, never_goes_back, &answer.needs_event,
+      &answer.terminate, &answer.early, &answer.last_successful);
+  core::StepResult result{.reached = interval.to};
+  const bool has_more = answer.needs_event || answer.terminate || answer.early ||
+                        callback_failure_ != nullptr || status == Status::Discard ||
+                        !is_exact_end(interval, answer.last_successful);
+  if (has_more) [[unlikely]] {
+    result = evaluate(interval, status, answer);
+    if (result.rejected) return result;
+  }
+  was_restored_ = false;
+  calls.set_time(result.reached);
+  for (const core::BoundValues& output : outputs) get(calls, output);
+  return result;
+}
+
+/// Of a step that did not just reach its end.
+core::StepResult Fmi3Unit::evaluate(const core::StepInterval& interval, Status status,
+                                    const StepAnswer& answer) {
   rethrow_callback_failure();
   if (status == Status::Discard) {
     take_rejection_reason("fmi3DoStep");
     return {.rejected = true, .reached = interval.from};
   }
-  if (event_handling_needed && !parts_.description->has_event_mode) [[unlikely]]
+  if (answer.needs_event && !parts_.description->has_event_mode)
     fail("fmi3DoStep returned eventHandlingNeeded, and the unit has no Event Mode (hasEventMode)");
-  if (!early && !is_exact_end(interval, last_successful)) compare_times(interval, last_successful);
-  was_restored_ = false;
-  const Time reached = early ? reached_early(interval, last_successful) : interval.to;
-  calls.set_time(reached);
-  for (const core::BoundValues& output : values.outputs) get(calls, output);
-  return {.early_return = early,
-          .event_handling_needed = event_handling_needed,
-          .terminate_simulation = terminate,
-          .reached = reached};
+  const bool is_exact = is_exact_end(interval, answer.last_successful);
+  if (!answer.early && !is_exact) compare_times(interval, answer.last_successful);
+  return {.early_return = answer.early,
+          .event_handling_needed = answer.needs_event,
+          .terminate_simulation = answer.terminate,
+          .reached = answer.early ? reached_early(interval, answer.last_successful) : interval.to};
 }
 
 // ---- Inputs within a step ----

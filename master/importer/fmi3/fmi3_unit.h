@@ -62,6 +62,8 @@ class Fmi3Unit final
   core::StepResult step(const core::StepInterval& interval,
                         const core::StepValues& values) override;
   void save_state() override;
+  core::StepResult save_with_step(core::Unit& unit, const core::StepInterval& interval,
+                                  const core::StepValues& values) override;
   void restore_state() override;
   void select_state(std::size_t slot) override;
   std::vector<std::uint8_t> serialize_state() override;
@@ -102,6 +104,16 @@ class Fmi3Unit final
 
   void get(CallSequence& calls, const core::BoundValues& values);
   void set(CallSequence& calls, const core::BoundValues& values);
+  /// What fmi3DoStep returns beside its status.
+  struct StepAnswer {
+    bool needs_event = false, terminate = false, early = false;
+    double last_successful;
+  };
+  core::StepResult make_step(CallSequence& calls, const core::StepInterval& interval,
+                             std::span<const core::BoundValues> outputs);
+  core::StepResult evaluate(const core::StepInterval& interval, Status status,
+                            const StepAnswer& answer);
+
   void get_strings(References references, std::span<std::string> values);
   void set_strings(References references, std::span<const std::string> values);
   void get_binaries(References references, std::span<core::Binary> values);
