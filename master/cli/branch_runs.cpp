@@ -35,9 +35,9 @@ struct EndOfBranch {
 }  // namespace
 
 std::vector<Branch> read_branches(const RunArguments& arguments,
-                                  const scenario::LoadedScenario& loaded,
-                                  const core::RunOptions& options) {
+                                  const scenario::LoadedScenario& loaded) {
   if (!arguments.branches.request) return {};
+  const core::RunOptions& options = loaded.options();
   const auto& [time, file] = *arguments.branches.request;
   if (time < options.start || time >= options.stop) {
     core::fail_input(
@@ -53,8 +53,9 @@ std::vector<Branch> read_branches(const RunArguments& arguments,
 }
 
 void BranchRuns::connect(Branches& branches) {
-  branches.set_work([this](Time now) { prepare(now); },
-                    [this](const Branch& branch) { make_rest(branch); });
+  branches.set_work({.prepare = [this](Time now) { prepare(now); },
+                     .rest = [this](const Branch& branch) { make_rest(branch); },
+                     .conclude = [this] { conclude(); }});
 }
 
 /// A unit's file that is open, or whose path it knows, would be that of all branches.
@@ -71,6 +72,11 @@ void BranchRuns::prepare(Time now) {
   if (can_fork()) return;
   checkpoint_ = fs::absolute(setup_.results.folder) / kBranchesFolder / "begin.zip";
   checkpoint::write_checkpoint(checkpoint_, setup_.take(now));
+}
+
+void BranchRuns::conclude() const {
+  std::error_code ignored;  // what remains of it disturbs nobody
+  if (!checkpoint_.empty()) fs::remove(checkpoint_, ignored);
 }
 
 fs::path BranchRuns::folder(const Branch& branch) const {

@@ -20,8 +20,7 @@ namespace stride::cli {
 /// that cannot be used, interventions that are none of this scenario, and an instant outside of the
 /// run.
 std::vector<Branch> read_branches(const RunArguments& arguments,
-                                  const scenario::LoadedScenario& loaded,
-                                  const core::RunOptions& options);
+                                  const scenario::LoadedScenario& loaded);
 
 /// What the branches go on with.
 struct BranchSetup {
@@ -43,6 +42,7 @@ class BranchRuns {
  private:
   void prepare(Time now);
   void make_rest(const Branch& branch);
+  void conclude() const;
   bool can_fork() const;
   std::filesystem::path folder(const Branch& branch) const;
   [[noreturn]] void resume(const Branch& branch) const;

@@ -68,11 +68,6 @@ Branches::Branches(std::vector<Branch> branches, const BranchOptions& options,
       interrupted_(interrupted),
       failures_(branches_.size()) {}
 
-void Branches::set_work(Prepare prepare, Rest rest) {
-  prepare_ = std::move(prepare);
-  rest_ = std::move(rest);
-}
-
 std::optional<core::Pause> Branches::next(Time /*now*/) {
   if (has_forked_) return std::nullopt;
   return core::Pause{.time = time_, .before = true};
@@ -80,16 +75,17 @@ std::optional<core::Pause> Branches::next(Time /*now*/) {
 
 void Branches::on_pause(Time now) {
   has_forked_ = true;
-  prepare_(now);
+  work_.prepare(now);
   for (std::size_t i = 0; i < branches_.size(); ++i) {
     while (running_.size() >= jobs_) collect(std::chrono::milliseconds(20));
     const auto work = [&] {
-      rest_(branches_[i]);
+      work_.rest(branches_[i]);
       return std::string();
     };
     running_.push_back({i, isolation::Child(work, {.limit = {}, .interrupted = interrupted_})});
   }
   while (!running_.empty()) collect(std::chrono::milliseconds(100));
+  work_.conclude();
 }
 
 /// Those that have ended by then.

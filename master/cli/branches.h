@@ -55,14 +55,17 @@ class Branches final : public core::RunControl {
   /// the failure of the branch.
   using Rest = std::function<void(const Branch& branch)>;
 
-  /// Called once, before the first branch begins.
-  using Prepare = std::function<void(Time now)>;
+  struct Work {
+    std::function<void(Time now)> prepare;  ///< called once, before the first branch begins
+    Rest rest;
+    std::function<void()> conclude;  ///< likewise, when the last one has ended
+  };
 
   /// `interrupted`: ends the branches when it is no longer 0.
   Branches(std::vector<Branch> branches, const BranchOptions& options,
            const volatile std::sig_atomic_t* interrupted);
   /// Before the run.
-  void set_work(Prepare prepare, Rest rest);
+  void set_work(Work work) { work_ = std::move(work); }
 
   std::optional<core::Pause> next(Time now) override;
   void on_pause(Time now) override;
@@ -84,8 +87,7 @@ class Branches final : public core::RunControl {
   Time time_;
   std::vector<Branch> branches_;
   std::size_t jobs_;
-  Prepare prepare_;
-  Rest rest_;
+  Work work_;
   const volatile std::sig_atomic_t* interrupted_;
   bool has_forked_ = false;
   std::list<Running> running_;

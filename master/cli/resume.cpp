@@ -178,6 +178,7 @@ RunArguments arguments_of(Resumption& resumption) {
   RunArguments arguments;
   parse_again(commands.front(), resumption.file,
               [&](CLI::App& command) { add_run_options(command, arguments); });
+  arguments.branches = {};  // they have begun
   for (const recorders::Command& command : std::span(commands).subspan(1)) {
     ResumeArguments earlier;
     parse_again(command, resumption.file, [&](CLI::App& app) { add_options(app, earlier); });

@@ -269,7 +269,9 @@ class ScenarioRun {
   const Interruption interruption_;
   const scenario::LoadedScenario loaded_;
   const std::optional<recorders::Provenance> provenance_;
-  ResultsOfRun results_;
+  Checkpoints checkpoints_;
+  Branches branches_;
+  ResultsOfRun results_;  // when all that may be wrong has been looked at
   core::RunOptions options_;
   capture::Capture capture_;
   const recorders::UnitFolders unit_folders_;
@@ -277,8 +279,6 @@ class ScenarioRun {
   UnitsOfRun units_;
   const RunDisplay display_;
   Recorders recorders_;
-  Checkpoints checkpoints_;
-  Branches branches_;
   RecordedRun recorded_;
   BranchRuns branch_runs_;
 };
@@ -288,6 +288,9 @@ ScenarioRun::ScenarioRun(const RunArguments& arguments, Records& records)
       records_(records),
       loaded_(arguments.scenario),
       provenance_(provenance(arguments, loaded_)),
+      checkpoints_(arguments.checkpoints, span(), results_folder(arguments),
+                   [this](Time now) { return take(now); }),
+      branches_(read_branches(arguments, loaded_), arguments.branches, &Interruption::flag()),
       results_(arguments, loaded_),
       options_(run_options(arguments, loaded_, results_.target().files)),
       capture_(loaded_.system(), loaded_.scenario().name, options_, captures(arguments),
@@ -296,10 +299,6 @@ ScenarioRun::ScenarioRun(const RunArguments& arguments, Records& records)
       units_(arguments, loaded_, results_.target().folder, capture_, options_),
       display_{progress_style(arguments), arguments.quiet, arguments.open},
       recorders_(make_recorders(arguments, loaded_, results_.target())),
-      checkpoints_(arguments.checkpoints, span(), results_.target().folder,
-                   [this](Time now) { return take(now); }),
-      branches_(read_branches(arguments, loaded_, options_), arguments.branches,
-                &Interruption::flag()),
       recorded_({loaded_, options_, results_.target(), display_, recorders_, capture_,
                  records.tests, is_resumed(), &checkpoints_},
                 units_.take()),
@@ -313,8 +312,9 @@ ScenarioRun::ScenarioRun(const RunArguments& arguments, Records& records)
 }
 
 Checkpoints::Span ScenarioRun::span() const {
-  return {options_.start, is_resumed() ? arguments_.resumed->from.time : options_.start,
-          options_.stop};
+  const core::RunOptions& options = loaded_.options();
+  return {options.start, is_resumed() ? arguments_.resumed->from.time : options.start,
+          options.stop};
 }
 
 checkpoint::Checkpoint ScenarioRun::take(Time now) {

@@ -151,7 +151,7 @@ void FmuInstance::call_for_state(const char* name, Function* function, Arguments
   check_callable(name);
   const auto status =
       static_cast<Status>(guarded(name, [&] { return function(instance_, arguments...); }));
-  if (status == Status::Ok && !has_messages_.load(std::memory_order_relaxed)) [[likely]]
+  if (status == Status::Ok && !has_messages()) [[likely]]
     return;
   if (status == Status::Error || status == Status::Discard) fail_for_state(name, status);
   if (check_status(name, status) == Status::Pending) fail_call(name, status);
