@@ -1,0 +1,62 @@
+#include "master/recorders/provenance.h"
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include "master/util/error.h"
+#include "tests/master/ssp/support.h"
+
+using namespace stride::recorders;
+using Catch::Contains;
+using stride::tests::TemporaryFolder;
+
+namespace {
+
+Provenance of(const TemporaryFolder& folder) {
+  return {"1",
+          {},
+          {make_source("the scenario", folder / "a.ssd"), make_source("a unit", folder / "unit")}};
+}
+
+}  // namespace
+
+TEST_CASE("what results were made from is told apart by its content") {
+  const TemporaryFolder folder;
+  folder.write("a.ssd", "abc");
+  folder.write("unit/one", "1");
+  folder.write("unit/two/three", "3");
+  const Provenance before = of(folder);
+  CHECK(before.sources[0].sha256 ==
+        "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+  CHECK(differences(before, of(folder)).empty());
+
+  folder.write("unit/two/three", "4");
+  CHECK_THAT(differences(before, of(folder)).at(0),
+             Contains("a unit, ") && Contains("unit, is not"));
+  folder.write("unit/two/three", "3");
+  folder.write("unit/four", "");
+  CHECK(differences(before, of(folder)).size() == 1);
+  folder.write("a.ssd", "abd");
+  CHECK(differences(before, of(folder)).size() == 2);
+
+  Provenance other = before;
+  other.version = "2";
+  other.sources.pop_back();
+  const auto texts = differences(before, other);
+  REQUIRE(texts.size() == 2);
+  CHECK(texts[0] == "it is of stride 1, and this is 2");
+  CHECK_THAT(texts[1], Contains("is not used any more"));
+  CHECK_THAT(differences(other, before).at(1), Contains("was not used"));
+  CHECK_THROWS_AS(make_source("a unit", folder / "nothing"), stride::core::Error);
+}
+
+TEST_CASE("provenance is read back from its JSON") {
+  const Provenance made{"1", {{{"run", "a b", "--quiet"}, "/x y"}}, {{"a unit", "/u", "00"}}};
+  const Provenance read = provenance_of(to_json(made));
+  CHECK(read.version == "1");
+  REQUIRE(read.commands.size() == 1);
+  CHECK(read.commands[0].words == made.commands[0].words);
+  CHECK(read.commands[0].folder == made.commands[0].folder);
+  CHECK(read.sources == made.sources);
+  CHECK_THROWS_AS(provenance_of(nlohmann::ordered_json::object()), nlohmann::json::exception);
+}
