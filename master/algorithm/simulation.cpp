@@ -296,6 +296,8 @@ class Simulation::Run {
 
   void restore(StateArchive& state) {
     persist_all(state);
+    for (std::size_t i = 0; i < count(); ++i) exchange_.read_new_outputs(i, *units_[i]);
+    if (idle_) idle_->take_new_tangents(time_);
     interventions_.go_on(time_);
     counters_.resume();
     context_.outputs.update();
