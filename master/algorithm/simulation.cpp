@@ -10,7 +10,6 @@
 
 #include <fmt/format.h>
 
-#include "master/algorithm/capabilities/configuration_mode.h"
 #include "master/algorithm/capabilities/inputs_within_step.h"
 #include "master/algorithm/events/event_handler.h"
 #include "master/algorithm/events/interventions.h"
@@ -18,6 +17,7 @@
 #include "master/algorithm/loops/ordered_evaluation.h"
 #include "master/algorithm/pauses.h"
 #include "master/algorithm/run_context.h"
+#include "master/algorithm/start_values.h"
 #include "master/algorithm/step_policies/step_policy.h"
 #include "master/algorithm/stepping/coasting_unit.h"
 #include "master/algorithm/stepping/input_extrapolator.h"
@@ -218,8 +218,8 @@ class Simulation::Run {
 
   void initialize() {
     time_ = options_.start;
-    configure();
-    for (const StartValue& start : system_.start_values()) set(start);
+    configure(context_);
+    set_start_values(context_);
     if (idle_) idle_->enable();
     for (std::size_t i = 0; i < count(); ++i) {
       clock_.timed(statistics_.units[i].initialization_time,
@@ -241,31 +241,6 @@ class Simulation::Run {
   void notify_observers() {
     context_.outputs.update();
     for (Observer* observer : context_.observers) observer->on_communication_point(time_);
-  }
-
-  /// Structural parameters give arrays their sizes, so they are set first.
-  void configure() {
-    const std::span<const StartValue> all = system_.structural_values();
-    for (auto first = all.begin(); first != all.end();) {
-      auto& configuration = units_[first->id.component]->require_capability<ConfigurationMode>();
-      const auto last = std::find_if(first, all.end(), [&](const StartValue& value) {
-        return value.id.component != first->id.component;
-      });
-      configuration.enter_configuration_mode();
-      std::for_each(first, last, [&](const StartValue& value) { set(value); });
-      configuration.exit_configuration_mode();
-      first = last;
-    }
-  }
-
-  /// FMI sets an array as a whole. Before the initialisation, the unit has its own start values.
-  void set(const StartValue& start) {
-    Unit& unit = *units_[start.id.component];
-    const Variable& variable = system_.variable(start.id);
-    if (start.kept.empty()) return unit.set({&variable.reference, 1}, start.value);
-    ValueBlock own(variable.type, variable.size);
-    unit.get({&variable.reference, 1}, own);
-    unit.set({&variable.reference, 1}, start.over(own));
   }
 
   void start_observers() {
@@ -321,6 +296,8 @@ class Simulation::Run {
 
   void restore(StateArchive& state) {
     persist_all(state);
+    for (std::size_t i = 0; i < count(); ++i) exchange_.read_new_outputs(i, *units_[i]);
+    if (idle_) idle_->take_new_tangents(time_);
     interventions_.go_on(time_);
     counters_.resume();
     context_.outputs.update();

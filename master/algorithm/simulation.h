@@ -44,12 +44,13 @@ class Simulation {
 
   /// Instead of run(): goes on from a state that persist() has written, of a run of the same system
   /// with the same options but for a later stop time, other interventions that begin behind the
-  /// state's time, threads and what is measured. The units are in Step Mode, what they were where
-  /// the state was written; no function of theirs is called that the uninterrupted run would not
-  /// have called. `started` is called when the observers have been started, and before the first
-  /// step: what follows in the archive, such as their states, can be read there. Throws as run()
-  /// does, and BadState where the bytes are no state of this system: the units have been
-  /// terminated, and the observers' on_finish() has been called then, too.
+  /// state's time, other recorded and watched variables, threads and what is measured. The units
+  /// are in Step Mode, what they were where the state was written; no function of theirs is called
+  /// that the uninterrupted run would not have called, except that variables which were neither
+  /// recorded nor watched are read. `started` is called when the observers have been started, and
+  /// before the first step: what follows in the archive, such as their states, can be read there.
+  /// Throws as run() does, and BadState where the bytes are no state of this system: the units have
+  /// been terminated, and the observers' on_finish() has been called then, too.
   void resume(StateArchive& state, const std::function<void()>& started);
 
   /// In a pause or an interruption (RunControl): writes the state of the run, but for what belongs

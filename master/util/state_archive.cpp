@@ -1,6 +1,8 @@
 #include "master/util/state_archive.h"
 
+#include <algorithm>
 #include <cstring>
+#include <functional>
 
 #include <fmt/format.h>
 
@@ -15,6 +17,13 @@ void StateArchive::mark(std::string_view name) {
   value(found);
   if (found != name) fail(fmt::format("the state of '{}' was expected next", name));
   mark_ = name;
+}
+
+void StateArchive::keys(std::vector<std::uint64_t>& keys, std::uint64_t end) {
+  values(keys);
+  const auto falls = std::ranges::adjacent_find(keys, std::ranges::greater_equal());
+  if (falls != keys.end()) fail("its keys do not ascend");
+  if (!keys.empty() && keys.back() >= end) fail("it has a key that does not exist");
 }
 
 void StateArchive::fixed_bytes(std::span<std::byte> bytes) {

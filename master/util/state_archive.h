@@ -120,6 +120,9 @@ class StateArchive {
   void fixed(Elements&& elements) {
     fixed(elements, [this](auto& element) { value(element); });
   }
+  /// What the following elements are found by, where others may have been written than the reader
+  /// has: ascending keys, below `end`.
+  void keys(std::vector<std::uint64_t>& keys, std::uint64_t end);
   /// Bytes of a number that was fixed.
   void fixed_bytes(std::span<std::byte> bytes);
 

@@ -90,6 +90,33 @@ std::vector<VariableId> all_outputs(const System& system) {
   return ids;
 }
 
+/// Some of the variables that can be recorded: inputs and local ones, too.
+std::vector<VariableId> some_variables(const System& system, std::mt19937& random) {
+  const unsigned share = 1 + random() % 4;
+  std::vector<VariableId> ids;
+  for (std::size_t i = 0; i < system.components().size(); ++i) {
+    const auto& variables = system.components()[i].description->variables;
+    for (std::size_t k = 0; k < variables.size(); ++k) {
+      const bool is_wanted =
+          variables[k].causality != Causality::Independent && random() % 5 < share;
+      if (is_wanted && system.is_signal({i, k})) ids.push_back({i, k});
+    }
+  }
+  return ids;
+}
+
+/// A unit of the kit computes what belongs to a clock where one such output is read at its tick.
+void add_sampled(const System& system, std::vector<VariableId>& ids) {
+  for (std::size_t i = 0; i < system.components().size(); ++i) {
+    const auto& variables = system.components()[i].description->variables;
+    for (std::size_t k = 0; k < variables.size(); ++k) {
+      if (variables[k].causality != Causality::Output || !system.is_sampled({i, k})) continue;
+      ids.push_back({i, k});
+      break;
+    }
+  }
+}
+
 RunOptions options_of(unsigned seed, const Assembly& assembly, const System& system) {
   std::mt19937 random(seed);
   RunOptions options = fixed_steps(1ms, kCutStop);
@@ -213,6 +240,44 @@ TEST_CASE("a run that was cut is the run that was not, bit for bit") {
       const RunStatistics statistics = run.from(state, options);
       check_same(trace.text(), whole.trace.text());
       CHECK(counts(statistics, saves_each_step) == counts(whole.statistics, saves_each_step));
+    }
+  }
+}
+
+TEST_CASE("a run that goes on with other variables is the run that had them from the beginning") {
+  std::mt19937 random;
+  for (unsigned seed = 0; seed < kCutSystems; ++seed) {
+    const Assembly assembly = system_of(seed);
+    const System system(assembly.declaration());
+    RunOptions before = options_of(seed, assembly, system);
+    RunOptions after = before;
+    before.recorded = some_variables(system, random);
+    add_sampled(system, before.recorded);
+    after.recorded = some_variables(system, random);
+    after.watched = some_variables(system, random);
+    const Whole whole = run_whole(assembly, system, after);
+    const std::vector<Time>& points = whole.trace.points();
+    for (int trial = 0; trial < 4; ++trial) {
+      const Pause first{points[random() % points.size()], random() % 2 == 0};
+      INFO("seed " << seed << ", " << after.step.policy->name << ", cut at "
+                   << to_seconds(first.time) << " s\n"
+                   << assembly.text());
+      Trace known(system), ignored(system), trace(system);
+      REQUIRE_FALSE(
+          CutRun{system, share(assembly.instantiate()), known}.up_to(first, after).empty());
+      CutRun run{system, share(assembly.instantiate()), ignored};
+      std::vector<std::byte> state = run.up_to(first, before);
+      REQUIRE_FALSE(state.empty());
+      CutRun rest{system, run.units, trace};
+      if (trial % 2 == 1) {
+        const std::size_t then = random() % points.size();
+        const Pause second{std::max(points[then], first.time), false};
+        state = rest.up_to(second, after, state);
+        REQUIRE_FALSE(state.empty());
+      }
+      const RunStatistics statistics = rest.from(state, after);
+      check_same(known.text() + trace.text(), whole.trace.text());
+      CHECK(counts(statistics, false) == counts(whole.statistics, false));
     }
   }
 }

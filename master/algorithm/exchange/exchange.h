@@ -107,8 +107,14 @@ class Exchange {
   /// An input was changed in its block by other means than route().
   void mark_changed(std::size_t component) { ports_[component].written_route = 0; }
 
-  /// All values, and what has been written of them.
+  /// All values, and what has been written of them. The state may be that of a run that observed
+  /// other variables: outputs that it does not have are new, and to be read from their units; what
+  /// is not observed any more is dropped.
   void persist(StateArchive& state);
+  /// Those, sorted; they are not connected.
+  std::span<const VariableId> new_outputs() const { return new_outputs_; }
+  /// Reads them from the unit, in Step Mode; calls it only if it has some.
+  void read_new_outputs(std::size_t component, Unit& unit);
 
   /// Writes those of a unit's continuous inputs that may change within a step.
   void write_inputs_within_step(std::size_t component, Unit& unit);
@@ -212,6 +218,11 @@ class Exchange {
     ValueSlice target;
     ValueBlock value;
   };
+  std::vector<std::uint64_t> output_keys(std::size_t component) const;
+  void persist_outputs(StateArchive& state, std::size_t component);
+  void persist_output(StateArchive& state, VariableId id);
+  void check_new_outputs(StateArchive& state) const;
+  void read_new_outputs(const Transfer& transfer, Unit& unit);
   static void persist(StateArchive& state, Transfer& input);
   void persist_forced(StateArchive& state);
   static void keep(const Forced& forced) {
@@ -259,6 +270,7 @@ class Exchange {
   std::vector<BoundValues> bound_values_;  ///< of them
   std::uint64_t route_ = 1;                ///< counts the calls of route()
   std::vector<Forced> forced_;
+  std::vector<VariableId> new_outputs_;
   std::array<std::vector<Copy<std::byte>>, 4> numbers_;  // of 1, 2, 4 and 8 bytes
   std::vector<Copy<std::string>> strings_;
   std::vector<Copy<Binary>> binaries_;

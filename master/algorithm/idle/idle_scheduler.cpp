@@ -42,7 +42,7 @@ void IdleScheduler::add_candidate(std::size_t component, Duration max_skip) {
       state.references.push_back(system_.variable(id).reference);
       elements += system_.variable(id).size;
     }
-    state.tangents.push_back({element});
+    state.tangents.push_back({id, element});
   }
   state.slopes.resize(elements);
 }
@@ -178,9 +178,7 @@ std::span<const std::size_t> IdleScheduler::advance_to(Time time) {
       continue;
     }
     const double elapsed = to_seconds(time - state.since);
-    for (const Tangent& tangent : state.tangents) {
-      set_real(tangent.element, tangent.value + tangent.slope * elapsed);
-    }
+    for (const Tangent& tangent : state.tangents) tangent.follow(elapsed);
   }
   return events_;
 }
@@ -225,19 +223,16 @@ void IdleScheduler::suspend(std::size_t component, Time time, Time until, Time e
   for (WatchedInput& input : state.inputs) input.held = real(input.element);
   if (state.tangents.empty()) return;
   state.promises->get_derivatives(state.references, state.slopes);
-  for (std::size_t k = 0; k < state.tangents.size(); ++k) {
-    Tangent& tangent = state.tangents[k];
-    tangent.value = real(tangent.element);
-    tangent.slope = state.slopes[k];
-  }
+  for (std::size_t k = 0; k < state.tangents.size(); ++k) state.tangents[k].begin(state.slopes[k]);
 }
 
 void IdleScheduler::persist(StateArchive& state, Time start, Time now) {
   state.mark("idle units");
-  state.fixed(candidates_, [&](std::size_t i) { persist(state, states_[i], start, now); });
+  state.fixed(candidates_, [&](std::size_t i) { persist(state, i, start, now); });
 }
 
-void IdleScheduler::persist(StateArchive& state, IdleState& unit, Time start, Time now) {
+void IdleScheduler::persist(StateArchive& state, std::size_t component, Time start, Time now) {
+  IdleState& unit = states_[component];
   state.value(unit.is_suspended);
   if (!unit.is_suspended) return;
   state.value(unit.since);
@@ -247,10 +242,68 @@ void IdleScheduler::persist(StateArchive& state, IdleState& unit, Time start, Ti
     state.fail("a unit is suspended at another time");
   }
   state.fixed(unit.inputs, [&](WatchedInput& input) { state.value(input.held); });
-  state.fixed(unit.tangents, [&](Tangent& tangent) {
-    state.value(tangent.value);
-    state.value(tangent.slope);
-  });
+  persist_tangents(state, component);
+}
+
+/// As the Exchange does with the outputs that they belong to: what is not read any more is dropped.
+void IdleScheduler::persist_tangents(StateArchive& state, std::size_t component) {
+  const auto& variables = system_.components()[component].description->variables;
+  std::map<std::uint64_t, std::vector<Tangent*>> own;
+  for (Tangent& tangent : states_[component].tangents) own[tangent.id.variable].push_back(&tangent);
+  std::vector<std::uint64_t> keys;
+  for (const auto& [key, tangents] : own) keys.push_back(key);
+  state.keys(keys, variables.size());
+  for (const std::uint64_t key : keys) {
+    if (const auto found = own.find(key); found != own.end()) {
+      for (Tangent* const tangent : found->second) persist(state, *tangent);
+    } else {
+      drop_tangents(state, variables[key]);
+    }
+  }
+  for (const auto& [key, tangents] : own) {
+    const VariableId id{component, key};
+    const bool is_new = std::ranges::binary_search(exchange_.new_outputs(), id);
+    const bool is_there = std::ranges::binary_search(keys, key);
+    if (is_there == is_new) state.fail("an output has a tangent without a value, or none");
+  }
+}
+
+void IdleScheduler::persist(StateArchive& state, Tangent& tangent) {
+  state.value(tangent.value);
+  state.value(tangent.slope);
+}
+
+void IdleScheduler::drop_tangents(StateArchive& state, const Variable& output) {
+  if (!output.tolerance) state.fail("an output without a tolerance has a tangent");
+  Tangent dropped;
+  for (std::size_t k = 0; k < output.size; ++k) persist(state, dropped);
+}
+
+void IdleScheduler::take_new_tangents(Time now) {
+  if (exchange_.new_outputs().empty()) return;
+  for (const std::size_t i : candidates_) {
+    if (states_[i].is_suspended) take_new_tangents(i, now);
+  }
+}
+
+/// The unit is where it was suspended, and so are the values that have been read of it.
+void IdleScheduler::take_new_tangents(std::size_t component, Time now) {
+  IdleState& state = states_[component];
+  std::vector<Tangent*> tangents;
+  std::vector<ValueReference> references;
+  for (Tangent& tangent : state.tangents) {
+    if (!std::ranges::binary_search(exchange_.new_outputs(), tangent.id)) continue;
+    const bool is_first = tangents.empty() || tangents.back()->id != tangent.id;
+    if (is_first) references.push_back(system_.variable(tangent.id).reference);
+    tangents.push_back(&tangent);
+  }
+  if (tangents.empty()) return;
+  std::vector<double> slopes(tangents.size());
+  state.promises->get_derivatives(references, slopes);
+  for (std::size_t k = 0; k < tangents.size(); ++k) {
+    tangents[k]->begin(slopes[k]);
+    if (now != state.since) tangents[k]->follow(to_seconds(now - state.since));
+  }
 }
 
 void IdleScheduler::catch_up_all(Time time) {

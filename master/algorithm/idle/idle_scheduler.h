@@ -66,8 +66,12 @@ class IdleScheduler {
   /// After the events of a communication point: writes the inputs of the units that are not
   /// suspended, reads their promises, and suspends those whose promise is long enough.
   void suspend_idle(Time time);
-  /// At the communication point `now`, after suspend_idle().
+  /// At the communication point `now`, after suspend_idle(). The Exchange's state is persisted
+  /// before.
   void persist(StateArchive& state, Time start, Time now);
+  /// After a state was read, and Exchange::read_new_outputs(): suspended units get the tangents of
+  /// their new outputs.
+  void take_new_tangents(Time now);
   /// At the end of the run.
   void catch_up_all(Time time);
   /// Reports the suspensions that a failure at `time` has ended.
@@ -75,9 +79,16 @@ class IdleScheduler {
 
  private:
   struct Tangent {
+    VariableId id;
     ValueSlice element;
     double value = 0;
     double slope = 0;
+
+    void begin(double its_slope) {
+      value = real(element);
+      slope = its_slope;
+    }
+    void follow(double elapsed) const { set_real(element, value + slope * elapsed); }
   };
   struct WatchedInput {
     ValueSlice element;
@@ -101,7 +112,11 @@ class IdleScheduler {
     std::vector<double> slopes;              ///< of their elements
   };
 
-  static void persist(StateArchive& state, IdleState& unit, Time start, Time now);
+  void persist(StateArchive& state, std::size_t component, Time start, Time now);
+  void persist_tangents(StateArchive& state, std::size_t component);
+  static void persist(StateArchive& state, Tangent& tangent);
+  static void drop_tangents(StateArchive& state, const Variable& output);
+  void take_new_tangents(std::size_t component, Time now);
   void add_candidate(std::size_t component, Duration max_skip);
   void find_sources();
   static Time leaves_deadband(const WatchedInput& input, Time time);

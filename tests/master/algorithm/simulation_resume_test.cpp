@@ -72,7 +72,8 @@ struct Called : Observer {
 };
 
 /// The state of a system of one unit at 3 ms.
-std::vector<std::byte> state_of(ScriptedSystem& f, double stop = 0.01) {
+std::vector<std::byte> state_of(ScriptedSystem& f, double stop = 0.01,
+                                const std::vector<VariableId>& recorded = {}) {
   struct Writer : RunControl {
     Simulation* simulation = nullptr;
     StateArchive state;
@@ -81,7 +82,7 @@ std::vector<std::byte> state_of(ScriptedSystem& f, double stop = 0.01) {
     }
     void on_pause(Time) override { simulation->persist(state); }
   } writer;
-  writer.simulation = &f.build(stop, 1ms);
+  writer.simulation = &f.build(stop, 1ms, recorded);
   writer.simulation->set_control(writer);
   writer.simulation->run();
   return writer.state.bytes();
@@ -147,6 +148,82 @@ TEST_CASE("observers see the values of the state when they have been started") {
   double value = 0;
   f.simulation->resume(archive, [&] { value = called.block->numbers<double>()[0]; });
   CHECK(value == 4);
+}
+
+TEST_CASE("a run that goes on with other variables reads those that are new, once") {
+  ScriptedSystem first;
+  const auto description = Describe("io").input("u").output("x").output("y").done();
+  first.add("a", description);
+  first.add("b", description);
+  const std::vector<std::byte> state = state_of(first, 0.01, {{0, 1}, {1, 2}});
+  ScriptedSystem f;
+  auto& a = f.add("a", description);
+  auto& b = f.add("b", description);
+  a.number(2) = 7;
+  Called called;
+  f.build(0.005, 1ms, {{0, 2}, {1, 2}}).add_observer(called);
+  StateArchive archive(state);
+  double value = 0;
+  f.simulation->resume(archive, [&] {
+    value = called.block->numbers<double>()[0];
+    CHECK(a.gets == 1);
+    CHECK(b.gets == 0);
+    CHECK(a.calls.empty());
+    CHECK_NOTHROW(archive.end());
+  });
+  CHECK(value == 7);
+}
+
+TEST_CASE("new outputs of a suspended unit are on their tangents, and old ones stay there") {
+  const VariableId x{0, 0}, y{0, 1}, z{0, 2}, count{0, 3};
+  const auto make = [](Resumed& f) {
+    f.options = steps(1ms, Time(60ms));
+    f.options.idle.max_skip.assign(1, 20ms);
+    auto& a = f.add("a", Describe("a")
+                             .output("x")
+                             .tolerance(1e-6)
+                             .output("y")
+                             .tolerance(1e-6)
+                             .output("z")
+                             .tolerance(1e-6)
+                             .output("count")
+                             .event_mode()
+                             .promises_idle()
+                             .done());
+    a.on_slope = [](ScriptedUnit& unit, ValueReference reference) {
+      return unit.number(3) + 0.1 * (1 + static_cast<double>(reference));
+    };
+    a.on_step = [&slope = a.on_slope](ScriptedUnit& unit, Time from, Time to) {
+      for (ValueReference k = 0; k < 3; ++k)
+        unit.number(k) += slope(unit, k) * to_seconds(to - from);
+      ++unit.number(3);
+      return reached(to);
+    };
+    a.on_idle_until = [](ScriptedUnit&) { return Time::max(); };
+    f.add("beside", resumable());  // is never suspended, so there is a point at each step
+  };
+  const auto observing = [](RunOptions options, std::vector<VariableId> ids) {
+    options.recorded = std::move(ids);
+    return options;
+  };
+  const std::vector<VariableId> after{y, z, count};
+  for (const Duration cut : {0ms, 7ms, 20ms, 33ms}) {
+    INFO(to_seconds(cut) << " s");
+    Resumed whole, f;
+    make(whole);
+    make(f);
+    whole.options = observing(whole.options, after);
+    const std::string expected = whole.whole();
+    f.system = std::make_unique<System>(f.declaration);
+    Trace ignored(*f.system), trace(*f.system);
+    CutRun before{*f.system, share(std::move(f.units)), ignored};
+    const auto state = before.up_to({Time(cut), false}, observing(f.options, {x, y}));
+    REQUIRE_FALSE(state.empty());
+    CutRun{*f.system, before.units, trace}.from(state, observing(f.options, after));
+    REQUIRE(trace.text().size() > 100);
+    CHECK(expected.ends_with(trace.text()));
+    CHECK(trace.points().front() == Time(cut + 1ms));
+  }
 }
 
 TEST_CASE("statistics count the whole run, without what brought the units to where they are") {

@@ -133,3 +133,19 @@ TEST_CASE("Booleans, items and numbers of elements that cannot be are bad") {
   StateArchive read(state.bytes());
   CHECK_THROWS_WITH(read.fixed(four), Catch::Contains("3 elements where there should be 4"));
 }
+
+TEST_CASE("keys may be others than those of the reader, but ascend and exist") {
+  const auto read = [](std::vector<std::uint64_t> written, std::uint64_t end) {
+    StateArchive state;
+    state.values(written);
+    StateArchive reader(state.bytes());
+    std::vector<std::uint64_t> keys{1, 2};
+    reader.keys(keys, end);
+    return keys;
+  };
+  CHECK(read({0, 3, 7}, 8) == std::vector<std::uint64_t>{0, 3, 7});
+  CHECK(read({}, 0).empty());
+  CHECK_THROWS_WITH(read({0, 3, 7}, 7), Catch::Contains("a key that does not exist"));
+  CHECK_THROWS_WITH(read({3, 0}, 8), Catch::Contains("do not ascend"));
+  CHECK_THROWS_WITH(read({3, 3}, 8), Catch::Contains("do not ascend"));
+}

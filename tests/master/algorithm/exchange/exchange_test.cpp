@@ -1,7 +1,10 @@
 #include "master/algorithm/exchange/exchange.h"
 
+#include <cmath>
+
 #include <catch2/catch.hpp>
 
+#include "master/util/state_archive.h"
 #include "tests/master/algorithm/scripted_system.h"
 
 using namespace stride;
@@ -25,6 +28,27 @@ template <class T>
 std::vector<T> all(ScriptedUnit& unit, ValueReference reference) {
   const auto numbers = unit.block(reference).numbers<T>();
   return {numbers.begin(), numbers.end()};
+}
+
+/// Several outputs, two of them of one type and one an array.
+std::shared_ptr<const UnitDescription> several_outputs() {
+  return Describe("several")
+      .output("x")
+      .output("y")
+      .size(2)
+      .output("z")
+      .add("word", ValueType::String, Causality::Output)
+      .add("count", ValueType::Int32, Causality::Output)
+      .done();
+}
+
+std::vector<std::byte> state_with(const System& system, const std::vector<VariableId>& observed,
+                                  ScriptedUnit& unit) {
+  Exchange exchange(system, observed);
+  exchange.read_outputs(0, unit);
+  StateArchive state;
+  exchange.persist(state);
+  return state.bytes();
 }
 
 }  // namespace
@@ -109,4 +133,74 @@ TEST_CASE("an output of the system may be an element of an array") {
   f.simulation->add_observer(last);
   f.simulation->run();
   CHECK(last.value == 2);
+}
+
+TEST_CASE("outputs of a state are found by their variables, and only new ones are read") {
+  ScriptedSystem f;
+  ScriptedUnit& a = f.add("a", several_outputs());
+  const System system(f.declaration);
+  const VariableId x{0, 0}, y{0, 1}, z{0, 2}, word{0, 3}, count{0, 4};
+  a.block(0).numbers<double>()[0] = -0.0;
+  a.block(1).numbers<double>()[1] = 0.1;
+  a.block(2).numbers<double>()[0] = 3;
+  a.block(3).strings()[0] = "before";
+  const std::vector<std::byte> state = state_with(system, {x, y, word}, a);
+  a.block(1).numbers<double>()[1] = 0.2;
+  a.block(2).numbers<double>()[0] = 4;
+  a.block(3).strings()[0] = "after";
+  a.block(4).numbers<std::int32_t>()[0] = 5;
+  SECTION("others are observed") {
+    a.gets = 0;
+    Exchange exchange(system, std::vector{y, z, word, count});
+    StateArchive archive(state);
+    exchange.persist(archive);
+    archive.end();
+    const auto news = exchange.new_outputs();
+    CHECK(std::vector(news.begin(), news.end()) == std::vector{z, count});
+    CHECK(a.gets == 0);
+    exchange.read_new_outputs(0, a);
+    CHECK(a.gets == 2);  // one for each type
+    CHECK(exchange.value(y).numbers<double>()[1] == 0.1);
+    CHECK(exchange.value(z).numbers<double>()[0] == 4);
+    CHECK(exchange.value(word).strings()[0] == "before");
+    CHECK(exchange.value(count).numbers<std::int32_t>()[0] == 5);
+  }
+  SECTION("the same are observed") {
+    a.gets = 0;
+    Exchange exchange(system, std::vector{x, y, word});
+    StateArchive archive(state);
+    exchange.persist(archive);
+    archive.end();
+    exchange.read_new_outputs(0, a);
+    CHECK(a.gets == 0);
+    CHECK(exchange.new_outputs().empty());
+    CHECK(std::signbit(exchange.value(x).numbers<double>()[0]));
+    StateArchive again;
+    exchange.persist(again);
+    CHECK(again.bytes() == state);
+  }
+}
+
+TEST_CASE("a state whose outputs cannot be those of the system is refused") {
+  ScriptedSystem f;
+  const auto unit = Describe("unit").input("u").output("y").done();
+  ScriptedUnit& a = f.add("a", unit);
+  f.add("b", unit);
+  const System apart(f.declaration);
+  f.wire("a", "y", "b", "u");
+  const System wired(f.declaration);
+  const auto read = [&](const System& system, const std::vector<std::byte>& state) {
+    Exchange exchange(system, {});
+    StateArchive archive(state);
+    exchange.persist(archive);
+  };
+  CHECK_THROWS_WITH(read(wired, state_with(apart, {}, a)),
+                    Catch::Contains("does not have an output that is connected"));
+  CHECK_THROWS_WITH(read(wired, state_with(apart, {{0, 1}, {1, 0}}, a)),
+                    Catch::Contains("what was read is no output"));
+  ScriptedSystem g;
+  ScriptedUnit& wide = g.add("a", several_outputs());
+  g.add("b", several_outputs());
+  CHECK_THROWS_WITH(read(apart, state_with(System(g.declaration), {{0, 4}}, wide)),
+                    Catch::Contains("a key that does not exist"));
 }
