@@ -19,7 +19,7 @@ MISTAKES = [
     ("step_stage(", "step_part(", "step_part() is not a function of master/algorithm"),
     ("check_minimum()", "check_least()", "Stepper::check_minimum() is neither in the pseudocode nor in the list"),
     ("prepare_events()", "handle_events()", "EventHandler::prepare_events() is neither in the pseudocode nor"),
-    ("configure()", "record(unit)", "Run::configure() is neither in the pseudocode nor in the list"),
+    ("check_stall()", "record(unit)", "Run::check_stall() is neither in the pseudocode nor in the list"),
     ("exchange_messages()", "transmit(unit, 0)", "EventHandler::exchange_messages() is neither"),
     ("handle_requests()", "handle_requests() should_continue()", "Run::should_continue() is in the pseudocode and in"),
     ("`step_order`", "`order_of_steps`", "order_of_steps is not in the code"),

@@ -29,14 +29,14 @@ PLACEHOLDER = "Class::function"
 SHOWN = {
     "Run": "abandon note_requested_end add_observer statistics suspended_time verdicts count sets_inputs_in_steps "
            "coasting add_wall_time finish_suspensions finish_observers perform "
-           "set_control persist add_interventions persist_all persist_statistics "
+           "set_control run_rest end_behind persist add_interventions persist_all persist_statistics "
            "notify_observers start_observers make_input_extrapolator make_idle_scheduler "
-           "connect_input_updates set should_continue",
+           "connect_input_updates should_continue",
     "Stepper": "result has_requests steps was_parallel make_timed_passes step_together step_share succeeds "
                "form_stages batches step_one_by_one step_plainly save_and_step reached_by attempt_timed begin_timed "
                "finish persist prepare conclude report record_time index name rethrow_failure reason hint_for_final fail_final plan pool",
-    "IdleScheduler": "add_candidate all_suspended_until catch_up_and_report check_promise covers find_sources "
-                     "is_disturbed is_suspended is_trivial leaves_deadband may_suspend persist report_suspension "
+    "IdleScheduler": "add_candidate all_suspended_until catch_up_and_report check_promise covers drop_tangents find_sources "
+                     "is_disturbed is_suspended is_trivial leaves_deadband may_suspend persist persist_tangents report_suspension "
                      "report_unfinished suspended_time",
     "OrderedEvaluation": "check_nan find_direct_inputs is_trivial plan report sweep takes_part",
     "AlgebraicLoop": "collect fail has_converged have_held_values_converged hint inputs put sweep values_text",
