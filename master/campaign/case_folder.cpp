@@ -1,0 +1,129 @@
+#include "master/campaign/case_folder.h"
+
+#include <climits>
+#include <fstream>
+#include <sstream>
+#include <system_error>
+#include <utility>
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include "master/campaign/plan_folder.h"
+#include "master/recorders/results_folder.h"
+#include "master/util/error.h"
+#include "master/util/output_file.h"
+
+namespace stride::campaign {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Digits of a name that are its place in its folder.
+constexpr std::size_t kPlaces = 3;
+
+std::string host_name() {
+  char name[HOST_NAME_MAX + 1] = {};
+  return ::gethostname(name, HOST_NAME_MAX) == 0 ? name : "localhost";
+}
+
+/// Whoever is at work there holds the lock.
+core::Descriptor locked(const fs::path& folder) {
+  core::Descriptor open(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  if (open.is_open() && ::flock(open.number(), LOCK_EX | LOCK_NB) != 0) open.close();
+  return open;
+}
+
+void remove_leftovers(const fs::path& running, const std::string& host) {
+  std::error_code ignored;
+  for (fs::directory_iterator it(running, ignored), end; it != end; it.increment(ignored)) {
+    if (it->path().stem() != host || !locked(it->path()).is_open()) continue;
+    fs::remove_all(it->path(), ignored);
+  }
+}
+
+void move(const fs::path& from, const fs::path& to) {
+  std::error_code error;
+  fs::create_directories(to.parent_path(), error);
+  if (!error) fs::rename(from, to, error);
+  if (!error) return;
+  core::fail_run({.where = {to.string(), 0}},
+                 fmt::format("cannot put a result of the campaign here: {}", error.message()));
+}
+
+}  // namespace
+
+CaseFolder::CaseFolder(const Plan& plan, fs::path folder)
+    : plan_(plan), folder_(std::move(folder)) {}
+
+fs::path CaseFolder::results_name(std::uint64_t index) const {
+  const std::string name = case_name(plan_, index);
+  return fs::path(kCases) / name.substr(0, name.size() - kPlaces) / name;
+}
+
+fs::path CaseFolder::record_file(std::uint64_t index) const {
+  return folder_ / (results_name(index).string() + ".json");
+}
+
+std::optional<CaseFolder::Record> CaseFolder::read(std::uint64_t index) const {
+  std::ifstream file(record_file(index), std::ios::binary);
+  if (!file) return std::nullopt;
+  Record record;
+  std::getline(file, record.line);
+  auto result = parse_record(plan_, index, record.line);
+  if (!result) return std::nullopt;
+  record.result = std::move(*result);
+  return record;
+}
+
+CaseScratch::CaseScratch(const CaseFolder& folder) : cases_(folder) {
+  const fs::path running = fs::absolute(cases_.path()) / kRunning;
+  recorders::make_results_folder(running);
+  const std::string host = host_name();
+  remove_leftovers(running, host);
+  folder_ = running / fmt::format("{}.{}", host, ::getpid());
+  recorders::make_results_folder(folder_);
+  lock_ = locked(folder_);
+}
+
+CaseScratch::~CaseScratch() {
+  std::error_code ignored;
+  fs::remove_all(folder_, ignored);
+  fs::remove(folder_.parent_path(), ignored);  // if others have nothing there
+}
+
+fs::path CaseScratch::results(std::uint64_t index) const { return folder_ / std::to_string(index); }
+
+void CaseScratch::drop_results(std::uint64_t index) const {
+  std::error_code ignored;
+  fs::remove_all(results(index), ignored);
+}
+
+void CaseScratch::keep_results(std::uint64_t index) const {
+  const fs::path to = cases_.path() / cases_.results_name(index);
+  std::error_code ignored;
+  fs::remove_all(to, ignored);  // of a process that was killed before the record was there
+  move(results(index), to);
+}
+
+bool CaseScratch::has_room() const {
+  constexpr std::uintmax_t kRoom = 16 << 10;  // [byte]
+  std::error_code error;
+  const fs::space_info space = fs::space(folder_, error);
+  return error || space.available >= kRoom;
+}
+
+void CaseScratch::write(std::uint64_t index, const std::string& line) const {
+  const fs::path fresh = file("record.json");
+  core::OutputFile record(fresh);
+  record.write(line);
+  record.write('\n');
+  record.close();
+  move(fresh, cases_.record_file(index));
+}
+
+void CaseScratch::publish(const std::string& name) const { move(file(name), cases_.path() / name); }
+
+}  // namespace stride::campaign
