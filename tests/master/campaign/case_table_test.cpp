@@ -141,10 +141,11 @@ TEST_CASE("a test report of a campaign") {
   write_campaign_junit(records.folder / "j.xml", records.plan, records.cases,
                        {.cases = 4, .passed = 1, .failed = 2});
   const std::string xml = content(records.folder / "j.xml");
-  CHECK_THAT(xml, Contains("tests=\"4\" failures=\"1\" errors=\"1\" skipped=\"1\" time=\"0.250\"") &&
-                      Contains("<error message=\"SIGSEGV\" type=\"crashed\">") &&
-                      Contains("<failure message=\"low: at 0.5 s, &quot;y&quot;\" "
-                               "type=\"failed\">") &&
-                      Contains("<skipped message=\"the case has not been run\"/>") &&
-                      Contains(" --set b.u="));
+  CHECK_THAT(xml,
+             Contains("tests=\"4\" failures=\"1\" errors=\"1\" skipped=\"1\" time=\"0.250\"") &&
+                 Contains("<error message=\"SIGSEGV\" type=\"crashed\">") &&
+                 Contains("<failure message=\"low: at 0.5 s, &quot;y&quot;\" "
+                          "type=\"failed\">") &&
+                 Contains("<skipped message=\"the case has not been run\"/>") &&
+                 Contains(" --set b.u="));
 }
