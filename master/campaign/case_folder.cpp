@@ -1,9 +1,11 @@
 #include "master/campaign/case_folder.h"
 
+#include <cerrno>
+#include <chrono>
 #include <climits>
 #include <fstream>
-#include <sstream>
 #include <system_error>
+#include <thread>
 #include <utility>
 
 #include <fcntl.h>
@@ -14,6 +16,7 @@
 #include "master/campaign/plan_folder.h"
 #include "master/recorders/results_folder.h"
 #include "master/util/error.h"
+#include "master/util/file_identity.h"
 #include "master/util/output_file.h"
 
 namespace stride::campaign {
@@ -29,18 +32,21 @@ std::string host_name() {
   return ::gethostname(name, HOST_NAME_MAX) == 0 ? name : "localhost";
 }
 
-/// Whoever is at work there holds the lock.
-core::Descriptor locked(const fs::path& folder) {
-  core::Descriptor open(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-  if (open.is_open() && ::flock(open.number(), LOCK_EX | LOCK_NB) != 0) open.close();
-  return open;
+core::Descriptor opened(const fs::path& folder) {
+  return core::Descriptor(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+}
+
+/// Whoever is at work in a folder holds its lock. A file system may have none.
+bool is_locked_by_other(const core::Descriptor& folder) {
+  return ::flock(folder.number(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
 }
 
 void remove_leftovers(const fs::path& running, const std::string& host) {
   std::error_code ignored;
   for (fs::directory_iterator it(running, ignored), end; it != end; it.increment(ignored)) {
-    if (it->path().stem() != host || !locked(it->path()).is_open()) continue;
-    fs::remove_all(it->path(), ignored);
+    if (it->path().stem() != host) continue;
+    const core::Descriptor folder = opened(it->path());
+    if (folder.is_open() && !is_locked_by_other(folder)) fs::remove_all(it->path(), ignored);
   }
 }
 
@@ -79,13 +85,25 @@ std::optional<CaseFolder::Record> CaseFolder::read(std::uint64_t index) const {
 }
 
 CaseScratch::CaseScratch(const CaseFolder& folder) : cases_(folder) {
+  recorders::make_results_folder(cases_.path());
   const fs::path running = fs::absolute(cases_.path()) / kRunning;
-  recorders::make_results_folder(running);
   const std::string host = host_name();
   remove_leftovers(running, host);
   folder_ = running / fmt::format("{}.{}", host, ::getpid());
+  constexpr int kAttempts = 1000;
+  for (int attempt = 0; attempt < kAttempts && !is_made(); ++attempt) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
   recorders::make_results_folder(folder_);
-  lock_ = locked(folder_);
+}
+
+/// Until it is locked, another process may take it, or the folder above it, for a leftover.
+bool CaseScratch::is_made() {
+  std::error_code error;
+  fs::create_directories(folder_, error);
+  lock_ = opened(folder_);
+  if (error || !lock_.is_open() || is_locked_by_other(lock_)) return false;
+  return core::FileIdentity::of(lock_.number()) == core::FileIdentity::of(folder_.c_str());
 }
 
 CaseScratch::~CaseScratch() {

@@ -76,6 +76,8 @@ class CaseScratch {
   void publish(const std::string& name) const;
 
  private:
+  bool is_made();
+
   const CaseFolder& cases_;
   std::filesystem::path folder_;
   core::Descriptor lock_;
