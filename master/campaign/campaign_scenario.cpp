@@ -22,7 +22,8 @@ namespace {
 
 using Type = ValueKind::Type;
 
-scenario::LoadedScenario load(const Campaign& campaign, std::vector<std::string> swaps) {
+scenario::LoadedScenario load(const Campaign& campaign, std::vector<std::string> swaps,
+                              std::shared_ptr<scenario::UnitStore> units) {
   if (!core::path_exists(campaign.scenario)) {
     core::fail_input({.where = campaign.scenario_where},
                      fmt::format("the scenario '{}' does not exist",
@@ -32,6 +33,7 @@ scenario::LoadedScenario load(const Campaign& campaign, std::vector<std::string>
   scenario::ScenarioRequest request;
   request.scenario = campaign.scenario;
   request.swaps = std::move(swaps);
+  request.units = std::move(units);
   return scenario::LoadedScenario(request);
 }
 
@@ -109,7 +111,7 @@ bool is_same_place(const core::Location& a, const core::Location& b) {
 }  // namespace
 
 CampaignScenario::CampaignScenario(const Campaign& campaign, const std::string& version)
-    : loaded_(load(campaign, {})) {
+    : loaded_(load(campaign, {}, units_)) {
   for (const core::Component& component : loaded_.system().components()) {
     names_.add(component.name, component.description);
   }
@@ -302,7 +304,8 @@ void CampaignScenario::load_alternatives(const Campaign& campaign) {
     for (const auto& [name, file, where] : swap.alternatives) {
       if (file.empty()) continue;
       scenario::find_unit(file, where);
-      alternatives_.push_back({i, name, load(campaign, {swap.component + "=" + file.string()})});
+      alternatives_.push_back(
+          {i, name, load(campaign, {swap.component + "=" + file.string()}, units_)});
     }
   }
 }

@@ -2,6 +2,7 @@
 #ifndef STRIDE_MASTER_CAMPAIGN_CAMPAIGN_SCENARIO_H
 #define STRIDE_MASTER_CAMPAIGN_CAMPAIGN_SCENARIO_H
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -35,6 +36,8 @@ class CampaignScenario {
   };
 
   const scenario::LoadedScenario& loaded() const { return loaded_; }
+  /// All units, those of alternatives, too.
+  const std::shared_ptr<scenario::UnitStore>& units() const { return units_; }
   const std::vector<StartTarget>& start_targets() const { return targets_; }
   const std::vector<LoadedAlternative>& alternatives() const { return alternatives_; }
   /// Of the columns of the campaign's plan.
@@ -54,6 +57,7 @@ class CampaignScenario {
   void load_alternatives(const Campaign& campaign);
   void take_fingerprints(const Campaign& campaign);
 
+  std::shared_ptr<scenario::UnitStore> units_ = std::make_shared<scenario::UnitStore>();
   scenario::LoadedScenario loaded_;
   core::NameIndex names_;
   std::vector<StartTarget> targets_;

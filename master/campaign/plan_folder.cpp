@@ -25,12 +25,6 @@ void write_whole(const fs::path& file, const std::string& text) {
   replacement.commit();
 }
 
-/// An empty text is in quotation marks, so that it is not taken for no value.
-std::string value_field(const Text& value) {
-  if (!value) return "";
-  return value->empty() ? "\"\"" : recorders::csv_field(*value);
-}
-
 void write_table(const Plan& plan, const fs::path& file) {
   core::Replacement replacement(file);
   core::OutputFile& output = replacement.file();
@@ -54,6 +48,18 @@ void write_table(const Plan& plan, const fs::path& file) {
     output.write('\n');
   }
   replacement.commit();
+}
+
+/// Of campaign.json; nothing if there is none.
+std::optional<std::string> description_text(const fs::path& folder, const char* key) {
+  const fs::path file = folder / kPlanDescription;
+  if (!core::path_exists(file)) return std::nullopt;
+  const auto json = nlohmann::json::parse(core::read_input(file), nullptr, false);
+  if (json.is_object() && json.contains(key) && json[key].is_string()) {
+    return json[key].get<std::string>();
+  }
+  core::fail_input({.where = {file.string(), 0}}, "this is not the description of a plan",
+                   "choose another folder with --out");
 }
 
 void refuse_other_plan(const Plan& plan, const fs::path& folder) {
@@ -101,19 +107,29 @@ std::string parameter_set(const Plan& plan, const Case& row) {
 
 }  // namespace
 
+std::string value_field(const Text& value) {
+  if (!value) return "";
+  return value->empty() ? "\"\"" : recorders::csv_field(*value);
+}
+
 fs::path default_folder(const fs::path& campaign) {
   return fs::path("campaigns") / campaign.stem();
 }
 
 std::optional<std::string> identity_in(const fs::path& folder) {
-  const fs::path file = folder / kPlanDescription;
-  if (!core::path_exists(file)) return std::nullopt;
-  const auto json = nlohmann::json::parse(core::read_input(file), nullptr, false);
-  if (json.is_object() && json.contains("identity") && json["identity"].is_string()) {
-    return json["identity"].get<std::string>();
-  }
-  core::fail_input({.where = {file.string(), 0}}, "this is not the description of a plan",
-                   "choose another folder with --out");
+  return description_text(folder, "identity");
+}
+
+fs::path campaign_of(const fs::path& folder) {
+  const auto campaign = description_text(folder, "campaign");
+  if (campaign) return (folder / *campaign).lexically_normal();
+  core::fail_input({.where = {folder.string(), 0}}, "there is no plan in this folder",
+                   "name the file of the campaign");
+}
+
+bool has_plan(const Plan& plan, const fs::path& folder) {
+  refuse_other_plan(plan, folder);
+  return identity_in(folder).has_value();
 }
 
 void write_plan(const Plan& plan, const fs::path& folder) {
@@ -121,7 +137,7 @@ void write_plan(const Plan& plan, const fs::path& folder) {
   recorders::make_results_folder(folder);
   const recorders::ResultsLock lock(folder);
   write_table(plan, folder / kPlanTable);
-  write_whole(folder / kPlanDescription, plan_json(plan));
+  write_whole(folder / kPlanDescription, plan_json(plan, folder));
 }
 
 void refuse_parameter_sets_of(const Plan& plan) {
@@ -137,9 +153,13 @@ void refuse_parameter_sets_of(const Plan& plan) {
       "leave --ssv out; --case INDEX prints all settings of a case");
 }
 
-fs::path parameter_set_name(const Plan& plan, std::uint64_t index) {
+std::string case_name(const Plan& plan, std::uint64_t index) {
   const std::size_t digits = std::max<std::size_t>(6, std::to_string(plan.size() - 1).size());
-  return fs::path(kParameterSets) / fmt::format("{:0{}}.ssv", index, digits);
+  return fmt::format("{:0{}}", index, digits);
+}
+
+fs::path parameter_set_name(const Plan& plan, std::uint64_t index) {
+  return fs::path(kParameterSets) / (case_name(plan, index) + ".ssv");
 }
 
 void write_parameter_sets(const Plan& plan, const fs::path& folder) {

@@ -158,12 +158,15 @@ Json content_json(const Plan& plan) {
 
 std::string plan_identity(const Plan& plan) { return core::sha256(dumped(content_json(plan))); }
 
-std::string plan_json(const Plan& plan) {
+std::string plan_json(const Plan& plan, const std::filesystem::path& folder) {
+  namespace fs = std::filesystem;
   const Campaign& campaign = plan.campaign();
-  const std::filesystem::path folder = campaign.file.parent_path();
+  const fs::path file = fs::absolute(campaign.file).lexically_normal();
+  const fs::path base = fs::absolute(folder).lexically_normal();
   Json json{{"identity", plan_identity(plan)},
-            {"campaign", campaign.file.filename().string()},
-            {"scenario", campaign.scenario.lexically_proximate(folder).generic_string()}};
+            {"campaign", file.lexically_proximate(base).generic_string()},
+            {"scenario",
+             campaign.scenario.lexically_proximate(campaign.file.parent_path()).generic_string()}};
   json.update(content_json(plan));
   return dumped(json, 2) + "\n";
 }

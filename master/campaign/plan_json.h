@@ -2,6 +2,7 @@
 #ifndef STRIDE_MASTER_CAMPAIGN_PLAN_JSON_H
 #define STRIDE_MASTER_CAMPAIGN_PLAN_JSON_H
 
+#include <filesystem>
 #include <string>
 
 #include "master/campaign/plan.h"
@@ -12,9 +13,9 @@ namespace stride::campaign {
 /// them, but not for the paths of its files.
 std::string plan_identity(const Plan& plan);
 
-/// The object in campaign.json, indented, with a line feed at its end. The same plan gives the same
-/// bytes.
-std::string plan_json(const Plan& plan);
+/// The object in campaign.json of this folder, indented, with a line feed at its end. The same plan
+/// gives the same bytes.
+std::string plan_json(const Plan& plan, const std::filesystem::path& folder);
 
 }  // namespace stride::campaign
 

@@ -1,4 +1,4 @@
-// stride campaign: many variations of a scenario.
+// stride campaign: many variations of a scenario, and the plan of them.
 #include <algorithm>
 #include <memory>
 #include <optional>
@@ -8,15 +8,14 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "master/campaign/campaign_file.h"
-#include "master/campaign/campaign_scenario.h"
 #include "master/campaign/plan.h"
 #include "master/campaign/plan_check.h"
 #include "master/campaign/plan_folder.h"
+#include "master/cli/campaign_input.h"
+#include "master/cli/campaign_run.h"
 #include "master/cli/commands.h"
 #include "master/cli/crash_guard.h"
 #include "master/cli/output.h"
-#include "master/cli/output_paths.h"
 #include "master/cli/table.h"
 
 namespace stride::cli {
@@ -25,8 +24,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct PlanArguments {
-  fs::path file;
-  fs::path out;
+  CampaignArguments campaign;
   bool ssv = false;
   std::optional<std::uint64_t> only;  ///< the case to be printed
 };
@@ -110,62 +108,35 @@ void print_plan(const campaign::Plan& plan, const fs::path& folder, bool ssv) {
                  : "");
 }
 
-/// What the command writes is none of what it reads.
-void check_plan_outputs(const PlanArguments& arguments, const fs::path& folder,
-                        const campaign::CampaignScenario& scenario) {
-  std::vector<KeptPath> kept = inputs_of(scenario.loaded());
-  kept.push_back({arguments.file, "the campaign"});
-  for (const char* file : {campaign::kPlanTable, campaign::kPlanDescription}) {
-    const OutputPath output{fmt::format("{} in the folder {}", file, folder.string()),
-                            folder / file};
-    refuse_kept_paths({&output, 1}, kept);
-  }
-}
-
 void print_case(const campaign::Plan& plan, std::uint64_t index) {
-  if (index >= plan.size()) {
-    core::fail_input({}, fmt::format("--case {}: there are {} cases, the last one is {}", index,
-                                     plan.size(), plan.size() - 1));
-  }
   print_text("stride run {}\n", plan.arguments(plan.at(index)));
 }
 
 void plan_campaign(const PlanArguments& arguments) {
   const CrashGuard guard;
-  campaign::Campaign read = campaign::read_campaign(arguments.file);
-  print_warnings(read.warnings);
-  const campaign::CampaignScenario scenario(read, STRIDE_VERSION);
-  const LimitedEnd end;
-  const campaign::Plan plan(std::move(read), scenario.kinds(), scenario.fingerprints());
-  campaign::check_plan(plan, scenario);
-  if (arguments.only) return print_case(plan, *arguments.only);
-  const fs::path folder =
-      arguments.out.empty() ? campaign::default_folder(arguments.file) : arguments.out;
-  check_plan_outputs(arguments, folder, scenario);
+  const CampaignInput input(arguments.campaign);
+  const campaign::Plan& plan = input.plan();
+  campaign::check_plan(plan, input.scenario());
+  if (arguments.only) {
+    input.require_case(*arguments.only);
+    return print_case(plan, *arguments.only);
+  }
+  input.refuse_inputs({campaign::kPlanTable, campaign::kPlanDescription});
   if (arguments.ssv) campaign::refuse_parameter_sets_of(plan);
-  campaign::write_plan(plan, folder);
-  if (arguments.ssv) campaign::write_parameter_sets(plan, folder);
-  print_plan(plan, folder, arguments.ssv);
+  campaign::write_plan(plan, input.folder());
+  if (arguments.ssv) campaign::write_parameter_sets(plan, input.folder());
+  print_plan(plan, input.folder(), arguments.ssv);
 }
 
 }  // namespace
 
 void add_campaign(CLI::App& app) {
-  CLI::App* group = app.add_subcommand("campaign", "Plan many variations of a scenario");
+  CLI::App* group = app.add_subcommand("campaign", "Plan and run many variations of a scenario");
   group->require_subcommand(1);
   CLI::App* command = group->add_subcommand(
       "plan", "Make the table of a campaign's cases, check all of their values, and run nothing");
   const auto arguments = std::make_shared<PlanArguments>();
-  command
-      ->add_option("FILE", arguments->file,
-                   "The campaign: a ParameterValueDistribution of OpenSCENARIO (.xosc) whose "
-                   "scenario is a .ssd, .ssp or .fmu")
-      ->required()
-      ->type_name("");
-  command
-      ->add_option("--out,--output,-o", arguments->out,
-                   "Folder of the campaign; otherwise campaigns/ and the name of FILE")
-      ->type_name("FOLDER");
+  add_campaign_options(*command, arguments->campaign);
   command->add_flag("--ssv", arguments->ssv,
                     "Write the values of each case as a parameter set, too, for 'stride run "
                     "--parameters' and other tools");
@@ -174,6 +145,8 @@ void add_campaign(CLI::App& app) {
                    "Print the command that runs this case, counted from 0, and write nothing")
       ->type_name("INDEX");
   command->callback([arguments] { plan_campaign(*arguments); });
+  add_campaign_run(*group);
+  add_campaign_status(*group);
 }
 
 }  // namespace stride::cli

@@ -263,11 +263,13 @@ void on_exit_called(int, void*) {
   if (!is_own || !end_note().is_leaving) end_by_exit();
 }
 
-/// Before any library of a unit is loaded, so that its exit functions come first.
+/// Before any library of a unit is loaded, so that its exit functions come first; again in a fork,
+/// whose own exit functions would come before these.
 void register_exit_functions() {
-  static const int registered =
-      ::on_exit(on_exit_called, nullptr) + std::at_quick_exit(end_by_exit);
-  (void)registered;
+  static pid_t process = 0;
+  if (std::exchange(process, ::getpid()) == ::getpid()) return;
+  ::on_exit(on_exit_called, nullptr);
+  std::at_quick_exit(end_by_exit);
 }
 
 void make_time_limit() {

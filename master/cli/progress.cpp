@@ -24,14 +24,14 @@ constexpr auto kRefresh = 100ms;
 constexpr auto kLeastPause = 1s;
 constexpr auto kMostPause = 30s;
 
+}  // namespace
+
 std::string duration_text(double seconds) {
   if (seconds < 99.5) return fmt::format("{:.0f} s", seconds);
   const auto whole = static_cast<long long>(seconds + 0.5);
   if (whole < 3600) return fmt::format("{} min {} s", whole / 60, whole % 60);
   return fmt::format("{} h {} min", whole / 3600, whole % 3600 / 60);
 }
-
-}  // namespace
 
 ProgressStyle read_progress_style(const std::string& text) {
   if (text == "auto") return ProgressStyle::Auto;
@@ -132,7 +132,6 @@ Progress::State Progress::state() const {
   return state;
 }
 
-/// A run goes on where its progress cannot be shown any longer.
 void Progress::put(const std::string& text) {
   std::fputs(text.c_str(), stderr);
   std::fflush(stderr);

@@ -25,6 +25,9 @@ enum class ProgressStyle {
 /// From "auto", "plain", "json" or "none". Throws core::Error (Input) for anything else.
 ProgressStyle read_progress_style(const std::string& text);
 
+/// For people: "12 s".
+std::string duration_text(double seconds);
+
 /// The present speed of a run, over the last seconds of the wall clock. It differs from the mean
 /// speed, since units are suspended at one time and busy at another.
 class Pace {
@@ -63,9 +66,14 @@ class Progress : public core::Observer {
   /// The run is over. Json writes how it ended.
   void end(const std::string& outcome);
 
+  /// What a style is for the standard error stream as it is.
+  enum class Form { Nothing, Rewritten, Lines, Json };
+  static Form form_of(ProgressStyle style);
+  /// A run goes on where its progress cannot be shown any longer.
+  static void put(const std::string& text);
+
  private:
   using Clock = Pace::Clock;
-  enum class Form { Nothing, Rewritten, Lines, Json };
 
   struct State {
     double share;                ///< of the run that is simulated, 0 to 1
@@ -75,12 +83,10 @@ class Progress : public core::Observer {
     std::optional<double> left;  ///< [s]
   };
 
-  static Form form_of(ProgressStyle style);
   void read_clock();
   bool is_due(Time time, Clock::time_point now) const;
   State state() const;
   void show(const State& state) const;
-  static void put(const std::string& text);
   void show_json(const State& state, const std::string* outcome) const;
 
   Form form_;

@@ -312,6 +312,7 @@ void RecordedRun::restore_process() const {
 
 /// The failure of the run is the error to report, so later failures are warnings.
 void RecordedRun::conclude_failure(const std::string& error) {
+  failure_ = error;
   progress_.end("failed");
   warn_of_failure([&] { setup_.capture.end(fmt::format("failed: {}", error)); });
   collect_verdicts(false);

@@ -90,6 +90,9 @@ class RecordedRun {
 
   /// Before the run, which it must outlive.
   void set_control(core::RunControl& control) { simulation_.set_control(control); }
+  void add_observer(core::Observer& observer, std::vector<core::VariableId> signals) {
+    simulation_.add_observer(observer, std::move(signals));
+  }
 
   /// Throws core::Error (Run) if the run fails or is interrupted, and if a check or a verdict
   /// failed. Whatever happens, the results are complete up to the last communication point.
@@ -109,6 +112,10 @@ class RecordedRun {
   void add_to(checkpoint::Checkpoint& checkpoint);
 
   const core::RunStatistics& statistics() const { return simulation_.statistics(); }
+  /// When it is over.
+  const std::vector<core::Verdict>& verdicts() const { return verdicts_; }
+  /// Why it has not come to its end, if it has not.
+  const std::optional<std::string>& failure() const { return failure_; }
 
   /// Instead of the end of run(), which something has prevented: ends the records without calling
   /// any unit, and writes what contains the error.
@@ -138,6 +145,7 @@ class RecordedRun {
   bool has_test_report_ = true;
   checks::Checks checks_;
   std::vector<core::Verdict> verdicts_;
+  std::optional<std::string> failure_{};
   Summary summary_;
   Progress progress_;
 };

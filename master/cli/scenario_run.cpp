@@ -26,6 +26,7 @@
 #include "master/cli/report_page.h"
 #include "master/cli/summary.h"
 #include "master/cli/test_report.h"
+#include "master/recorders/copied_results.h"
 #include "master/recorders/provenance.h"
 #include "master/recorders/results_folder.h"
 #include "master/recorders/unit_folders.h"

@@ -15,7 +15,6 @@
 #include <sys/sysmacros.h>
 #include <unistd.h>
 
-#include "master/recorders/unit_folders.h"
 #include "master/util/error.h"
 #include "master/util/input_file.h"
 
@@ -121,22 +120,6 @@ ResultsLock::ResultsLock(const fs::path& folder)
                                "results there",
                                words_for(holder)),
                    "wait for its end, or choose another results folder with --out");
-}
-
-void copy_results(const fs::path& from, const fs::path& to, const ResultFiles& files) {
-  for (const auto& [what, member] : kResultFiles) {
-    const std::string& name = files.*member;
-    if (!name.empty() && core::is_file(from / name)) core::copy_input(from / name, to / name);
-  }
-  if (!core::is_folder(from / kUnitsFolder)) return;
-  std::error_code error;
-  fs::copy(from / kUnitsFolder, to / kUnitsFolder,
-           fs::copy_options::recursive | fs::copy_options::skip_symlinks |
-               fs::copy_options::overwrite_existing,
-           error);
-  if (!error) return;
-  core::fail_run({.where = {(to / kUnitsFolder).string(), 0}},
-                 fmt::format("cannot copy the files of units to here: {}", error.message()));
 }
 
 void remove_results(const fs::path& folder, const ResultFiles& files) {

@@ -68,12 +68,6 @@ class ResultsLock {
   core::Descriptor folder_;
 };
 
-/// Copies the files of these names that are there, and the folders of units without links.
-/// Throws core::Error: of the kind Input for what cannot be read, of the kind Run for what cannot
-/// be written.
-void copy_results(const std::filesystem::path& from, const std::filesystem::path& to,
-                  const ResultFiles& files);
-
 /// The files of these names that an earlier run has left go before the next one begins: what that
 /// does not write itself, or not before it is killed, would be taken for its own.
 void remove_results(const std::filesystem::path& folder, const ResultFiles& files);

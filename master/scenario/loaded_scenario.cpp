@@ -114,7 +114,12 @@ ComponentFile component_file(const std::string& option, const std::string& text,
 }
 
 std::vector<std::shared_ptr<importer::Fmu>> load_fmus(const Scenario& scenario) {
-  std::map<std::filesystem::path, std::shared_ptr<importer::Fmu>> by_source, by_path;
+  UnitStore units;
+  return load_fmus(scenario, units);
+}
+
+std::vector<std::shared_ptr<importer::Fmu>> load_fmus(const Scenario& scenario, UnitStore& units) {
+  UnitStore by_source;
   std::vector<std::shared_ptr<importer::Fmu>> fmus;
   for (std::size_t i = 0; i < scenario.sources.size(); ++i) {
     const core::Location& where = scenario.system.components[i].where;
@@ -122,7 +127,7 @@ std::vector<std::shared_ptr<importer::Fmu>> load_fmus(const Scenario& scenario) 
     auto& named = by_source[source];
     if (!named) {
       const auto path = find_unit_shown_as(source, shown_places(scenario, source), where);
-      auto& fmu = by_path[path];
+      auto& fmu = units[path];
       if (!fmu) fmu = importer::Fmu::load(path, where, scenario.files->shown(path));
       named = fmu;
     }
@@ -137,7 +142,7 @@ LoadedScenario::LoadedScenario(const ScenarioRequest& request)
   if (scenario_.system.components.empty()) {
     core::fail_input(of_file(), "the system has no component, so there is nothing to simulate");
   }
-  load_units();
+  load_units(request.units.get());
   if (!request.film.empty()) switch_film_on(scenario_.system, request.film);
   connect_terminals();
   if (request.idle_twins) add_twins();
@@ -181,8 +186,8 @@ void LoadedScenario::swap(const std::string& text) {
   scenario_.system.components[i].where = {fmt::format("--swap {}", text), 0};
 }
 
-void LoadedScenario::load_units() {
-  fmus_ = load_fmus(scenario_);
+void LoadedScenario::load_units(UnitStore* units) {
+  fmus_ = units != nullptr ? load_fmus(scenario_, *units) : load_fmus(scenario_);
   std::set<std::string> known;
   for (std::size_t i = 0; i < fmus_.size(); ++i) {
     core::ComponentDeclaration& component = scenario_.system.components[i];

@@ -4,6 +4,7 @@
 
 #include <csignal>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -25,6 +26,10 @@
 #include "master/util/process/process_state.h"
 
 namespace stride::scenario {
+
+/// Units that are loaded, by their paths: scenarios that are loaded with the same ones have them in
+/// common.
+using UnitStore = std::map<std::filesystem::path, std::shared_ptr<importer::Fmu>>;
 
 /// The settings of the command line for a scenario.
 struct ScenarioRequest {
@@ -48,6 +53,7 @@ struct ScenarioRequest {
   bool idle_twins = false;  ///< adds them, see idle_twins.h
   HostRequest hosts;
   std::shared_ptr<ssp::Files> files;  ///< that have read some of it ahead; null: none
+  std::shared_ptr<UnitStore> units;   ///< to which those that are not there are added; null: none
   std::string film;  ///< seconds between its pictures, or kUnspecifiedFilmInterval; empty = none
 };
 
@@ -96,7 +102,7 @@ class LoadedScenario {
   /// For mistakes that concern the scenario as a whole.
   core::Context of_file() const;
   void swap(const std::string& text);
-  void load_units();
+  void load_units(UnitStore* units);
   void connect_terminals();
   void add_twins();
   std::vector<std::string> selection_names() const;
@@ -154,6 +160,8 @@ ComponentFile component_file(const std::string& option, const std::string& text,
 
 /// The FMUs of a scenario's components, in their order; for `complete`, which needs no system.
 std::vector<std::shared_ptr<importer::Fmu>> load_fmus(const Scenario& scenario);
+/// Likewise, with those that are there already; others are added.
+std::vector<std::shared_ptr<importer::Fmu>> load_fmus(const Scenario& scenario, UnitStore& units);
 
 }  // namespace stride::scenario
 

@@ -12,9 +12,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "master/util/descriptor.h"
 #include "master/util/error.h"
 #include "master/util/hex.h"
-#include "master/util/input_file.h"
 #include "master/util/state_archive.h"
 #include "master/util/time_text.h"
 
@@ -333,18 +333,19 @@ void OutputFile::continue_in_copy(std::filesystem::path path) {
 
 /// The other process may write on behind it.
 void OutputFile::copy_from(const std::filesystem::path& original, std::int64_t size) {
-  const Descriptor file = open_input(original);
+  const Descriptor file(::open(original.c_str(), O_RDONLY | O_CLOEXEC));
   std::string piece(UnwrittenRest::kCapacity, '\0');
   while (size > 0) {
     const auto most =
         static_cast<std::size_t>(std::min<std::int64_t>(size, UnwrittenRest::kCapacity));
-    const std::size_t count = read_from(file, piece.data(), most);
-    if (count == 0) {
-      fail_run({.where = {original.string(), 0}}, "the file was cut off while it was copied",
-               kTakenHint);
+    const ssize_t count = ::read(file.number(), piece.data(), most);
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) {
+      fail_run({.where = {original.string(), 0}},
+               "the file was cut off, or removed, while it was copied", kTakenHint);
     }
-    write(std::string_view(piece).substr(0, count));
-    size -= static_cast<std::int64_t>(count);
+    write(std::string_view(piece).substr(0, static_cast<std::size_t>(count)));
+    size -= count;
   }
   flush();
 }

@@ -1,7 +1,6 @@
 #include "master/isolation/process/child.h"
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>
@@ -9,6 +8,7 @@
 #include <exception>
 #include <memory>
 #include <utility>
+#include <vector>
 
 #include <poll.h>
 #include <sys/wait.h>
@@ -106,12 +106,14 @@ class Child::Watch {
   std::optional<ChildOutcome> wait(std::chrono::milliseconds patience) {
     const auto end = Clock::now() + patience;
     std::optional<End> cut_off;
-    while (!has_ended(child_) && !cut_off) {
-      const auto rest = std::chrono::ceil<std::chrono::milliseconds>(end - Clock::now());
-      if (rest.count() <= 0) return std::nullopt;
-      wait_for_output(std::min(rest, kGlance));
+    while (!has_ended(child_)) {
       read();
       cut_off = reason_to_stop();
+      if (cut_off) break;
+      const auto rest = std::chrono::ceil<std::chrono::milliseconds>(end - Clock::now());
+      if (rest.count() <= 0) return std::nullopt;
+      const Watch* const self = this;
+      await_any({&self, 1}, std::min(rest, kGlance));
     }
     const int status = reap(child_);
     is_over_ = true;
@@ -121,14 +123,18 @@ class Child::Watch {
     return outcome;
   }
 
- private:
-  void wait_for_output(std::chrono::milliseconds patience) const {
-    std::array<pollfd, 2> files{{{answer_.number(), POLLIN, 0}, {output_.number(), POLLIN, 0}}};
-    const bool is_over = !answer_.is_open() && !output_.is_open();
-    // when its pipes are closed it is about to end
+  static void await_any(std::span<const Watch* const> watches, std::chrono::milliseconds patience) {
+    std::vector<pollfd> files;
+    bool is_over = false;  // when its pipes are closed it is about to end
+    for (const Watch* const watch : watches) {
+      files.push_back({watch->answer_.number(), POLLIN, 0});
+      files.push_back({watch->output_.number(), POLLIN, 0});
+      is_over = is_over || (!watch->answer_.is_open() && !watch->output_.is_open());
+    }
     ::poll(files.data(), files.size(), is_over ? 1 : static_cast<int>(patience.count()));
   }
 
+ private:
   void read() {
     drain(answer_, text_);
     drain(output_, printed_);
@@ -181,6 +187,12 @@ Child::Child(Child&&) noexcept = default;
 
 std::optional<ChildOutcome> Child::wait(std::chrono::milliseconds patience) {
   return watch_->wait(patience);
+}
+
+void Child::await_any(std::span<const Child* const> children, std::chrono::milliseconds patience) {
+  std::vector<const Watch*> watches;
+  for (const Child* const child : children) watches.push_back(child->watch_.get());
+  Watch::await_any(watches, std::min(patience, kGlance));
 }
 
 ChildOutcome run_in_child(const std::function<std::string()>& work, const ChildOptions& options) {

@@ -7,6 +7,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 
 namespace stride::isolation {
@@ -48,6 +49,10 @@ class Child {
 
   /// Its outcome, once it has ended; nothing if it goes on for longer than the patience.
   std::optional<ChildOutcome> wait(std::chrono::milliseconds patience);
+
+  /// Until one of them has printed or ended, or the patience is over: what to do before wait() is
+  /// asked, without patience, whether each of them has ended.
+  static void await_any(std::span<const Child* const> children, std::chrono::milliseconds patience);
 
  private:
   class Watch;

@@ -1,5 +1,7 @@
 #include "master/recorders/provenance.h"
 
+#include <filesystem>
+
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
@@ -22,6 +24,7 @@ Provenance of(const TemporaryFolder& folder) {
 
 TEST_CASE("what results were made from is told apart by its content") {
   const TemporaryFolder folder;
+  std::filesystem::create_directories(folder / "unit/two");
   folder.write("a.ssd", "abc");
   folder.write("unit/one", "1");
   folder.write("unit/two/three", "3");

@@ -1,0 +1,147 @@
+#include "master/campaign/case_folder.h"
+
+#include <cerrno>
+#include <chrono>
+#include <climits>
+#include <fstream>
+#include <system_error>
+#include <thread>
+#include <utility>
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include "master/campaign/plan_folder.h"
+#include "master/recorders/results_folder.h"
+#include "master/util/error.h"
+#include "master/util/file_identity.h"
+#include "master/util/output_file.h"
+
+namespace stride::campaign {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Digits of a name that are its place in its folder.
+constexpr std::size_t kPlaces = 3;
+
+std::string host_name() {
+  char name[HOST_NAME_MAX + 1] = {};
+  return ::gethostname(name, HOST_NAME_MAX) == 0 ? name : "localhost";
+}
+
+core::Descriptor opened(const fs::path& folder) {
+  return core::Descriptor(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+}
+
+/// Whoever is at work in a folder holds its lock. A file system may have none.
+bool is_locked_by_other(const core::Descriptor& folder) {
+  return ::flock(folder.number(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+}
+
+void remove_leftovers(const fs::path& running, const std::string& host) {
+  std::error_code ignored;
+  for (fs::directory_iterator it(running, ignored), end; it != end; it.increment(ignored)) {
+    if (it->path().stem() != host) continue;
+    const core::Descriptor folder = opened(it->path());
+    if (folder.is_open() && !is_locked_by_other(folder)) fs::remove_all(it->path(), ignored);
+  }
+}
+
+void move(const fs::path& from, const fs::path& to) {
+  std::error_code error;
+  fs::create_directories(to.parent_path(), error);
+  if (!error) fs::rename(from, to, error);
+  if (!error) return;
+  core::fail_run({.where = {to.string(), 0}},
+                 fmt::format("cannot put a result of the campaign here: {}", error.message()));
+}
+
+}  // namespace
+
+CaseFolder::CaseFolder(const Plan& plan, fs::path folder)
+    : plan_(plan), folder_(std::move(folder)) {}
+
+fs::path CaseFolder::results_name(std::uint64_t index) const {
+  const std::string name = case_name(plan_, index);
+  return fs::path(kCases) / name.substr(0, name.size() - kPlaces) / name;
+}
+
+fs::path CaseFolder::record_file(std::uint64_t index) const {
+  return folder_ / (results_name(index).string() + ".json");
+}
+
+std::optional<CaseFolder::Record> CaseFolder::read(std::uint64_t index) const {
+  std::ifstream file(record_file(index), std::ios::binary);
+  if (!file) return std::nullopt;
+  Record record;
+  std::getline(file, record.line);
+  auto result = parse_record(plan_, index, record.line);
+  if (!result) return std::nullopt;
+  record.result = std::move(*result);
+  return record;
+}
+
+CaseScratch::CaseScratch(const CaseFolder& folder) : cases_(folder) {
+  recorders::make_results_folder(cases_.path());
+  const fs::path running = fs::absolute(cases_.path()) / kRunning;
+  const std::string host = host_name();
+  remove_leftovers(running, host);
+  folder_ = running / fmt::format("{}.{}", host, ::getpid());
+  constexpr int kAttempts = 1000;
+  for (int attempt = 0; attempt < kAttempts && !is_made(); ++attempt) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  recorders::make_results_folder(folder_);
+}
+
+/// Until it is locked, another process may take it, or the folder above it, for a leftover.
+bool CaseScratch::is_made() {
+  std::error_code error;
+  fs::create_directories(folder_, error);
+  lock_ = opened(folder_);
+  if (error || !lock_.is_open() || is_locked_by_other(lock_)) return false;
+  return core::FileIdentity::of(lock_.number()) == core::FileIdentity::of(folder_.c_str());
+}
+
+CaseScratch::~CaseScratch() {
+  std::error_code ignored;
+  fs::remove_all(folder_, ignored);
+  fs::remove(folder_.parent_path(), ignored);  // if others have nothing there
+}
+
+fs::path CaseScratch::results(std::uint64_t index) const { return folder_ / std::to_string(index); }
+
+void CaseScratch::drop_results(std::uint64_t index) const {
+  std::error_code ignored;
+  fs::remove_all(results(index), ignored);
+}
+
+void CaseScratch::keep_results(std::uint64_t index) const {
+  const fs::path to = cases_.path() / cases_.results_name(index);
+  std::error_code ignored;
+  fs::remove_all(to, ignored);  // of a process that was killed before the record was there
+  move(results(index), to);
+}
+
+bool CaseScratch::has_room() const {
+  constexpr std::uintmax_t kRoom = 16 << 10;  // [byte]
+  std::error_code error;
+  const fs::space_info space = fs::space(folder_, error);
+  return error || space.available >= kRoom;
+}
+
+void CaseScratch::write(std::uint64_t index, const std::string& line) const {
+  const fs::path fresh = file("record.json");
+  core::OutputFile record(fresh);
+  record.write(line);
+  record.write('\n');
+  record.close();
+  move(fresh, cases_.record_file(index));
+}
+
+void CaseScratch::publish(const std::string& name) const { move(file(name), cases_.path() / name); }
+
+}  // namespace stride::campaign

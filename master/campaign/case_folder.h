@@ -1,0 +1,88 @@
+// Where a campaign keeps what became of its cases.
+#ifndef STRIDE_MASTER_CAMPAIGN_CASE_FOLDER_H
+#define STRIDE_MASTER_CAMPAIGN_CASE_FOLDER_H
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "master/campaign/case_record.h"
+#include "master/campaign/plan.h"
+#include "master/util/descriptor.h"
+
+namespace stride::campaign {
+
+inline constexpr const char* kCases = "cases";
+inline constexpr const char* kRunning = "running";
+
+/// The records in the folder of a campaign, one file for each case, in folders of a thousand:
+/// cases/000/000017.json, and beside it, of a case whose results are kept, the folder of that name.
+class CaseFolder {
+ public:
+  /// The plan must outlive it.
+  CaseFolder(const Plan& plan, std::filesystem::path folder);
+
+  const std::filesystem::path& path() const { return folder_; }
+
+  /// Below path(): "cases/000/000017".
+  std::filesystem::path results_name(std::uint64_t index) const;
+  std::filesystem::path record_file(std::uint64_t index) const;
+
+  /// The line of the record, and what it says; nothing if there is none, or what is there is none.
+  struct Record {
+    std::string line;
+    CaseResult result;
+  };
+  std::optional<Record> read(std::uint64_t index) const;
+
+ private:
+  const Plan& plan_;
+  std::filesystem::path folder_;
+};
+
+/// What a process writes of the cases that it runs, until they are complete: in a folder of its own
+/// below the campaign's, running/HOST.PROCESS, which goes with this object. Any number of processes
+/// may be at work.
+class CaseScratch {
+ public:
+  /// Removes what processes of this host have left that were killed. `folder` must outlive this.
+  /// Throws core::Error (Input) if nothing can be written there.
+  explicit CaseScratch(const CaseFolder& folder);
+  ~CaseScratch();
+  CaseScratch(const CaseScratch&) = delete;
+  CaseScratch& operator=(const CaseScratch&) = delete;
+
+  /// Where the case's results go meanwhile; a folder that does not exist.
+  std::filesystem::path results(std::uint64_t index) const;
+  /// Where they are in the end, below the campaign's folder.
+  std::filesystem::path results_name(std::uint64_t index) const {
+    return cases_.results_name(index);
+  }
+  void drop_results(std::uint64_t index) const;
+  /// Moves them to their place. To be called before write().
+  void keep_results(std::uint64_t index) const;
+
+  /// Whether there is room for some files: on a full disk a case fails by what is not its own.
+  bool has_room() const;
+
+  /// The record is there as a whole or not at all. Throws core::Error (Run).
+  void write(std::uint64_t index, const std::string& line) const;
+
+  /// A file to be written here and then moved to the folder of the campaign, in the place of one
+  /// that is there.
+  std::filesystem::path file(const std::string& name) const { return folder_ / name; }
+  /// Throws core::Error (Run).
+  void publish(const std::string& name) const;
+
+ private:
+  bool is_made();
+
+  const CaseFolder& cases_;
+  std::filesystem::path folder_;
+  core::Descriptor lock_;
+};
+
+}  // namespace stride::campaign
+
+#endif

@@ -1,0 +1,66 @@
+// What became of a case of a campaign.
+#ifndef STRIDE_MASTER_CAMPAIGN_CASE_RECORD_H
+#define STRIDE_MASTER_CAMPAIGN_CASE_RECORD_H
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <stride/time.h>
+
+#include "master/algorithm/verdict.h"
+#include "master/campaign/plan.h"
+
+namespace stride::campaign {
+
+enum class Outcome {
+  Passed,
+  Failed,    ///< by a check, or a unit's verdict, at the end of a complete run
+  Error,     ///< the run did not come to its end
+  Crashed,   ///< nor did its process
+  TimedOut,  ///< it took longer than the campaign's limit
+};
+/// As records and tables have it: "timed out".
+const char* name(Outcome outcome);
+
+/// A verdict of a check or, where `kind` is empty, of a unit.
+struct CaseVerdict {
+  std::string name;
+  std::string kind;
+  std::optional<bool> passed;  ///< empty: undecided
+  std::string text;
+  std::optional<double> time;  ///< of the first failure [s]
+  bool operator==(const CaseVerdict&) const = default;
+};
+
+const char* verdict_name(std::optional<bool> passed);
+
+/// All but how long it took is a function of the plan and the index.
+struct CaseResult {
+  Outcome outcome = Outcome::Passed;
+  std::string reason{};  ///< empty for one that passed
+  std::vector<CaseVerdict> verdicts{};
+  std::vector<std::optional<double>> aggregates{};  ///< of Campaign::aggregates; empty: none known
+  std::optional<double> reached{};                  ///< simulated time [s]; empty: not known
+  bool has_results = false;                         ///< whether all results are kept
+  double wall_time = 0;                             ///< [s]
+  bool operator==(const CaseResult&) const = default;
+};
+
+std::vector<CaseVerdict> case_verdicts(const std::vector<core::Verdict>& verdicts);
+
+/// A line of JSON, without its end: the case, and what became of it. The wall time stands last.
+std::string record_line(const Plan& plan, const Case& row, const CaseResult& result);
+/// Likewise of a case that has no record.
+std::string missing_line(const Plan& plan, const Case& row);
+
+/// Reads what record_line() has made of the case with this index. Nothing for what is no record of
+/// it: half of one, say.
+std::optional<CaseResult> parse_record(const Plan& plan, std::uint64_t index,
+                                       std::string_view line);
+
+}  // namespace stride::campaign
+
+#endif

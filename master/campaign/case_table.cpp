@@ -1,0 +1,129 @@
+#include "master/campaign/case_table.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "master/campaign/plan_folder.h"
+#include "master/recorders/signal_text.h"
+#include "master/util/output_file.h"
+
+namespace stride::campaign {
+namespace {
+
+using recorders::csv_field;
+
+/// A verdict's column: units and checks may have one name.
+struct CheckColumn {
+  std::string name;
+  bool is_of_unit = false;
+  bool operator==(const CheckColumn&) const = default;
+};
+
+CheckColumn column_of(const CaseVerdict& verdict) { return {verdict.name, verdict.kind.empty()}; }
+
+std::string number_text(std::optional<double> number) {
+  if (!number) return "";
+  return std::isnan(*number) ? "nan" : fmt::format("{}", *number);
+}
+
+std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
+
+class TableWriter {
+ public:
+  TableWriter(const Plan& plan, std::vector<CheckColumn> checks, core::OutputFile& file)
+      : plan_(plan), checks_(std::move(checks)), file_(file) {}
+
+  void write_header() {
+    file_.write("case");
+    for (const PlanColumn& column : plan_.columns()) put(csv_field(column.parameter.name));
+    put("seed"), put("outcome"), put("reason");
+    for (const CheckColumn& check : checks_) {
+      put(csv_field((check.is_of_unit ? "verdict:" : "check:") + check.name));
+    }
+    for (const Aggregate& aggregate : plan_.campaign().aggregates) {
+      put(csv_field("aggregate:" + aggregate.name));
+    }
+    put("reached"), put("hash"), put("wall_time");
+    file_.write('\n');
+  }
+
+  /// `result`: null for a case without a record.
+  void write_row(const Case& row, const CaseResult* result) {
+    static const CaseResult kNothing{};
+    const CaseResult& known = result != nullptr ? *result : kNothing;
+    file_.write_number(row.index);
+    for (const Text& value : row.values) put(value_field(value));
+    put(std::to_string(row.seed));
+    put(result != nullptr ? name(known.outcome) : "missing");
+    put(csv_field(first_line(known.reason)));
+    for (const CheckColumn& check : checks_) put(verdict_in(known, check));
+    for (std::size_t i = 0; i < plan_.campaign().aggregates.size(); ++i) {
+      put(i < known.aggregates.size() ? number_text(known.aggregates[i]) : "");
+    }
+    put(number_text(known.reached));
+    put(plan_.hash(row));
+    put(result != nullptr ? number_text(known.wall_time) : "");
+    file_.write('\n');
+  }
+
+ private:
+  void put(const std::string& field) {
+    file_.write(',');
+    file_.write(field);
+  }
+
+  static std::string verdict_in(const CaseResult& result, const CheckColumn& check) {
+    const auto found = std::ranges::find(result.verdicts, check, column_of);
+    return found == result.verdicts.end() ? "" : verdict_name(found->passed);
+  }
+
+  const Plan& plan_;
+  std::vector<CheckColumn> checks_;
+  core::OutputFile& file_;
+};
+
+/// In the order in which they appear, by the index.
+void add_columns(const CaseResult& result, std::vector<CheckColumn>& columns) {
+  for (const CaseVerdict& verdict : result.verdicts) {
+    CheckColumn column = column_of(verdict);
+    if (std::ranges::find(columns, column) == columns.end()) columns.push_back(std::move(column));
+  }
+}
+
+}  // namespace
+
+CaseSummary write_case_tables(const Plan& plan, const CaseFolder& cases, const CaseScratch& scratch,
+                              std::size_t most_failures) {
+  CaseSummary summary{.totals = {.cases = plan.size()}};
+  std::vector<CheckColumn> columns;
+  core::OutputFile lines(scratch.file(kCaseLines));
+  for (std::uint64_t i = 0; i < plan.size(); ++i) {
+    auto record = cases.read(i);
+    lines.write(record ? record->line : missing_line(plan, plan.at(i)));
+    lines.write('\n');
+    if (!record) continue;
+    summary.totals.add(record->result.outcome);
+    add_columns(record->result, columns);
+    if (record->result.outcome == Outcome::Passed) continue;
+    if (summary.first_failures.size() == most_failures) continue;
+    summary.first_failures.push_back({i, std::move(record->result)});
+  }
+  lines.close();
+  core::OutputFile table(scratch.file(kCaseTable));
+  TableWriter writer(plan, std::move(columns), table);
+  writer.write_header();
+  for (std::uint64_t i = 0; i < plan.size(); ++i) {
+    const auto record = cases.read(i);
+    writer.write_row(plan.at(i), record ? &record->result : nullptr);
+  }
+  table.close();
+  scratch.publish(kCaseLines);
+  scratch.publish(kCaseTable);
+  return summary;
+}
+
+}  // namespace stride::campaign

@@ -1,0 +1,46 @@
+// The table of a campaign: what became of each case.
+#ifndef STRIDE_MASTER_CAMPAIGN_CASE_TABLE_H
+#define STRIDE_MASTER_CAMPAIGN_CASE_TABLE_H
+
+#include <cstdint>
+#include <vector>
+
+#include "master/campaign/case_folder.h"
+#include "master/campaign/case_record.h"
+#include "master/campaign/plan.h"
+
+namespace stride::campaign {
+
+inline constexpr const char* kCaseTable = "cases.csv";
+inline constexpr const char* kCaseLines = "cases.jsonl";
+
+/// How many cases have which outcome.
+struct CaseTotals {
+  std::uint64_t cases = 0;
+  std::uint64_t passed = 0;
+  std::uint64_t failed = 0;  ///< in whatever way
+
+  void add(Outcome outcome) { ++(outcome == Outcome::Passed ? passed : failed); }
+  std::uint64_t done() const { return passed + failed; }
+  std::uint64_t missing() const { return cases - done(); }
+};
+
+struct FailedCase {
+  std::uint64_t index = 0;
+  CaseResult result;
+};
+
+struct CaseSummary {
+  CaseTotals totals;
+  std::vector<FailedCase> first_failures{};
+};
+
+/// Reads all records, and writes cases.csv (RFC 4180) and cases.jsonl, a row or a line for each
+/// case in order of the index; each file is there as a whole or not at all. Needs constant memory.
+/// Throws core::Error (Run) if a file cannot be written.
+CaseSummary write_case_tables(const Plan& plan, const CaseFolder& cases, const CaseScratch& scratch,
+                              std::size_t most_failures);
+
+}  // namespace stride::campaign
+
+#endif

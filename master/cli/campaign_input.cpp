@@ -1,0 +1,103 @@
+#include "master/cli/campaign_input.h"
+
+#include <chrono>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "master/campaign/campaign_file.h"
+#include "master/campaign/plan_check.h"
+#include "master/campaign/plan_folder.h"
+#include "master/cli/output.h"
+#include "master/cli/output_paths.h"
+#include "master/util/error.h"
+#include "master/util/input_file.h"
+
+namespace stride::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path campaign_file(const CampaignArguments& arguments) {
+  if (!core::is_folder(arguments.file)) return arguments.file;
+  if (!arguments.out.empty()) {
+    core::fail_input({.where = {arguments.file.string(), 0}},
+                     "this is the folder of a campaign, so --out cannot name another one",
+                     "name the file of the campaign, or leave --out out");
+  }
+  return campaign::campaign_of(arguments.file);
+}
+
+fs::path campaign_folder(const CampaignArguments& arguments) {
+  if (core::is_folder(arguments.file)) return arguments.file;
+  return arguments.out.empty() ? campaign::default_folder(arguments.file) : arguments.out;
+}
+
+campaign::Campaign read_with_warnings(const fs::path& file) {
+  campaign::Campaign read = campaign::read_campaign(file);
+  print_warnings(read.warnings);
+  return read;
+}
+
+}  // namespace
+
+void add_campaign_options(CLI::App& command, CampaignArguments& arguments) {
+  command
+      .add_option("FILE", arguments.file,
+                  "The campaign: a ParameterValueDistribution of OpenSCENARIO (.xosc) whose "
+                  "scenario is a .ssd, .ssp or .fmu; or the folder of its plan")
+      ->required()
+      ->type_name("");
+  command
+      .add_option("--out,--output,-o", arguments.out,
+                  "Folder of the campaign; otherwise campaigns/ and the name of FILE")
+      ->type_name("FOLDER");
+}
+
+CampaignInput::CampaignInput(const CampaignArguments& arguments)
+    : CampaignInput(arguments, read_with_warnings(campaign_file(arguments))) {}
+
+CampaignInput::CampaignInput(const CampaignArguments& arguments, campaign::Campaign read)
+    : file_(read.file),
+      folder_(campaign_folder(arguments)),
+      is_default_folder_(folder_ == campaign::default_folder(file_)),
+      scenario_(read, STRIDE_VERSION),
+      plan_(std::move(read), scenario_.kinds(), scenario_.fingerprints()) {}
+
+std::string CampaignInput::word() const { return (is_default_folder_ ? file_ : folder_).string(); }
+
+void CampaignInput::refuse_inputs(std::initializer_list<const char*> names) const {
+  std::vector<KeptPath> kept = inputs_of(scenario_.loaded());
+  kept.push_back({file_, "the campaign"});
+  for (const char* name : names) {
+    const OutputPath output{fmt::format("{} in the folder {}", name, folder_.string()),
+                            folder_ / name};
+    refuse_kept_paths({&output, 1}, kept);
+  }
+}
+
+/// Several processes may want to make it: one of them does.
+void CampaignInput::make_plan() const {
+  constexpr int kAttempts = 100;
+  constexpr std::chrono::milliseconds kPause{100};
+  for (int attempt = 1; !campaign::has_plan(plan_, folder_); ++attempt) {
+    if (attempt == 1) campaign::check_plan(plan_, scenario_);
+    try {
+      return campaign::write_plan(plan_, folder_);
+    } catch (const core::Error&) {
+      if (attempt == kAttempts || !core::is_folder(folder_)) throw;
+    }
+    std::this_thread::sleep_for(kPause);
+  }
+}
+
+void CampaignInput::require_case(std::uint64_t index) const {
+  if (index < plan_.size()) return;
+  core::fail_input({}, fmt::format("--case {}: there are {} cases, the last one is {}", index,
+                                   plan_.size(), plan_.size() - 1));
+}
+
+}  // namespace stride::cli

@@ -1,0 +1,58 @@
+// The campaign that a command names, with its plan.
+#ifndef STRIDE_MASTER_CLI_CAMPAIGN_INPUT_H
+#define STRIDE_MASTER_CLI_CAMPAIGN_INPUT_H
+
+#include <filesystem>
+#include <string>
+
+#include "master/campaign/campaign_scenario.h"
+#include "master/campaign/definition.h"
+#include "master/campaign/plan.h"
+#include "master/cli/crash_guard.h"
+
+namespace CLI {
+class App;
+}
+
+namespace stride::cli {
+
+struct CampaignArguments {
+  std::filesystem::path file;  ///< or the folder of a plan
+  std::filesystem::path out;   ///< empty: that folder, or campaigns/ and the name of the file
+};
+
+/// FILE|FOLDER and --out. `arguments` must outlive the command line.
+void add_campaign_options(CLI::App& command, CampaignArguments& arguments);
+
+/// A campaign, its scenario with all units, and its plan, in a guarded process.
+class CampaignInput {
+ public:
+  /// Prints warnings. Throws core::Error (Input).
+  explicit CampaignInput(const CampaignArguments& arguments);
+
+  const campaign::CampaignScenario& scenario() const { return scenario_; }
+  const campaign::Plan& plan() const { return plan_; }
+  const std::filesystem::path& folder() const { return folder_; }
+  /// The word that names the campaign to a further command.
+  std::string word() const;
+
+  /// Throws core::Error (Input) if a file of these names in the folder is one that is read.
+  void refuse_inputs(std::initializer_list<const char*> names) const;
+  /// Checks and writes the plan, unless it is there. Throws core::Error (Input) if another one is.
+  void make_plan() const;
+  /// Throws core::Error (Input) for an index that no case has.
+  void require_case(std::uint64_t index) const;
+
+ private:
+  explicit CampaignInput(const CampaignArguments& arguments, campaign::Campaign read);
+
+  const std::filesystem::path file_, folder_;
+  const bool is_default_folder_;
+  const campaign::CampaignScenario scenario_;
+  const LimitedEnd end_;
+  const campaign::Plan plan_;
+};
+
+}  // namespace stride::cli
+
+#endif

@@ -1,0 +1,280 @@
+#include "master/cli/campaign_run.h"
+
+#include <chrono>
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "master/campaign/campaign_junit.h"
+#include "master/campaign/case_folder.h"
+#include "master/campaign/case_table.h"
+#include "master/campaign/plan_folder.h"
+#include "master/cli/campaign_input.h"
+#include "master/cli/campaign_progress.h"
+#include "master/cli/case_pool.h"
+#include "master/cli/case_runner.h"
+#include "master/cli/crash_guard.h"
+#include "master/cli/interruption.h"
+#include "master/cli/output.h"
+#include "master/cli/output_paths.h"
+#include "master/cli/table.h"
+#include "master/recorders/results_folder.h"
+#include "master/util/error.h"
+
+namespace stride::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kMostCaseJobs = 1024;
+constexpr std::size_t kShownFailures = 10;
+
+struct CampaignRunArguments {
+  CampaignArguments campaign;
+  std::size_t jobs = 0;               ///< 0: as many as there are cores
+  std::optional<std::uint64_t> only;  ///< the case to be run
+  fs::path junit;                     ///< empty: none
+  std::optional<ProgressStyle> progress;
+  bool quiet = false;
+};
+
+std::string cases_text(std::uint64_t count) {
+  return count == 1 ? "1 case" : fmt::format("{} cases", count);
+}
+
+std::string reason_line(const std::string& text) { return text.substr(0, text.find('\n')); }
+
+void print_failures(const campaign::Plan& plan, const campaign::CaseSummary& summary) {
+  if (summary.first_failures.empty()) return;
+  Table table({{"case", Table::Align::Right}, {"outcome"}, {"because", Table::Align::Left, true}});
+  for (const auto& [index, result] : summary.first_failures) {
+    table.add({std::to_string(index), name(result.outcome), reason_line(result.reason)});
+  }
+  const bool are_all = summary.totals.failed == summary.first_failures.size();
+  print_text("\n{} failures\n{}\nEach is repeated by\n", are_all ? "All" : "First",
+             table.text(output_width()));
+  for (const campaign::FailedCase& failed : summary.first_failures) {
+    print_text("  {}: stride run {}\n", failed.index, plan.arguments(plan.at(failed.index)));
+  }
+}
+
+void print_summary(const CampaignInput& input, const campaign::CaseSummary& summary) {
+  const campaign::CaseTotals& totals = summary.totals;
+  print_text("{}: {} of {} done, {} passed, {} failed, {} missing\n",
+             input.plan().campaign().file.stem().string(), totals.done(), cases_text(totals.cases),
+             totals.passed, totals.failed, totals.missing());
+  print_failures(input.plan(), summary);
+  print_text("\nTable in {}: {} {}\n", input.folder().string(), campaign::kCaseTable,
+             campaign::kCaseLines);
+}
+
+/// Those of a campaign that have no record, in a pool of processes.
+class MissingCases {
+ public:
+  MissingCases(const CampaignRunArguments& arguments, const CampaignInput& input,
+               const campaign::CaseFolder& cases, const campaign::CaseScratch& scratch)
+      : cases_(cases),
+        runner_(input.plan(), input.scenario(), scratch),
+        pool_(jobs_of(arguments), child_options(input.plan().campaign())),
+        totals_(totals_before(input.plan())),
+        progress_(arguments.progress.value_or(arguments.quiet ? ProgressStyle::None
+                                                              : ProgressStyle::Auto),
+                  totals_) {}
+
+  /// Until all are there, or the user interrupts it.
+  void run() {
+    for (std::uint64_t i = 0; i < totals_.cases && !is_interrupted(); ++i) {
+      if (is_done_[i] || is_done_elsewhere(i)) continue;
+      while (pool_.is_full()) collect();
+      if (is_interrupted()) break;
+      pool_.start(i, [&] { return runner_.run(i); });
+    }
+    while (!pool_.is_empty()) collect();
+    progress_.end(totals_, is_interrupted() ? "interrupted" : "completed");
+  }
+
+  static bool is_interrupted() { return Interruption::flag() != 0; }
+
+ private:
+  static std::size_t jobs_of(const CampaignRunArguments& arguments) {
+    return arguments.jobs != 0 ? arguments.jobs
+                               : std::max<std::size_t>(std::thread::hardware_concurrency(), 1);
+  }
+
+ public:
+  static isolation::ChildOptions child_options(const campaign::Campaign& campaign) {
+    isolation::ChildOptions options{.limit = {}, .interrupted = &Interruption::flag()};
+    if (campaign.wall_time_limit) {
+      options.limit = std::chrono::milliseconds(std::llround(*campaign.wall_time_limit * 1000));
+    }
+    return options;
+  }
+
+ private:
+  campaign::CaseTotals totals_before(const campaign::Plan& plan) {
+    campaign::CaseTotals totals{.cases = plan.size()};
+    is_done_.resize(plan.size());
+    for (std::uint64_t i = 0; i < plan.size(); ++i) {
+      const auto record = cases_.read(i);
+      if (!record) continue;
+      is_done_[i] = true;
+      totals.add(record->result.outcome);
+    }
+    return totals;
+  }
+
+  /// By another process, since this one began.
+  bool is_done_elsewhere(std::uint64_t index) {
+    const auto record = cases_.read(index);
+    if (record) totals_.add(record->result.outcome);
+    return record.has_value();
+  }
+
+  void collect() {
+    const auto ended = pool_.collect(std::chrono::milliseconds(100));
+    if (!ended) return progress_.show(totals_);
+    if (const auto result = runner_.conclude(*ended)) totals_.add(result->outcome);
+    progress_.show(totals_);
+  }
+
+  const campaign::CaseFolder& cases_;
+  const CaseRunner runner_;
+  CasePool pool_;
+  std::vector<bool> is_done_;
+  campaign::CaseTotals totals_;
+  CampaignProgress progress_;
+};
+
+void require_all_passed(const CampaignInput& input, const campaign::CaseTotals& totals) {
+  if (MissingCases::is_interrupted()) {
+    core::fail_run({},
+                   fmt::format("the campaign was interrupted; {} of {} are done", totals.done(),
+                               cases_text(totals.cases)),
+                   fmt::format("it goes on with: stride campaign run {}", input.word()));
+  }
+  if (totals.failed == 0) return;
+  core::fail_run({}, fmt::format("{} of {} {} not passed", totals.failed, cases_text(totals.cases),
+                                 totals.failed == 1 ? "has" : "have"));
+}
+
+void run_missing(const CampaignRunArguments& arguments, const CampaignInput& input) {
+  const recorders::ResultsLock lock(input.folder());
+  const campaign::CaseFolder cases(input.plan(), input.folder());
+  const campaign::CaseScratch scratch(cases);
+  const Interruption interruption;
+  MissingCases(arguments, input, cases, scratch).run();
+  const campaign::CaseSummary summary =
+      write_case_tables(input.plan(), cases, scratch, kShownFailures);
+  if (!arguments.junit.empty()) {
+    write_campaign_junit(arguments.junit, input.plan(), cases, summary.totals);
+  }
+  if (!arguments.quiet) print_summary(input, summary);
+  require_all_passed(input, summary.totals);
+}
+
+std::optional<campaign::CaseResult> run_case(const CampaignInput& input,
+                                             const campaign::CaseFolder& cases,
+                                             std::uint64_t index) {
+  const campaign::CaseScratch scratch(cases);
+  const Interruption interruption;
+  const CaseRunner runner(input.plan(), input.scenario(), scratch);
+  CasePool pool(1, MissingCases::child_options(input.plan().campaign()));
+  pool.start(index, [&] { return runner.run(index); });
+  std::optional<CasePool::Ended> ended;
+  while (!ended) ended = pool.collect(std::chrono::hours(1));
+  return runner.conclude(*ended);
+}
+
+void run_only(const CampaignRunArguments& arguments, const CampaignInput& input) {
+  const std::uint64_t index = *arguments.only;
+  const campaign::CaseFolder cases(input.plan(), input.folder());
+  const auto record = cases.read(index);
+  const auto result = record ? record->result : run_case(input, cases, index);
+  if (!result) core::fail_run({}, fmt::format("case {} was interrupted", index));
+  if (result->outcome != campaign::Outcome::Passed) {
+    core::fail_run({},
+                   fmt::format("case {}: {}: {}", index, name(result->outcome), result->reason));
+  }
+  if (!arguments.quiet) print_text("case {}: {}\n", index, name(result->outcome));
+}
+
+void run_campaign(const CampaignRunArguments& arguments) {
+  const CrashGuard guard;
+  const CampaignInput input(arguments.campaign);
+  if (arguments.only) input.require_case(*arguments.only);
+  using namespace campaign;
+  input.refuse_inputs({kPlanTable, kPlanDescription, kCaseTable, kCaseLines, kCases, kRunning});
+  if (!arguments.junit.empty()) {
+    const OutputPath output{"--junit " + arguments.junit.string(), arguments.junit};
+    refuse_kept_paths({&output, 1}, inputs_of(input.scenario().loaded()));
+  }
+  input.make_plan();
+  if (arguments.only) return run_only(arguments, input);
+  run_missing(arguments, input);
+}
+
+void show_status(const CampaignArguments& arguments) {
+  const CrashGuard guard;
+  const CampaignInput input(arguments);
+  if (!campaign::has_plan(input.plan(), input.folder())) {
+    core::fail_input({.where = {input.folder().string(), 0}}, "there is no plan in this folder",
+                     fmt::format("make it with: stride campaign run {}", input.word()));
+  }
+  input.refuse_inputs({campaign::kCaseTable, campaign::kCaseLines, campaign::kRunning});
+  const campaign::CaseFolder cases(input.plan(), input.folder());
+  const campaign::CaseScratch scratch(cases);
+  print_summary(input, write_case_tables(input.plan(), cases, scratch, kShownFailures));
+}
+
+}  // namespace
+
+void add_campaign_run(CLI::App& group) {
+  CLI::App* command = group.add_subcommand(
+      "run", "Run the cases that have no record yet; the plan is made where there is none");
+  const auto arguments = std::make_shared<CampaignRunArguments>();
+  add_campaign_options(*command, arguments->campaign);
+  CLI::Option* jobs =
+      command
+          ->add_option("--jobs", arguments->jobs,
+                       "How many cases run at the same time; otherwise as many as there are cores")
+          ->type_name("N")
+          ->check(CLI::Range(1, kMostCaseJobs));
+  CLI::Option* only =
+      command
+          ->add_option("--case", arguments->only,
+                       "Run this case only, counted from 0, and make no table: for other runners, "
+                       "which may run several at the same time")
+          ->type_name("INDEX")
+          ->excludes(jobs);
+  command
+      ->add_option("--junit", arguments->junit,
+                   "Write a test report in the XML of JUnit, with a test case for each case")
+      ->type_name("FILE")
+      ->excludes(only);
+  command
+      ->add_option_function<std::string>(
+          "--progress",
+          [arguments](const std::string& text) { arguments->progress = read_progress_style(text); },
+          "How to show progress: automatically (on a terminal a line that is rewritten, elsewhere "
+          "a line now and then), in plain lines, in JSON objects for programs, or not at all")
+      ->type_name("auto|plain|json|none");
+  command->add_flag("--quiet,-q", arguments->quiet, "Print nothing but warnings and errors");
+  command->callback([arguments] { run_campaign(*arguments); });
+}
+
+void add_campaign_status(CLI::App& group) {
+  CLI::App* command = group.add_subcommand(
+      "status", "Say how many cases are done, and make the table of what is known");
+  const auto arguments = std::make_shared<CampaignArguments>();
+  add_campaign_options(*command, *arguments);
+  command->callback([arguments] { show_status(*arguments); });
+}
+
+}  // namespace stride::cli

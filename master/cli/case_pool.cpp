@@ -1,0 +1,37 @@
+#include "master/cli/case_pool.h"
+
+#include <utility>
+#include <vector>
+
+namespace stride::cli {
+
+void CasePool::start(std::uint64_t index, const std::function<std::string()>& work) {
+  const auto begin = Clock::now();
+  running_.push_back({index, begin, isolation::Child(work, options_)});
+}
+
+std::optional<CasePool::Ended> CasePool::collect(std::chrono::milliseconds patience) {
+  const auto end = Clock::now() + patience;
+  while (!is_empty()) {
+    if (auto ended = take_ended()) return ended;
+    const auto rest = std::chrono::ceil<std::chrono::milliseconds>(end - Clock::now());
+    if (rest.count() <= 0) break;
+    std::vector<const isolation::Child*> children;
+    for (const Running& running : running_) children.push_back(&running.child);
+    isolation::Child::await_any(children, rest);
+  }
+  return std::nullopt;
+}
+
+std::optional<CasePool::Ended> CasePool::take_ended() {
+  for (auto running = running_.begin(); running != running_.end(); ++running) {
+    auto outcome = running->child.wait({});
+    if (!outcome) continue;
+    Ended ended{running->index, std::move(*outcome), Clock::now() - running->begin};
+    running_.erase(running);
+    return ended;
+  }
+  return std::nullopt;
+}
+
+}  // namespace stride::cli

@@ -1,0 +1,56 @@
+// Cases of a campaign that run at the same time, each in a process of its own.
+#ifndef STRIDE_MASTER_CLI_CASE_POOL_H
+#define STRIDE_MASTER_CLI_CASE_POOL_H
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <list>
+#include <optional>
+#include <string>
+
+#include "master/isolation/process/child.h"
+
+namespace stride::cli {
+
+class CasePool {
+ public:
+  struct Ended {
+    std::uint64_t index = 0;
+    isolation::ChildOutcome outcome;
+    std::chrono::duration<double> wall_time{};  ///< of the process
+  };
+
+  /// `options` are those of each process.
+  CasePool(std::size_t jobs, const isolation::ChildOptions& options)
+      : jobs_(jobs), options_(options) {}
+
+  bool is_full() const { return running_.size() >= jobs_; }
+  bool is_empty() const { return running_.empty(); }
+
+  /// Forks this process. Throws std::system_error if that is not possible.
+  void start(std::uint64_t index, const std::function<std::string()>& work);
+
+  /// One that has ended; nothing if none does within the patience.
+  std::optional<Ended> collect(std::chrono::milliseconds patience);
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  struct Running {
+    std::uint64_t index;
+    Clock::time_point begin;
+    isolation::Child child;
+  };
+
+  std::optional<Ended> take_ended();
+
+  std::size_t jobs_;
+  isolation::ChildOptions options_;
+  std::list<Running> running_;
+};
+
+}  // namespace stride::cli
+
+#endif

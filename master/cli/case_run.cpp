@@ -1,0 +1,104 @@
+#include "master/cli/case_run.h"
+
+#include <algorithm>
+#include <exception>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "master/cli/crash_guard.h"
+#include "master/cli/output.h"
+#include "master/cli/report_page.h"
+#include "master/recorders/results_folder.h"
+
+namespace stride::cli {
+namespace {
+
+using campaign::CaseResult;
+
+/// That of the first failure, and how many there are.
+std::string failure_text(const std::vector<core::Verdict>& verdicts) {
+  std::string text;
+  std::size_t count = 0;
+  for (const core::Verdict& verdict : verdicts) {
+    if (verdict.passed != false || ++count > 1) continue;
+    const std::string reason = core::reason(verdict);
+    text = reason.empty() ? verdict.name : fmt::format("{}: {}", verdict.name, reason);
+  }
+  return count > 1 ? fmt::format("{} (and {} more)", text, count - 1) : text;
+}
+
+recorders::ResultFiles no_files() { return {{}, {}, {}, {}, {}, {}}; }
+
+std::unique_ptr<recorders::UnitFolders> unit_folders_in(const std::filesystem::path& results,
+                                                        const scenario::LoadedScenario& loaded) {
+  if (results.empty()) return nullptr;
+  return std::make_unique<recorders::UnitFolders>(results, loaded.component_names());
+}
+
+}  // namespace
+
+CaseRun::EndOfUnits::~EndOfUnits() {
+  core::SpareFiles::release_all();
+  process.restore();
+  limit_end();
+}
+
+CaseRun::CaseRun(const scenario::ScenarioRequest& request,
+                 const std::vector<campaign::Aggregate>& aggregates, const CaseResults& results)
+    : loaded_(request),
+      target_(target_of(results, loaded_)),
+      aggregates_(aggregates, loaded_.system()),
+      options_(run_options()),
+      capture_(loaded_.system(), loaded_.scenario().name, options_, {},
+               core::OutputFile::Existing::Emptied),
+      unit_folders_(unit_folders_in(target_.folder, loaded_)),
+      recorders_(loaded_.system(), target_),
+      recorded_({loaded_, options_, target_, display_, recorders_, capture_, no_tests_},
+                loaded_.instantiate(target_.folder, &Interruption::flag())) {
+  if (!aggregates.empty()) recorded_.add_observer(aggregates_, aggregates_.signals());
+}
+
+ResultsTarget CaseRun::target_of(const CaseResults& results,
+                                 const scenario::LoadedScenario& loaded) {
+  if (results.folder.empty()) return {{}, no_files()};
+  ResultsTarget target{results.folder, loaded.scenario().annotation.results};
+  if (!results.has_report || !has_reports()) target.files.report.clear();
+  recorders::make_results_folder(target.folder);
+  recorders::check_name_lengths(target.folder, target.files);
+  return target;
+}
+
+core::RunOptions CaseRun::run_options() const {
+  core::RunOptions options = loaded_.options();
+  if (target_.files.signals.empty() && target_.files.trace.empty()) options.recorded.clear();
+  const auto& signals = aggregates_.signals();
+  options.watched.insert(options.watched.end(), signals.begin(), signals.end());
+  options.interrupted = &Interruption::flag();
+  return options;
+}
+
+CaseResult CaseRun::run() {
+  std::optional<std::string> failure;
+  try {
+    recorded_.run();
+  } catch (const core::TakenFileError& taken) {
+    end_with(taken.what());
+  } catch (const std::exception& error) {
+    failure = in_words(error);
+  }
+  CaseResult result{.verdicts = campaign::case_verdicts(recorded_.verdicts()),
+                    .aggregates = aggregates_.values(),
+                    .reached = to_seconds(recorded_.statistics().reached)};
+  if (!failure) return result;
+  const std::string failed = recorded_.failure() ? "" : failure_text(recorded_.verdicts());
+  result.outcome = failed.empty() ? campaign::Outcome::Error : campaign::Outcome::Failed;
+  result.reason = failed.empty() ? *failure : failed;
+  return result;
+}
+
+bool CaseRun::was_interrupted() const {
+  return recorded_.statistics().end == core::RunEnd::Interrupted;
+}
+
+}  // namespace stride::cli

@@ -1,0 +1,72 @@
+// A run of a case of a campaign, in its own process.
+#ifndef STRIDE_MASTER_CLI_CASE_RUN_H
+#define STRIDE_MASTER_CLI_CASE_RUN_H
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "master/campaign/aggregates.h"
+#include "master/campaign/case_record.h"
+#include "master/campaign/definition.h"
+#include "master/capture/capture.h"
+#include "master/cli/interruption.h"
+#include "master/cli/recorded_run.h"
+#include "master/cli/test_report.h"
+#include "master/recorders/unit_folders.h"
+#include "master/scenario/loaded_scenario.h"
+#include "master/util/process/spare_files.h"
+
+namespace stride::cli {
+
+/// Which results a case writes beside its record.
+struct CaseResults {
+  std::filesystem::path folder;  ///< empty: none; otherwise it is made
+  bool has_report = false;       ///< else only a case that does not pass has one
+};
+
+/// Prints nothing but warnings.
+class CaseRun {
+ public:
+  /// Throws core::Error (Input) as LoadedScenario does.
+  CaseRun(const scenario::ScenarioRequest& request,
+          const std::vector<campaign::Aggregate>& aggregates, const CaseResults& results);
+
+  /// To its end, be it good or not.
+  campaign::CaseResult run();
+  /// Then the result is none.
+  bool was_interrupted() const;
+
+  /// In place of the end of run(): as RecordedRun::abandon().
+  void abandon(const std::string& error) { recorded_.abandon(error); }
+
+ private:
+  /// The units end before it, and their libraries after it.
+  struct EndOfUnits {
+    const core::ProcessState& process;
+    ~EndOfUnits();
+  };
+
+  static ResultsTarget target_of(const CaseResults& results,
+                                 const scenario::LoadedScenario& loaded);
+  core::RunOptions run_options() const;
+
+  const core::SpareFiles spare_;
+  const Interruption interruption_;
+  const scenario::LoadedScenario loaded_;
+  const ResultsTarget target_;
+  campaign::Aggregates aggregates_;
+  core::RunOptions options_;
+  capture::Capture capture_;
+  TestReport no_tests_{{}, {}};
+  const std::unique_ptr<const recorders::UnitFolders> unit_folders_;  ///< null: none
+  const EndOfUnits end_{loaded_.process()};
+  const RunDisplay display_{.progress = ProgressStyle::None, .quiet = true};
+  Recorders recorders_;
+  RecordedRun recorded_;
+};
+
+}  // namespace stride::cli
+
+#endif

@@ -1,0 +1,176 @@
+#include "master/cli/case_runner.h"
+
+#include <algorithm>
+#include <exception>
+#include <string_view>
+#include <utility>
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "master/capture/capture.h"
+#include "master/cli/case_run.h"
+#include "master/cli/crash_guard.h"
+#include "master/cli/output.h"
+#include "master/cli/report_page.h"
+#include "master/util/error.h"
+#include "master/util/input_file.h"
+
+namespace stride::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using campaign::CaseResult;
+using campaign::Outcome;
+using End = isolation::ChildOutcome::End;
+using Results = campaign::Keep::Results;
+
+struct EndOfCase {
+  ~EndOfCase() { end_guarding(); }
+};
+
+constexpr std::string_view kMark = "stride: error: ";
+
+/// To the process that has started this one.
+void tell_of_crash(const std::string& error) {
+  const std::string line = fmt::format("\n{}{}\n", kMark, error);
+  (void)!::write(STDERR_FILENO, line.data(), line.size());
+}
+
+/// What tell_of_crash() has told; empty if nothing was.
+std::string crash_in(const std::string& printed) {
+  const std::size_t mark = printed.rfind(kMark);
+  if (mark == std::string::npos) return "";
+  std::string text = printed.substr(mark + kMark.size());
+  while (!text.empty() && text.back() == '\n') text.pop_back();
+  return text;
+}
+
+CaseResult crashed(const isolation::ChildOutcome& outcome) {
+  std::string reason = crash_in(outcome.printed);
+  if (reason.empty()) {
+    reason = outcome.end == End::Killed
+                 ? fmt::format("its process was killed by {}", isolation::signal_name(outcome.code))
+                 : fmt::format("its process ended with the exit code {}", outcome.code);
+  }
+  return {.outcome = Outcome::Crashed, .reason = std::move(reason)};
+}
+
+}  // namespace
+
+CaseRunner::CaseRunner(const campaign::Plan& plan, const campaign::CampaignScenario& scenario,
+                       const campaign::CaseScratch& scratch)
+    : plan_(plan), scenario_(scenario), scratch_(scratch) {
+  ssp::Files& files = *scenario.loaded().scenario().files;
+  for (const fs::path& document : std::set(files.documents())) {
+    if (core::is_file(document)) files.read_ahead(document);
+  }
+}
+
+bool CaseRunner::has_results_anyway(std::uint64_t index) const {
+  const campaign::Keep& keep = plan_.campaign().keep;
+  return keep.results == Results::All || (keep.every != 0 && index % keep.every == 0);
+}
+
+bool CaseRunner::may_have_results(std::uint64_t index) const {
+  return has_results_anyway(index) || plan_.campaign().keep.results == Results::Failed;
+}
+
+std::string CaseRunner::run(std::uint64_t index) const {
+  const EndOfCase end;
+  bool was_interrupted = false;
+  const CaseResult result = simulate(index, was_interrupted);
+  return was_interrupted ? "" : campaign::record_line(plan_, plan_.at(index), result);
+}
+
+CaseResult CaseRunner::simulate(std::uint64_t index, bool& was_interrupted) const {
+  CrashGuard guard(tell_of_crash);
+  try {
+    scenario::ScenarioRequest request = plan_.request(plan_.at(index));
+    request.files = scenario_.loaded().scenario().files;
+    request.units = scenario_.units();
+    CaseRun run(request, plan_.campaign().aggregates,
+                {.folder = may_have_results(index) ? scratch_.results(index) : fs::path(),
+                 .has_report = has_results_anyway(index)});
+    const CrashGuard::Scope scope(guard, [&](const std::string& error) {
+      tell_of_crash(error);
+      run.abandon(error);
+    });
+    CaseResult result = run.run();
+    was_interrupted = run.was_interrupted();
+    return result;
+  } catch (const std::exception& mistake) {
+    return {.outcome = Outcome::Error, .reason = in_words(mistake)};
+  }
+}
+
+std::optional<CaseResult> CaseRunner::result_of(const CasePool::Ended& ended) const {
+  const isolation::ChildOutcome& outcome = ended.outcome;
+  switch (outcome.end) {
+    case End::Answered:
+      return campaign::parse_record(plan_, ended.index, outcome.text);
+    case End::Threw:
+      return CaseResult{.outcome = Outcome::Error, .reason = outcome.text};
+    case End::TimedOut:
+      return CaseResult{.outcome = Outcome::TimedOut,
+                        .reason = fmt::format("it took longer than {} s of wall time",
+                                              plan_.campaign().wall_time_limit.value_or(0))};
+    case End::Interrupted:
+      return std::nullopt;
+    case End::Exited:
+    case End::Killed:
+      break;
+  }
+  return crashed(outcome);
+}
+
+std::optional<CaseResult> CaseRunner::conclude(const CasePool::Ended& ended) const {
+  std::optional<CaseResult> result = result_of(ended);
+  if (!result) {
+    scratch_.drop_results(ended.index);
+    return std::nullopt;
+  }
+  if (result->outcome == Outcome::Error && !scratch_.has_room()) {
+    core::fail_run(
+        {},
+        fmt::format("the disk is full, so case {} is not done: {}", ended.index, result->reason),
+        "make room, and run the campaign again");
+  }
+  result->wall_time = ended.wall_time.count();
+  result->reason = with_lasting_paths(ended.index, std::move(result->reason));
+  const bool is_wanted = has_results_anyway(ended.index) || result->outcome != Outcome::Passed;
+  result->has_results = is_wanted && core::is_folder(scratch_.results(ended.index));
+  if (result->has_results) {
+    warn_of_failure([&] { complete_results(ended.index, *result); });
+    scratch_.keep_results(ended.index);
+  } else {
+    scratch_.drop_results(ended.index);
+  }
+  scratch_.write(ended.index, campaign::record_line(plan_, plan_.at(ended.index), *result));
+  return result;
+}
+
+/// What the process of the case could not do itself.
+void CaseRunner::complete_results(std::uint64_t index, const CaseResult& result) const {
+  const ResultsTarget target{scratch_.results(index),
+                             scenario_.loaded().scenario().annotation.results};
+  const auto& [folder, files] = target;
+  const bool has_ended = result.outcome == Outcome::Failed || result.outcome == Outcome::Passed;
+  if (!has_ended)
+    add_error(target, result.reason, result.reached ? std::nullopt : std::optional(Time{}));
+  if (!has_reports() || files.report.empty() || core::is_file(folder / files.report)) return;
+  if (core::is_file(folder / files.statistics)) write_report(folder, files, folder / files.report);
+}
+
+/// Its results are elsewhere while a case runs, and that is not to be seen.
+std::string CaseRunner::with_lasting_paths(std::uint64_t index, std::string text) const {
+  const std::string fresh = scratch_.results(index).string();
+  const std::string lasting = scratch_.results_name(index).string();
+  for (std::size_t at = 0; (at = text.find(fresh, at)) != std::string::npos;) {
+    text.replace(at, fresh.size(), lasting);
+    at += lasting.size();
+  }
+  return text;
+}
+
+}  // namespace stride::cli

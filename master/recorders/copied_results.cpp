@@ -1,0 +1,32 @@
+#include "master/recorders/copied_results.h"
+
+#include <string>
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include "master/recorders/unit_folders.h"
+#include "master/util/error.h"
+#include "master/util/input_file.h"
+
+namespace stride::recorders {
+
+void copy_results(const std::filesystem::path& from, const std::filesystem::path& to,
+                  const ResultFiles& files) {
+  for (const auto& [what, member] : kResultFiles) {
+    const std::string& name = files.*member;
+    if (!name.empty() && core::is_file(from / name)) core::copy_input(from / name, to / name);
+  }
+  if (!core::is_folder(from / kUnitsFolder)) return;
+  std::error_code error;
+  std::filesystem::copy(from / kUnitsFolder, to / kUnitsFolder,
+                        std::filesystem::copy_options::recursive |
+                            std::filesystem::copy_options::skip_symlinks |
+                            std::filesystem::copy_options::overwrite_existing,
+                        error);
+  if (!error) return;
+  core::fail_run({.where = {(to / kUnitsFolder).string(), 0}},
+                 fmt::format("cannot copy the files of units to here: {}", error.message()));
+}
+
+}  // namespace stride::recorders

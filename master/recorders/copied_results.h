@@ -1,0 +1,18 @@
+#ifndef STRIDE_MASTER_RECORDERS_COPIED_RESULTS_H
+#define STRIDE_MASTER_RECORDERS_COPIED_RESULTS_H
+
+#include <filesystem>
+
+#include "master/recorders/results_folder.h"
+
+namespace stride::recorders {
+
+/// Copies the files of these names that are there, and the folders of units without links.
+/// Throws core::Error: of the kind Input for what cannot be read, of the kind Run for what cannot
+/// be written.
+void copy_results(const std::filesystem::path& from, const std::filesystem::path& to,
+                  const ResultFiles& files);
+
+}  // namespace stride::recorders
+
+#endif

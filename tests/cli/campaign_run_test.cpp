@@ -1,0 +1,334 @@
+// stride campaign run and status, from outside.
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <cstring>
+#include <list>
+#include <random>
+#include <sstream>
+#include <thread>
+
+#include <sys/mount.h>
+
+#include "tests/cli/failures.h"
+#include "tests/cli/leftovers.h"
+
+using namespace stride::tests;
+using Catch::Matchers::Contains;
+
+namespace {
+
+using namespace std::chrono_literals;
+
+/// Draws of the input of the first of two filters; a check fails where it is too large.
+std::string campaign(const std::string& runs, const std::string& extension = "") {
+  return "<OpenSCENARIO><FileHeader revMajor='1' revMinor='1' date='2026-01-01T00:00:00' "
+         "description='' author=''/><ParameterValueDistribution>"
+         "<ScenarioFile filepath='test.ssd'/><Stochastic numberOfTestRuns='" +
+         runs +
+         "' randomSeed='1'><StochasticDistribution parameterName='first.u'>"
+         "<UniformDistribution><Range lowerLimit='0' upperLimit='2'/></UniformDistribution>"
+         "</StochasticDistribution></Stochastic></ParameterValueDistribution>"
+         "<stride:Campaign xmlns:stride='urn:org.stride:campaign:1'>"
+         "<stride:Aggregate name='last' signal='second.y' function='final'/>"
+         "<stride:Aggregate name='mean' signal='first.y' function='mean'/>" +
+         extension + "</stride:Campaign></OpenSCENARIO>";
+}
+
+const char* const kKeepNone = "<stride:Keep results='none'/>";
+
+/// Cases of a unit that does one of these things at 0.5 s.
+std::string faults(std::initializer_list<const char*> names, const std::string& extension) {
+  std::string elements;
+  for (const char* name : names) elements += "<Element value='" + std::string(name) + "'/>";
+  return "<OpenSCENARIO><FileHeader revMajor='1' revMinor='1' date='2026-01-01T00:00:00' "
+         "description='' author=''/><ParameterValueDistribution>"
+         "<ScenarioFile filepath='test.ssd'/><Deterministic>"
+         "<DeterministicSingleParameterDistribution parameterName='c.call'><DistributionSet>"
+         "<Element value='step'/></DistributionSet></DeterministicSingleParameterDistribution>"
+         "<DeterministicSingleParameterDistribution parameterName='c.at'><DistributionSet>"
+         "<Element value='0.5'/></DistributionSet></DeterministicSingleParameterDistribution>"
+         "<DeterministicSingleParameterDistribution parameterName='c.fault'><DistributionSet>" +
+         elements +
+         "</DistributionSet></DeterministicSingleParameterDistribution></Deterministic>"
+         "</ParameterValueDistribution>"
+         "<stride:Campaign xmlns:stride='urn:org.stride:campaign:1'>" +
+         extension + "</stride:Campaign></OpenSCENARIO>";
+}
+
+Parts checked_filters() {
+  Parts parts = two_filters();
+  parts.annotation =
+      "<stride:Checks><stride:Always name='bounded' signal='first.y' max='1'/></stride:Checks>\n";
+  return parts;
+}
+
+/// Each row without its last field, the wall time.
+std::string without_wall_times(const std::string& table) {
+  std::istringstream lines(table);
+  std::string text;
+  for (std::string line; std::getline(lines, line);) {
+    text += line.substr(0, line.rfind(',')) + "\n";
+  }
+  return text;
+}
+
+/// A folder with a scenario and the campaign c.xosc.
+struct CampaignRuns : Workspace {
+  explicit CampaignRuns(const std::string& text, const Parts& parts = checked_filters())
+      : Workspace(parts) {
+    scratch().write("c.xosc", text);
+  }
+
+  static Arguments arguments(const std::string& out, const Arguments& further = {}) {
+    Arguments made{"campaign", "run", "c.xosc", "--quiet", "--out", out};
+    made.insert(made.end(), further.begin(), further.end());
+    return made;
+  }
+  Outcome campaign(const std::string& out, const Arguments& further = {}) const {
+    return stride(arguments(out, further));
+  }
+  std::string file(const std::string& name) const { return read(scratch() / name); }
+  std::string table(const std::string& out) const {
+    return without_wall_times(file(out + "/cases.csv"));
+  }
+  /// The row of a case, as fields.
+  nlohmann::json line(const std::string& out, std::size_t index) const {
+    std::istringstream lines(file(out + "/cases.jsonl"));
+    std::string text;
+    for (std::size_t i = 0; i <= index; ++i) std::getline(lines, text);
+    return nlohmann::json::parse(text);
+  }
+};
+
+std::size_t records_in(const fs::path& folder) {
+  std::size_t count = 0;
+  std::error_code none;
+  for (fs::recursive_directory_iterator it(folder / "cases", none), end; it != end;
+       it.increment(none)) {
+    count += it->path().extension() == ".json" && it.depth() == 1 ? 1 : 0;
+  }
+  return count;
+}
+
+}  // namespace
+
+TEST_CASE("a table has a row for each case, whatever the number of jobs") {
+  const CampaignRuns space(campaign("20", kKeepNone));
+  const Outcome outcome = space.campaign("one", {"--jobs", "1"});
+  INFO(outcome.err);
+  CHECK(outcome.exit_code == 1);
+  CHECK(outcome.out == "");
+  CHECK_THAT(outcome.err, Contains("of 20 cases have not passed"));
+  const std::string table = space.table("one");
+  CHECK(std::count(table.begin(), table.end(), '\n') == 21);
+  CHECK(
+      table.substr(0, table.find('\n')) ==
+      "case,first.u,seed,outcome,reason,check:bounded,aggregate:last,aggregate:mean,reached,hash");
+  CHECK_THAT(table, Contains(",passed,,passed,") && Contains(",failed,bounded: at "));
+  CHECK(space.campaign("three", {"--jobs", "3"}).exit_code == 1);
+  CHECK(space.table("three") == table);
+  CHECK(space.left_behind().empty());
+  CHECK_FALSE(fs::exists(space / "one/running"));
+  CHECK_FALSE(fs::exists(space / "one/cases/000/000000"));
+
+  const std::string value = space.line("one", 7)["values"]["first.u"];
+  space.run({"--quiet", "--set", "first.u=" + value});
+  const Csv signals = space.signals();
+  CHECK(std::to_string(double(space.line("one", 7)["aggregates"]["last"])) ==
+        std::to_string(std::stod(signals.row(signals.size() - 1).back())));
+}
+
+TEST_CASE("cases of a campaign may run in any order and in processes side by side") {
+  const CampaignRuns space(campaign("8", kKeepNone));
+  CHECK(space.campaign("all").exit_code == 1);
+  std::list<Process> processes;
+  for (const char* index : {"5", "0", "7", "3", "1", "6", "2", "4"}) {
+    processes.emplace_back(stride_command(CampaignRuns::arguments("side", {"--case", index})),
+                           space.scratch().path());
+  }
+  for (Process& process : processes) {
+    const Outcome outcome = process.wait();
+    INFO(outcome.err);
+    CHECK((outcome.exit_code == 0 || outcome.err.find("failed: bounded") != std::string::npos));
+  }
+  CHECK(records_in(space / "side") == 8);
+  CHECK_FALSE(fs::exists(space / "side/cases.csv"));
+  const Outcome status = space.stride({"campaign", "status", "side"});
+  INFO(status.err);
+  CHECK(status.exit_code == 0);
+  CHECK(space.table("side") == space.table("all"));
+  CHECK(fs::exists(space / "side/plan.csv"));
+  CHECK_FALSE(fs::exists(space / "side/running"));
+}
+
+TEST_CASE("a campaign that is killed at any instant goes on where it was") {
+  const CampaignRuns space(campaign("30", "<stride:Keep results='failed' every='7'/>"));
+  CHECK(space.campaign("whole").exit_code == 1);
+  const Leftovers leftovers;
+  std::mt19937 random(1);
+  std::size_t before = 0;
+  for (int i = 0; i < 20; ++i) {
+    Process process(stride_command(CampaignRuns::arguments("killed")), space.scratch().path());
+    std::this_thread::sleep_for(std::chrono::milliseconds(random() % 120));
+    process.send(SIGKILL);
+    process.wait();
+    CHECK(leftovers.after_a_while().empty());
+    const std::size_t now = records_in(space / "killed");
+    CHECK(now >= before);
+    before = now;
+  }
+  const auto time_of = [&](int index) {
+    const fs::path file = space / ("killed/cases/000/00000" + std::to_string(index) + ".json");
+    return fs::exists(file) ? fs::last_write_time(file) : fs::file_time_type{};
+  };
+  const auto first = time_of(0);
+  CHECK(space.campaign("killed").exit_code == 1);
+  CHECK(space.table("killed") == space.table("whole"));
+  if (first != fs::file_time_type{}) CHECK(time_of(0) == first);
+  CHECK_FALSE(fs::exists(space / "killed/running"));
+  for (int i = 0; i < 30; ++i) {
+    const std::string name = (i < 10 ? "00000" : "0000") + std::to_string(i);
+    const bool is_kept = i % 7 == 0 || space.line("whole", i)["outcome"] != "passed";
+    for (const char* out : {"whole", "killed"}) {
+      const fs::path results = space / out / ("cases/000/" + name);
+      INFO(results);
+      CHECK(fs::exists(results / "run.json") == is_kept);
+      CHECK(space.line(out, i)["results"] == is_kept);
+    }
+    if (!is_kept) continue;
+    const std::string place = "/cases/000/" + name + "/signals.csv";
+    CHECK(space.file("whole" + place) == space.file("killed" + place));
+  }
+}
+
+TEST_CASE("whatever a case does is a row, and the others go on") {
+  const CampaignRuns space(
+      faults({"", "segfault", "sleep", "exit with 0", "kill", "allocate", "abort"},
+             "<stride:Limit wallTime='4'/><stride:Keep results='failed'/>"),
+      {component("c", "faulty.fmu"), ""});
+  Process process({"sh", "-c",
+                   "ulimit -v 800000; exec '" + stride_command({}).front() +
+                       "' campaign run c.xosc --quiet --out out --junit junit.xml"},
+                  space.scratch().path());
+  const Outcome outcome = process.wait();
+  INFO(outcome.err);
+  CHECK(outcome.exit_code == 1);
+  CHECK_THAT(outcome.err, Contains("6 of 7 cases have not passed"));
+  const auto is = [&](std::size_t index, const std::string& outcome_text,
+                      const std::string& reason) {
+    const nlohmann::json line = space.line("out", index);
+    INFO(line);
+    CHECK(line["outcome"] == outcome_text);
+    CHECK_THAT(line["reason"].get<std::string>(), Contains(reason));
+    CHECK(line["results"] == (index != 0));
+  };
+  is(0, "passed", "");
+  is(1, "crashed", "unit 'c'");
+  is(2, "timed out", "it took longer than 4 s of wall time");
+  is(3, "crashed", "unit 'c'");
+  is(4, "crashed", "SIGKILL");
+  is(5, "error", "bad_alloc");
+  is(6, "crashed", "unit 'c'");
+  for (const int index : {1, 2, 3, 4, 5, 6}) {
+    const std::string results = "out/cases/000/00000" + std::to_string(index);
+    const nlohmann::json run = nlohmann::json::parse(space.file(results + "/run.json"));
+    INFO(index);
+    CHECK(run["outcome"] == "failed");
+  }
+  const std::string junit = space.file("junit.xml");
+  CHECK_THAT(junit, Contains("tests=\"7\" failures=\"0\" errors=\"6\" skipped=\"0\"") &&
+                        Contains("<testcase name=\"case 2\" classname=\"c\"") &&
+                        Contains("stride run test.ssd --set c.call=step"));
+  CHECK(space.left_behind().empty());
+}
+
+TEST_CASE("a campaign that is interrupted says how it goes on") {
+  const CampaignRuns space(faults({"", "sleep", "loop"}, kKeepNone),
+                           {component("c", "faulty.fmu"), ""});
+  const int signal = GENERATE(SIGTERM, SIGINT);
+  const Leftovers leftovers;
+  Process process(stride_command(CampaignRuns::arguments("out")), space.scratch().path());
+  while (process.is_running() && records_in(space / "out") == 0) std::this_thread::sleep_for(5ms);
+  std::this_thread::sleep_for(200ms);
+  process.send(signal);
+  const Outcome outcome = process.wait();
+  INFO(outcome.err);
+  CHECK(outcome.exit_code == 1);
+  CHECK_THAT(outcome.err, Contains("the campaign was interrupted; 1 of 3 cases are done") &&
+                              Contains("it goes on with: stride campaign run out"));
+  CHECK(space.line("out", 0)["outcome"] == "passed");
+  CHECK(space.line("out", 1)["outcome"] == "missing");
+  CHECK(leftovers.after_a_while().empty());
+  CHECK_FALSE(fs::exists(space / "out/running"));
+  const Outcome status = space.stride({"campaign", "status", "out"});
+  CHECK(status.exit_code == 0);
+  CHECK_THAT(status.out, Contains("c: 1 of 3 cases done, 1 passed, 0 failed, 2 missing"));
+}
+
+TEST_CASE("a campaign whose cases pass is good, and status repeats the failures") {
+  const CampaignRuns space(campaign("5"), two_filters());
+  const Outcome good = space.stride({"campaign", "run", "c.xosc", "--progress", "json"});
+  INFO(good.err);
+  CHECK(good.exit_code == 0);
+  CHECK_THAT(good.out, Contains("c: 5 of 5 cases done, 5 passed, 0 failed, 0 missing") &&
+                           Contains("Table in campaigns/c: cases.csv cases.jsonl"));
+  CHECK_THAT(good.err, Contains("\"done\":5") && Contains("\"outcome\":\"completed\""));
+  CHECK(space.stride({"campaign", "run", "campaigns/c"}).exit_code == 0);
+
+  const CampaignRuns bad(campaign("20", kKeepNone));
+  REQUIRE(bad.campaign("out").exit_code == 1);
+  const Outcome status = bad.stride({"campaign", "status", "c.xosc", "--out", "out"});
+  CHECK(status.exit_code == 0);
+  CHECK_THAT(status.out, Contains("failed   bounded: at ") &&
+                             Contains(": stride run test.ssd --set first.u=1."));
+}
+
+TEST_CASE("what campaign run refuses") {
+  const CampaignRuns space(campaign("5", kKeepNone), two_filters());
+  REQUIRE(space.campaign("out").exit_code == 0);
+  CHECK_THAT(input_error_of(space.campaign("out", {"--case", "5"})),
+             Contains("--case 5: there are 5 cases, the last one is 4"));
+  CHECK_THAT(input_error_of(space.stride({"campaign", "status", "c.xosc"})),
+             Contains("campaigns/c: there is no plan in this folder"));
+  CHECK_THAT(input_error_of(space.stride({"campaign", "run", "out", "--out", "other"})),
+             Contains("out: this is the folder of a campaign, so --out cannot name another one"));
+  CHECK_THAT(input_error_of(space.stride({"campaign", "run", "tmp"})),
+             Contains("tmp: there is no plan in this folder"));
+  space.scratch().write("c.xosc", campaign("6", kKeepNone));
+  CHECK_THAT(input_error_of(space.campaign("out")),
+             Contains("out: this folder belongs to another plan"));
+  CHECK_THAT(input_error_of(space.campaign("out", {"--case", "1"})),
+             Contains("out: this folder belongs to another plan"));
+  space.scratch().write("c.xosc", campaign("x"));
+  CHECK(space.campaign("out").exit_code == 2);
+}
+
+TEST_CASE("half a record is none") {
+  const CampaignRuns space(campaign("3", kKeepNone), two_filters());
+  REQUIRE(space.campaign("out").exit_code == 0);
+  const std::string table = space.table("out");
+  const std::string record = "out/cases/000/000001.json";
+  space.scratch().write(record, space.file(record).substr(0, 100));
+  space.scratch().write("out/cases/000/000002.json", space.file("out/cases/000/000000.json"));
+  CHECK(space.campaign("out").exit_code == 0);
+  CHECK(space.table("out") == table);
+}
+
+TEST_CASE("a full disk ends a campaign, and is the end of no case") {
+  const CampaignRuns space(campaign("3", "<stride:Keep results='all'/>"), two_filters());
+  fs::create_directory(space / "out");
+  if (::mount("tmpfs", (space / "out").c_str(), "tmpfs", 0, "size=64k") != 0) {
+    WARN("SKIPPED: no file system can be mounted: " << std::strerror(errno));
+    return;
+  }
+  const Outcome full = space.campaign("out", {"--jobs", "1"});
+  CHECK(records_in(space / "out") < 3);
+  CHECK(full.exit_code == 1);
+  CHECK_THAT(full.err, Contains("disk") || Contains("No space left"));
+  REQUIRE(::mount("tmpfs", (space / "out").c_str(), "tmpfs", MS_REMOUNT, "size=20m") == 0);
+  const Outcome outcome = space.campaign("out");
+  INFO(outcome.err);
+  CHECK(outcome.exit_code == 0);
+  ::umount2((space / "out").c_str(), MNT_DETACH);
+}

@@ -1,0 +1,151 @@
+#include "master/campaign/case_table.h"
+
+#include <filesystem>
+#include <limits>
+
+#include <catch2/catch.hpp>
+#include <unistd.h>
+
+#include "master/campaign/campaign_junit.h"
+#include "master/campaign/campaign_scenario.h"
+#include "tests/master/campaign/support.h"
+
+using namespace stride;
+using namespace stride::campaign;
+using namespace stride::tests;
+using Catch::Contains;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A plan of four cases, and where its records are.
+struct Records {
+  explicit Records(const std::string& runs = "4")
+      : folder(campaign_text(stochastic(drawn("b.u", uniform("0", "1")), runs),
+                             "<stride:Aggregate name='a, \"b\"' signal='b.y' function='max'/>")),
+        plan(plan_in(folder)),
+        cases(plan, folder / "out") {}
+
+  static Plan plan_in(const CampaignFolder& folder) {
+    Campaign read = folder.read();
+    const CampaignScenario scenario(read, "1.0");
+    return Plan(std::move(read), scenario.kinds(), scenario.fingerprints());
+  }
+  /// An empty file, with its folders.
+  void touch(const std::string& name) const {
+    fs::create_directories((folder / name).parent_path());
+    folder.write(name, "");
+  }
+  void write(std::uint64_t index, const CaseResult& result) const {
+    CaseScratch(cases).write(index, record_line(plan, plan.at(index), result));
+  }
+
+  CampaignFolder folder;
+  Plan plan;
+  CaseFolder cases;
+};
+
+const CaseResult kFailed{.outcome = Outcome::Failed,
+                         .reason = "low: at 0.5 s, \"y\"\nand more",
+                         .verdicts = {{"low", "Never", false, "y", 0.5}, {"low", "", true, "", {}}},
+                         .aggregates = {0.1},
+                         .reached = 1,
+                         .has_results = true,
+                         .wall_time = 0.25};
+
+}  // namespace
+
+TEST_CASE("a record is read as it was written") {
+  const Records records;
+  const CaseResult odd{.outcome = Outcome::TimedOut,
+                       .reason = "a \xff",
+                       .aggregates = {-std::numeric_limits<double>::infinity()}};
+  for (const CaseResult& result : {kFailed, CaseResult{.aggregates = {std::nullopt}}}) {
+    const std::string line = record_line(records.plan, records.plan.at(1), result);
+    CHECK(line.find('\n') == std::string::npos);
+    CHECK(parse_record(records.plan, 1, line) == result);
+    CHECK(parse_record(records.plan, 2, line) == std::nullopt);
+    CHECK(parse_record(records.plan, 1, line.substr(0, line.size() / 2)) == std::nullopt);
+  }
+  const std::string line = record_line(records.plan, records.plan.at(0), odd);
+  CHECK(parse_record(records.plan, 0, line)->aggregates == odd.aggregates);
+}
+
+TEST_CASE("records are in folders of a thousand, as a whole or not at all") {
+  const Records records;
+  CHECK(records.cases.record_file(3) == records.folder / "out/cases/000/000003.json");
+  CHECK(records.cases.read(3) == std::nullopt);
+  records.write(3, kFailed);
+  CHECK(records.cases.read(3)->result == kFailed);
+  CHECK_FALSE(fs::exists(records.folder / "out/running"));
+  CHECK(Records("2000000").cases.results_name(1234567) == "cases/1234/1234567");
+}
+
+TEST_CASE("results are put beside the record, in the place of those of a killed process") {
+  const Records records;
+  const CaseScratch scratch(records.cases);
+  records.touch("out/cases/000/000002/old");
+  fs::create_directories(scratch.results(2) / "new");
+  scratch.keep_results(2);
+  CHECK(fs::exists(records.folder / "out/cases/000/000002/new"));
+  CHECK_FALSE(fs::exists(records.folder / "out/cases/000/000002/old"));
+}
+
+TEST_CASE("what a killed process of this host has left is removed, and nothing else") {
+  const Records records;
+  char host[256] = {};
+  REQUIRE(::gethostname(host, sizeof host - 1) == 0);
+  const std::string running = "out/running/";
+  records.touch(running + host + ".99999999/x");
+  records.touch(running + "elsewhere.1/x");
+  { const CaseScratch scratch(records.cases); }
+  CHECK_FALSE(fs::exists(records.folder / (running + host + ".99999999")));
+  CHECK(fs::exists(records.folder / (running + "elsewhere.1/x")));
+}
+
+TEST_CASE("the tables have a row for each case, with or without a record") {
+  const Records records;
+  records.write(2, kFailed);
+  records.write(0, {.aggregates = {std::numeric_limits<double>::quiet_NaN()}, .reached = 1});
+  const CaseScratch scratch(records.cases);
+  const CaseSummary summary = write_case_tables(records.plan, records.cases, scratch, 5);
+  CHECK(summary.totals.passed == 1);
+  CHECK(summary.totals.failed == 1);
+  CHECK(summary.totals.missing() == 2);
+  REQUIRE(summary.first_failures.size() == 1);
+  CHECK(summary.first_failures.front().index == 2);
+  CHECK(summary.first_failures.front().result == kFailed);
+
+  const auto row = [&](std::uint64_t index, const std::string& outcome, const std::string& rest) {
+    const Case planned = records.plan.at(index);
+    return std::to_string(index) + "," + *planned.values[0] + "," + std::to_string(planned.seed) +
+           "," + outcome + "," + records.plan.hash(planned) + rest + "\n";
+  };
+  CHECK(content(records.folder / "out/cases.csv") ==
+        "case,b.u,seed,outcome,reason,check:low,verdict:low,\"aggregate:a, \"\"b\"\"\",reached,"
+        "hash,wall_time\n" +
+            row(0, "passed,,,,nan,1", ",0") + row(1, "missing,,,,,", ",") +
+            row(2, "failed,\"low: at 0.5 s, \"\"y\"\"\",failed,passed,0.1,1", ",0.25") +
+            row(3, "missing,,,,,", ","));
+  const std::string lines = content(records.folder / "out/cases.jsonl");
+  CHECK(std::count(lines.begin(), lines.end(), '\n') == 4);
+  CHECK_THAT(lines, Contains("\"outcome\":\"missing\""));
+}
+
+TEST_CASE("a test report of a campaign") {
+  const Records records;
+  records.write(2, kFailed);
+  records.write(1, {.outcome = Outcome::Crashed, .reason = "SIGSEGV", .aggregates = {{}}});
+  records.write(0, {.aggregates = {{}}});
+  write_campaign_junit(records.folder / "j.xml", records.plan, records.cases,
+                       {.cases = 4, .passed = 1, .failed = 2});
+  const std::string xml = content(records.folder / "j.xml");
+  CHECK_THAT(xml,
+             Contains("tests=\"4\" failures=\"1\" errors=\"1\" skipped=\"1\" time=\"0.250\"") &&
+                 Contains("<error message=\"SIGSEGV\" type=\"crashed\">") &&
+                 Contains("<failure message=\"low: at 0.5 s, &quot;y&quot;\" "
+                          "type=\"failed\">") &&
+                 Contains("<skipped message=\"the case has not been run\"/>") &&
+                 Contains(" --set b.u="));
+}
