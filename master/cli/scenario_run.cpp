@@ -192,6 +192,16 @@ std::size_t interventions_until(const core::RunOptions& options, Time time) {
       [&](const core::Intervention& intervention) { return intervention.from <= time; }));
 }
 
+void require_time_in_run(const core::RunOptions& options, const Resumption& resumption) {
+  const Time time = resumption.from.time;
+  if (time >= options.start && time <= options.stop) return;
+  core::fail_input(
+      {.where = {resumption.file.string(), 0}},
+      fmt::format("the checkpoint is at {} s, and the run is from {} s to {} s",
+                  core::to_text(time), core::to_text(options.start), core::to_text(options.stop)),
+      "choose a stop time behind the checkpoint, or an earlier checkpoint");
+}
+
 /// What was not there before would have had to begin in the part that is over.
 void require_later_interventions(const core::RunOptions& options,
                                  const checkpoint::Checkpoint& from) {
@@ -210,6 +220,7 @@ std::optional<recorders::Provenance> provenance(const RunArguments& arguments,
   if (!arguments.resumed) return made;
   const recorders::Provenance& before = arguments.resumed->from.provenance;
   require_same(before, made, arguments.resumed->file);
+  require_time_in_run(loaded.options(), *arguments.resumed);
   require_later_interventions(loaded.options(), arguments.resumed->from);
   made.commands.insert(made.commands.begin(), before.commands.begin(), before.commands.end());
   return made;

@@ -203,6 +203,15 @@ TEST_CASE("a run goes on with other interventions, as one that has had them from
   CHECK_THAT(late.err, Contains("an intervention begins at or before 0.5 s"));
 }
 
+TEST_CASE("a run is not resumed to end before its checkpoint") {
+  const Workspace cut(plain_parts());
+  REQUIRE(cut.run({"--quiet", "--checkpoint", "0.5"}).exit_code == 0);
+  const std::string results = cut.result("signals.csv");
+  CHECK_THAT(input_error_of(cut.stride({"resume", "out", "--stop", "0.25"})),
+             Contains("the checkpoint is at 0.5 s, and the run is from 0 s to 0.25 s"));
+  CHECK(cut.result("signals.csv") == results);
+}
+
 TEST_CASE("a resumed run is resumed again, with all that it was given") {
   const Workspace whole(plain_parts());
   const Workspace cut(plain_parts());
