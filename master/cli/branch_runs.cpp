@@ -53,7 +53,7 @@ std::vector<Branch> read_branches(const RunArguments& arguments,
 }
 
 void BranchRuns::connect(Branches& branches) {
-  branches.set_work({.prepare = [this](Time now) { prepare(now); },
+  branches.set_work({.prepare = [this](Time now) { return prepare(now); },
                      .rest = [this](const Branch& branch) { make_rest(branch); },
                      .conclude = [this] { conclude(); }});
 }
@@ -66,12 +66,13 @@ bool BranchRuns::can_fork() const {
          !recorders::has_unit_files(setup_.results.folder);
 }
 
-void BranchRuns::prepare(Time now) {
+bool BranchRuns::prepare(Time now) {
   setup_.recorded.flush();
   fs::create_directories(setup_.results.folder / kBranchesFolder);
-  if (can_fork()) return;
+  if (can_fork()) return false;
   checkpoint_ = fs::absolute(setup_.results.folder) / kBranchesFolder / "begin.zip";
   checkpoint::write_checkpoint(checkpoint_, setup_.take(now));
+  return true;
 }
 
 void BranchRuns::conclude() const {

@@ -40,7 +40,7 @@ class BranchRuns {
   void connect(Branches& branches);
 
  private:
-  void prepare(Time now);
+  bool prepare(Time now);
   void make_rest(const Branch& branch);
   void conclude() const;
   bool can_fork() const;

@@ -75,7 +75,7 @@ std::optional<core::Pause> Branches::next(Time /*now*/) {
 
 void Branches::on_pause(Time now) {
   has_forked_ = true;
-  work_.prepare(now);
+  are_programs_ = work_.prepare(now);
   for (std::size_t i = 0; i < branches_.size(); ++i) {
     while (running_.size() >= jobs_) collect(std::chrono::milliseconds(20));
     const auto work = [&] {
@@ -113,7 +113,9 @@ void Branches::note_end(std::size_t branch, const isolation::ChildOutcome& outco
       failure = "it was interrupted";
       break;
     case End::Exited:
-      if (outcome.code != 0) failure = last_error(outcome.printed);
+      if (outcome.code == 0 && are_programs_) break;
+      failure = last_error(outcome.printed);
+      if (outcome.code == 0) failure = "something in it has ended its process, with code 0";
       break;
     case End::Killed:
       failure = fmt::format("its process was killed by {}", isolation::signal_name(outcome.code));

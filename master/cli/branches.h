@@ -56,7 +56,9 @@ class Branches final : public core::RunControl {
   using Rest = std::function<void(const Branch& branch)>;
 
   struct Work {
-    std::function<void(Time now)> prepare;  ///< called once, before the first branch begins
+    /// Called once, before the first branch begins. Returns whether branches go on as programs of
+    /// their own, whose good end is an exit with code 0.
+    std::function<bool(Time now)> prepare;
     Rest rest;
     std::function<void()> conclude;  ///< likewise, when the last one has ended
   };
@@ -90,6 +92,7 @@ class Branches final : public core::RunControl {
   Work work_;
   const volatile std::sig_atomic_t* interrupted_;
   bool has_forked_ = false;
+  bool are_programs_ = false;
   std::list<Running> running_;
   std::vector<std::optional<std::string>> failures_;  ///< by branch; empty: good
 };
