@@ -54,16 +54,6 @@ std::vector<fs::path> checkpoints(const Workspace& workspace) {
   return files;
 }
 
-/// The second process of a run that was killed may still be about to end, with its lock.
-Outcome resume_unlocked(const Workspace& workspace, const Arguments& arguments) {
-  for (int tries = 0;; ++tries) {
-    Outcome outcome = workspace.stride(arguments);
-    const bool is_locked = outcome.err.find("has locked this folder") != std::string::npos;
-    if (!is_locked || tries == 100) return outcome;
-    std::this_thread::sleep_for(20ms);
-  }
-}
-
 /// The run as a whole, then with checkpoints, then from each of these.
 void check_resumption(const Parts& parts, const Arguments& options, const Arguments& instants) {
   const Workspace whole(parts);
@@ -334,41 +324,4 @@ TEST_CASE("a run that a signal ends goes on from there") {
   REQUIRE(whole.run({"--quiet", "--no-trace", "--stop", stop}).exit_code == 0);
   const bool is_same = whole.result("signals.csv") == cut.result("signals.csv");
   CHECK(is_same);
-}
-
-TEST_CASE("a run that is killed at any instant goes on to the same results") {
-  Parts parts = ticking_parts();
-  parts.experiment = "<ssd:DefaultExperiment stopTime=\"60\"/>\n";
-  const Workspace whole(parts);
-  const auto began = std::chrono::steady_clock::now();
-  REQUIRE(whole.run({"--quiet", "--checkpoint-every", "2"}).exit_code == 0);
-  const auto length = std::chrono::steady_clock::now() - began;
-  const Workspace cut(parts);
-  std::mt19937 random(7);
-  int resumed = 0;
-  for (int i = 0; i < 40; ++i) {
-    fs::remove_all(cut / "out");
-    {
-      Process process(
-          stride_command(Workspace::run_arguments({"--quiet", "--checkpoint-every", "2"})),
-          cut.scratch().path());
-      std::this_thread::sleep_for(length * (random() % 1000) / 1000);
-      process.send(SIGKILL);
-      process.wait();
-    }
-    if (!fs::exists(cut / "out/checkpoints") || fs::is_empty(cut / "out/checkpoints")) continue;
-    const Outcome outcome = resume_unlocked(cut, {"resume", "out", "--quiet"});
-    INFO(outcome.err);
-    if (outcome.exit_code == 2 && outcome.err.find("no checkpoint in") != std::string::npos) {
-      continue;  // killed in the first one
-    }
-    REQUIRE(outcome.exit_code == 0);
-    for (const char* const file : kRecords) {
-      CAPTURE(file);
-      const bool is_same = whole.result(file) == cut.result(file);
-      CHECK(is_same);
-    }
-    ++resumed;
-  }
-  CHECK(resumed > 10);
 }
