@@ -1,7 +1,5 @@
 #include "master/campaign/file_digests.h"
 
-#include <fmt/format.h>
-
 #include "master/scenario/unit_path.h"
 #include "master/util/input_file.h"
 #include "master/util/sha256.h"
@@ -16,17 +14,10 @@ const std::string& FileDigests::file(const fs::path& path) {
   return digest;
 }
 
-/// Of the names and contents of all files in it.
-std::string FileDigests::folder(const fs::path& path) {
-  std::string list;
-  for (const fs::path& entry : core::folder_entries(path)) {
-    const std::string digest = core::is_folder(entry) ? folder(entry)
-                               : core::is_file(entry) ? file(entry)
-                                                      : "";
-    list += fmt::format("{} {} {}\n", entry.filename().string().size(), entry.filename().string(),
-                        digest);
-  }
-  return core::sha256(list);
+const std::string& FileDigests::folder(const fs::path& path) {
+  std::string& digest = known_[path];
+  if (digest.empty()) digest = core::sha256_of_folder(path);
+  return digest;
 }
 
 std::map<std::string, std::string> FileDigests::files(const scenario::Scenario& scenario) {

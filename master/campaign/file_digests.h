@@ -21,7 +21,7 @@ class FileDigests {
 
  private:
   const std::string& file(const std::filesystem::path& path);
-  std::string folder(const std::filesystem::path& path);
+  const std::string& folder(const std::filesystem::path& path);
 
   std::map<std::filesystem::path, std::string> known_;
 };

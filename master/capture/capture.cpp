@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "master/recorders/unit_folders.h"
 #include "master/util/error.h"
 #include "master/util/suggest.h"
 
@@ -29,6 +30,11 @@ std::size_t find_component(const core::System& system, const CaptureRequest& req
 }
 
 }  // namespace
+
+std::filesystem::path copied_stimuli(const std::filesystem::path& results,
+                                     const std::string& component) {
+  return results / "stimuli" / (recorders::unit_folder_name(component) + ".csv");
+}
 
 Capture::Capture(const core::System& system, const std::string& system_name,
                  const core::RunOptions& options, std::span<const CaptureRequest> requests,
@@ -87,12 +93,20 @@ void Capture::persist(core::StateArchive& state) {
   state.fixed(files_, [&](File& file) { file.unit->persist(state); });
 }
 
-void Capture::continue_in_copies(const std::filesystem::path& folder) {
-  for (File& file : files_) file.file->continue_in_copy(folder / file.file->path().filename());
+void Capture::go_on() {
+  for (File& file : files_) file.file->file().go_on();
+}
+
+void Capture::continue_in_copies(const std::filesystem::path& results) {
+  for (File& file : files_) {
+    const auto copy = copied_stimuli(results, system_.components()[file.component].name);
+    std::filesystem::create_directories(copy.parent_path());
+    file.file->file().continue_in_copy(copy);
+  }
 }
 
 void Capture::flush() {
-  for (File& file : files_) file.file->flush();
+  for (File& file : files_) file.file->file().flush();
 }
 
 void Capture::end(const std::string& ending) {

@@ -21,6 +21,11 @@ struct CaptureRequest {
   std::filesystem::path file;
 };
 
+/// Where the stimuli of a component go on that a run has captured, if its results go on in another
+/// folder: in a folder of their own there.
+std::filesystem::path copied_stimuli(const std::filesystem::path& results,
+                                     const std::string& component);
+
 /// Call order: construction, wrap(), follow(), add_observer() before the run; end() behind it. The
 /// files hold all up to the last communication point that was reached, whatever ended the run.
 class Capture final : public core::Observer {
@@ -43,8 +48,10 @@ class Capture final : public core::Observer {
   /// At a communication point, of the captured units and their files, which a run that goes on was
   /// constructed to keep.
   void persist(core::StateArchive& state);
-  /// In a fork of the process, behind a flush() in that one: goes on in copies in this folder.
-  void continue_in_copies(const std::filesystem::path& folder);
+  /// core::OutputFile::go_on() for each.
+  void go_on();
+  /// In a fork of the process, behind a flush() in that one: goes on in copies with these results.
+  void continue_in_copies(const std::filesystem::path& results);
   /// Hands to the system what is committed.
   void flush();
   void on_finish() override { flush(); }

@@ -58,10 +58,8 @@ class StimuliFile {
   void commit(Time time);
   /// When all is committed: as core::OutputFile::persist(), for a file that is kept.
   void persist(core::StateArchive& state);
-  void continue_in_copy(const std::filesystem::path& file) { file_.continue_in_copy(file); }
-  const std::filesystem::path& path() const { return file_.path(); }
-  /// Hands all that is committed to the system.
-  void flush() { file_.flush(); }
+  /// Has what is committed.
+  core::OutputFile& file() { return file_; }
   /// Drops what waits, writes the end mark, at the time of the last commit, and closes the file.
   void close(std::string_view ending);
 

@@ -19,12 +19,14 @@
 namespace stride::checkpoint {
 namespace {
 
+namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 /// Of what this version of stride writes: to be raised where states change.
 constexpr int kFormat = 1;
 
 constexpr const char* kDescription = "checkpoint.json";
+constexpr const char* kDescriptionHash = "checkpoint.sha256";
 
 constexpr std::uintmax_t kMostState = std::uintmax_t{4} << 30;  // [byte]
 
@@ -55,7 +57,7 @@ Json description(const Checkpoint& checkpoint) {
 /// Names of components may be any, those in an archive may not.
 std::string entry_name(std::size_t index) { return fmt::format("states/{}", index); }
 
-void put_on_disk(const std::filesystem::path& path, int how) {
+void put_on_disk(const fs::path& path, int how) {
   const core::Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | how));
   if (file.number() < 0 || ::fsync(file.number()) == 0) return;
   core::fail_run(
@@ -64,26 +66,32 @@ void put_on_disk(const std::filesystem::path& path, int how) {
       "check the disk that it is on");
 }
 
-[[noreturn]] void fail(const std::filesystem::path& file, const std::string& what) {
+[[noreturn]] void fail(const fs::path& file, const std::string& what) {
   core::fail_input({.where = {file.string(), 0}}, what,
                    "name a checkpoint that 'stride run --checkpoint' has written");
 }
 
-Json read_description(const std::filesystem::path& file, const std::filesystem::path& folder) {
+Json read_description(const fs::path& file, const fs::path& folder) {
   if (!core::is_file(folder / kDescription)) {
     fail(file, fmt::format("this is no checkpoint: it has no {}", kDescription));
   }
-  const Json json = Json::parse(core::read_input(folder / kDescription));
+  const std::string text = core::read_input(folder / kDescription);
+  const Json json = Json::parse(text);
   const int format = json.at("stride checkpoint");
   if (format != kFormat) {
     fail(file, fmt::format("this checkpoint has the format {}, and this version of stride knows {}",
                            format, kFormat));
   }
+  const fs::path hash = folder / kDescriptionHash;
+  if (!core::is_file(hash) || core::read_input(hash) != core::sha256(text)) {
+    fail(file, fmt::format("the checkpoint is damaged, or was changed: its {} is not what was "
+                           "written",
+                           kDescription));
+  }
   return json;
 }
 
-Bytes read_state(const std::filesystem::path& file, const Json& state,
-                 const std::filesystem::path& path) {
+Bytes read_state(const fs::path& file, const Json& state, const fs::path& path) {
   const std::string text = core::is_file(path) ? core::read_input(path, "", kMostState) : "";
   if (core::sha256(text) != state.at("sha256").get<std::string>()) {
     fail(file, fmt::format("the checkpoint is damaged: the state of '{}' is not what was written",
@@ -93,7 +101,7 @@ Bytes read_state(const std::filesystem::path& file, const Json& state,
   return {bytes, bytes + text.size()};
 }
 
-Checkpoint read(const std::filesystem::path& file, const std::filesystem::path& folder) {
+Checkpoint read(const fs::path& file, const fs::path& folder) {
   const Json json = read_description(file, folder);
   Checkpoint checkpoint;
   checkpoint.provenance = recorders::provenance_of(json.at("provenance"));
@@ -115,6 +123,7 @@ Checkpoint read(const std::filesystem::path& file, const std::filesystem::path& 
 void write_checkpoint(const std::filesystem::path& file, const Checkpoint& checkpoint) {
   archive::Contents contents;
   contents[kDescription].text = description(checkpoint).dump(1) + "\n";
+  contents[kDescriptionHash].text = core::sha256(contents[kDescription].text);
   std::size_t index = 0;
   for (const auto& [name, bytes] : checkpoint.states) {
     contents[entry_name(index++)].text = text_of(bytes);

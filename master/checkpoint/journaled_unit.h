@@ -31,8 +31,8 @@ namespace stride::checkpoint {
 /// Notes what its unit is called with, from the first call on, and what persist() writes is:
 ///
 /// - of a unit that serialises its state: the calls of its initialization, up to where it enters
-///   Step Mode for the first time, its state, and the calls since it was serialised if it cannot be
-///   at the present instant;
+///   Step Mode for the first time, its state, hashes of the outputs that it shows then, and the
+///   calls since it was serialised if it cannot be at the present instant;
 /// - of another: all calls.
 ///
 /// Whether a unit serialises its state is tried once, at the end of its initialization. One that
@@ -70,9 +70,10 @@ class JournaledUnit final : public core::ForwardingUnit,
   JournaledUnit(std::unique_ptr<core::Unit> unit, const core::UnitDescription& description,
                 Options options);
 
-  /// At a communication point, in Step Mode. Writing: the unit goes on as if nothing had been, also
-  /// where this throws. Reading: of a unit of the same FMU, for which nothing was called yet but
-  /// set_input_update(), makes what the other was; after a failure it can only be destroyed.
+  /// At a communication point, in Step Mode. Writing: the unit goes on as if nothing had been but
+  /// that outputs were read, also where this throws. Reading: of a unit of the same FMU, for which
+  /// nothing was called yet but set_input_update(), makes what the other was; after a failure it
+  /// can only be destroyed.
   ///
   /// Throws core::BadState for damaged bytes, before anything is called, and core::Error (Run) with
   /// the unit and the simulated time where the unit fails, or does not repeat what it did.
@@ -124,6 +125,7 @@ class JournaledUnit final : public core::ForwardingUnit,
   struct SerializedState {
     Journal::Mark mark;
     std::vector<std::uint8_t> bytes;
+    std::vector<std::uint64_t> outputs{};  ///< as shown_outputs()
   };
 
   void update_inputs(double seconds_into_step);
@@ -133,7 +135,7 @@ class JournaledUnit final : public core::ForwardingUnit,
 
   template <class Action>
   auto in_own_slot(Action&& action);
-  std::vector<std::uint8_t> serialize();
+  SerializedState serialize();
   void try_serialization();
   void add_state();
   void drop_needless_states();
@@ -145,6 +147,7 @@ class JournaledUnit final : public core::ForwardingUnit,
   void rebuild();
   void replay(Journal& journal, const Journal::Context& from);
   void restore_serialized();
+  void require_outputs(const SerializedState& serialized);
   void note_kept(std::size_t bytes);
   core::Context context() const;
 

@@ -8,6 +8,7 @@
 
 #include "master/checkpoint/journaled_unit.h"
 #include "master/checkpoint/replay.h"
+#include "master/checkpoint/shown_outputs.h"
 
 namespace stride::checkpoint {
 namespace {
@@ -58,19 +59,21 @@ auto JournaledUnit::in_own_slot(Action&& action) {
   }
 }
 
-std::vector<std::uint8_t> JournaledUnit::serialize() {
-  return in_own_slot([&] {
+JournaledUnit::SerializedState JournaledUnit::serialize() {
+  std::vector<std::uint8_t> bytes = in_own_slot([&] {
     state_->save_state();
     return serialization_->serialize_state();
   });
+  return {journal_.mark(), std::move(bytes), shown_outputs(inner(), description_)};
 }
 
 void JournaledUnit::try_serialization() {
   try {
-    std::vector<std::uint8_t> bytes = serialize();
-    in_own_slot([&] { return serialization_->deserialize_state(bytes), true; });
+    SerializedState state = serialize();
+    in_own_slot([&] { return serialization_->deserialize_state(state.bytes), true; });
     initialization_ = std::exchange(journal_, Journal(journal_.context()));
-    states_.push_back({journal_.mark(), std::move(bytes)});
+    state.mark = journal_.mark();
+    states_.push_back(std::move(state));
   } catch (const std::exception& failure) {
     if (!options_.warn) return;
     options_.warn(
@@ -84,8 +87,7 @@ void JournaledUnit::try_serialization() {
 /// Where it fails, the earlier ones do.
 void JournaledUnit::add_state() {
   try {
-    std::vector<std::uint8_t> bytes = serialize();
-    states_.push_back({journal_.mark(), std::move(bytes)});
+    states_.push_back(serialize());
   } catch (const core::Error&) {
     return;
   }
@@ -134,6 +136,7 @@ void JournaledUnit::persist_serialized(core::StateArchive& state) {
   if (state.is_reading()) states_.resize(1);
   Journal::persist(state, states_.back().mark.context);
   state.values(states_.back().bytes);
+  state.values(states_.back().outputs);
 }
 
 void JournaledUnit::note_kept(std::size_t bytes) {
@@ -201,6 +204,20 @@ void JournaledUnit::restore_serialized() {
     throw core::Error(error.kind(), at,
                       "its state, as it was serialised, failed: " + error.message(), error.hint());
   }
+  require_outputs(serialized);
+}
+
+void JournaledUnit::require_outputs(const SerializedState& serialized) {
+  const core::Variable* const different =
+      first_difference(inner(), description_, serialized.outputs);
+  if (different == nullptr) return;
+  core::Context at = options_.context;
+  at.time = serialized.mark.context.time;
+  at.variable = different->name;
+  core::fail_run(at,
+                 "its state was restored, and this output is not what it was when the state was "
+                 "serialised: the state is not complete, or was not restored",
+                 "'stride verify --check serialization' shows it without a run");
 }
 
 }  // namespace stride::checkpoint

@@ -10,10 +10,13 @@
 
 #include "master/checkpoint/checkpoint_file.h"
 #include "master/cli/crash_guard.h"
+#include "master/cli/output.h"
 #include "master/recorders/results_folder.h"
+#include "master/recorders/run_json.h"
 #include "master/recorders/unit_folders.h"
 #include "master/scenario/branches.h"
 #include "master/util/error.h"
+#include "master/util/input_file.h"
 #include "master/util/time_text.h"
 
 namespace stride::cli {
@@ -53,9 +56,12 @@ std::vector<Branch> read_branches(const RunArguments& arguments,
 }
 
 void BranchRuns::connect(Branches& branches) {
-  branches.set_work({.prepare = [this](Time now) { return prepare(now); },
-                     .rest = [this](const Branch& branch) { make_rest(branch); },
-                     .conclude = [this] { conclude(); }});
+  branches.set_work(
+      {.prepare = [this](Time now) { return prepare(now); },
+       .rest = [this](const Branch& branch) { make_rest(branch); },
+       .explain = [this](const Branch& branch,
+                         const std::string& reason) { return explain(branch, reason); },
+       .conclude = [this] { conclude(); }});
 }
 
 /// A unit's file that is open, or whose path it knows, would be that of all branches.
@@ -93,6 +99,19 @@ void BranchRuns::make_rest(const Branch& branch) {
   const recorders::ResultsLock lock(setup_.results.folder);
   recorders::remove_results(setup_.results.folder, setup_.loaded.scenario().annotation.results);
   setup_.recorded.run_rest(branch.interventions);
+}
+
+/// Its run.json has the error of a crash, and gets the reason where nothing could write it.
+std::string BranchRuns::explain(const Branch& branch, const std::string& reason) const {
+  const ResultsTarget results{folder(branch), setup_.results.files};
+  const fs::path run_file = results.folder / results.files.statistics;
+  if (results.files.statistics.empty() || !core::is_file(run_file)) return reason;
+  std::string explained = reason;
+  warn_of_failure([&] {
+    explained = recorders::error_in(run_file).value_or(reason);
+    add_error(results, reason);
+  });
+  return explained;
 }
 
 void BranchRuns::resume(const Branch& branch) const {

@@ -42,6 +42,7 @@ class BranchRuns {
  private:
   bool prepare(Time now);
   void make_rest(const Branch& branch);
+  std::string explain(const Branch& branch, const std::string& reason) const;
   void conclude() const;
   bool can_fork() const;
   std::filesystem::path folder(const Branch& branch) const;

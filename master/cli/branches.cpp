@@ -35,11 +35,12 @@ BranchRequest parse_branch(const std::string& text) {
 
 std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
 
-/// What a process prints ends with its error.
-std::string last_error(const std::string& printed) {
+/// What a process prints ends with its error, if it has one to tell.
+std::optional<std::string> last_error(const std::string& printed) {
   constexpr std::string_view kMark = "stride: error: ";
   const std::size_t mark = printed.rfind(kMark);
-  std::string text = mark == std::string::npos ? printed : printed.substr(mark + kMark.size());
+  if (mark == std::string::npos) return std::nullopt;
+  std::string text = printed.substr(mark + kMark.size());
   while (!text.empty() && text.back() == '\n') text.pop_back();
   return text;
 }
@@ -115,10 +116,14 @@ void Branches::note_end(std::size_t branch, const isolation::ChildOutcome& outco
     case End::Exited:
       if (outcome.code == 0 && are_programs_) break;
       failure = last_error(outcome.printed);
-      if (outcome.code == 0) failure = "something in it has ended its process, with code 0";
+      if (failure) break;
+      failure = work_.explain(
+          branches_[branch],
+          fmt::format("something in it has ended its process, with code {}", outcome.code));
       break;
     case End::Killed:
-      failure = fmt::format("its process was killed by {}", isolation::signal_name(outcome.code));
+      failure = work_.explain(branches_[branch], fmt::format("its process was killed by {}",
+                                                             isolation::signal_name(outcome.code)));
   }
 }
 

@@ -60,6 +60,8 @@ class Branches final : public core::RunControl {
     /// their own, whose good end is an exit with code 0.
     std::function<bool(Time now)> prepare;
     Rest rest;
+    /// Why a branch has failed that could not say it itself. `reason`: what became of its process.
+    std::function<std::string(const Branch& branch, const std::string& reason)> explain;
     std::function<void()> conclude;  ///< likewise, when the last one has ended
   };
 

@@ -16,11 +16,19 @@ namespace stride::cli {
 
 recorders::Provenance provenance_of(const scenario::LoadedScenario& loaded) {
   recorders::Provenance made{STRIDE_VERSION, {command_line()}, {}};
-  for (const KeptPath& input : inputs_of(loaded)) {
-    if (!core::path_exists(input.path)) continue;  // a unit in a package, which is there itself
-    recorders::Source source = recorders::make_source(input.what, input.path);
+  const auto add = [&](const std::string& what, const std::filesystem::path& path) {
+    recorders::Source source = recorders::make_source(what, path);
     if (std::ranges::find(made.sources, source) == made.sources.end()) {
       made.sources.push_back(std::move(source));
+    }
+  };
+  for (const KeptPath& input : inputs_of(loaded)) {
+    if (core::path_exists(input.path)) add(input.what, input.path);  // else a unit in a package
+  }
+  for (const auto& fmu : loaded.fmus()) {
+    const bool is_library = fmu->path().extension() == ".so";
+    if (is_library && core::is_folder(fmu->resources())) {
+      add("the resources of " + fmu->path().filename().string(), fmu->resources());
     }
   }
   return made;

@@ -138,56 +138,56 @@ Recorders::Recorders(const core::System& system, const ResultsTarget& results) {
 }
 
 Recorders::Recorders(const core::System& system, const ResultsTarget& results,
-                     const Resumption& resumption)
-    : has_other_signals_(resumption.has_other_signals) {
+                     const Resumption& resumption) {
   using Existing = core::OutputFile::Existing;
   const auto& [folder, files] = results;
-  const Existing signals = has_other_signals_ ? Existing::Emptied : Existing::Kept;
+  const Existing signals = resumption.has_other_signals ? Existing::Emptied : Existing::Kept;
   if (!files.signals.empty()) signals_.emplace(system, folder / files.signals, signals);
   if (!files.events.empty()) events_.emplace(system, folder / files.events, Existing::Kept);
   if (!files.trace.empty()) trace_.emplace(system, folder / files.trace, signals);
   if (!files.activity.empty()) activity_.emplace(system, folder / files.activity, Existing::Kept);
 }
 
-void Recorders::add_to(checkpoint::Checkpoint& checkpoint) {
-  if (signals_) add_state(checkpoint, "signals", *signals_);
-  if (events_) add_state(checkpoint, "events", *events_);
-  if (trace_) add_state(checkpoint, "trace", *trace_);
-  if (activity_) add_state(checkpoint, "activity", *activity_);
-}
-
-void Recorders::restore(const checkpoint::Checkpoint& checkpoint) {
-  if (signals_ && !has_other_signals_) restore_state(checkpoint, "signals", *signals_);
-  if (events_) restore_state(checkpoint, "events", *events_);
-  if (trace_ && !has_other_signals_) restore_state(checkpoint, "trace", *trace_);
-  if (activity_) restore_state(checkpoint, "activity", *activity_);
-}
-
-void Recorders::flush() {
-  if (signals_) signals_->flush();
-  if (events_) events_->flush();
-  if (trace_) trace_->flush();
-  if (activity_) activity_->flush();
-}
-
-void Recorders::continue_in_copies(const ResultsTarget& results) {
-  const auto& [folder, files] = results;
-  if (signals_) signals_->continue_in_copy(folder / files.signals);
-  if (events_) events_->continue_in_copy(folder / files.events);
-  if (trace_) trace_->continue_in_copy(folder / files.trace);
-  if (activity_) activity_->continue_in_copy(folder / files.activity);
+template <class Visit>
+void Recorders::visit(Visit&& visit) {
+  if (signals_) visit("signals", *signals_, &recorders::ResultFiles::signals);
+  if (events_) visit("events", *events_, &recorders::ResultFiles::events);
+  if (trace_) visit("trace", *trace_, &recorders::ResultFiles::trace);
+  if (activity_) visit("activity", *activity_, &recorders::ResultFiles::activity);
 }
 
 void Recorders::add_to(core::Simulation& simulation) {
-  if (signals_) simulation.add_observer(*signals_);
-  if (events_) simulation.add_observer(*events_);
-  if (trace_) simulation.add_observer(*trace_);
-  if (activity_) simulation.add_observer(*activity_);
+  visit([&](const char*, auto& recorder, auto) { simulation.add_observer(recorder); });
+}
+
+void Recorders::add_to(checkpoint::Checkpoint& checkpoint) {
+  visit([&](const char* name, auto& recorder, auto) { add_state(checkpoint, name, recorder); });
+}
+
+void Recorders::restore(const checkpoint::Checkpoint& checkpoint) {
+  visit([&](const char* name, auto& recorder, auto) {
+    if (recorder.file().is_untouched()) restore_state(checkpoint, name, recorder);
+  });
+}
+
+void Recorders::go_on() {
+  visit([](const char*, auto& recorder, auto) { recorder.file().go_on(); });
+}
+
+void Recorders::flush() {
+  visit([](const char*, auto& recorder, auto) { recorder.file().flush(); });
+}
+
+void Recorders::continue_in_copies(const ResultsTarget& results) {
+  visit([&](const char*, auto& recorder, auto file) {
+    recorder.file().continue_in_copy(results.folder / results.files.*file);
+  });
 }
 
 RecordedRun::RecordedRun(const RunSetup& setup, std::vector<std::unique_ptr<core::Unit>> units)
     : setup_(setup),
       simulation_(setup_.loaded.system(), std::move(units), setup_.options),
+      has_begun_(!setup_.is_resumed),
       checks_(setup_.loaded.checks()),
       summary_(setup_.loaded.system(), setup_.loaded.options().recorded),
       progress_(setup_.display.progress, setup_.options.start, setup_.options.stop, simulation_) {
@@ -197,7 +197,7 @@ RecordedRun::RecordedRun(const RunSetup& setup, std::vector<std::unique_ptr<core
   if (!setup_.capture.is_empty()) simulation_.add_observer(setup_.capture);
   if (!setup_.display.quiet) simulation_.add_observer(summary_, summary_.signals());
   if (setup_.display.progress != ProgressStyle::None) simulation_.add_observer(progress_);
-  if (!setup_.is_resumed) announce();
+  if (has_begun_) announce();
 }
 
 /// So that a run which ends without a word is not taken for none, or for a good one.
@@ -233,12 +233,18 @@ void RecordedRun::resume(const Resumption& resumption) {
 /// What the observers have seen.
 void RecordedRun::restore(const Resumption& resumption) {
   const checkpoint::Checkpoint& from = resumption.from;
+  if (simulation_.statistics().reached != from.time) {
+    throw core::BadState("its state is of another time than it says");
+  }
   if (!checks_.is_empty()) restore_state(from, "checks", checks_);
   if (from.states.contains("summary") && !setup_.display.quiet) {
     restore_state(from, "summary", summary_);
   }
   if (!setup_.capture.is_empty()) restore_state(from, "captures", setup_.capture);
   setup_.recorders.restore(from);
+  setup_.recorders.go_on();
+  setup_.capture.go_on();
+  has_begun_ = true;
   announce();
 }
 
@@ -271,8 +277,6 @@ void RecordedRun::execute(Go&& go) {
     setup_.capture.end(name(simulation_.statistics().end));
   } catch (const core::TakenFileError&) {
     throw;  // the files of the end might be taken, too
-  } catch (const core::BadState&) {
-    throw;  // nothing was run, and the results are still those of before
   } catch (const std::exception& failure) {
     restore_process();
     conclude_failure(failure.what());
@@ -313,6 +317,7 @@ void RecordedRun::restore_process() const {
 /// The failure of the run is the error to report, so later failures are warnings.
 void RecordedRun::conclude_failure(const std::string& error) {
   failure_ = error;
+  if (!has_begun_) return;
   progress_.end("failed");
   warn_of_failure([&] { setup_.capture.end(fmt::format("failed: {}", error)); });
   collect_verdicts(false);

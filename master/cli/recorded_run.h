@@ -56,17 +56,22 @@ class Recorders {
 
   void add_to(core::Simulation& simulation);
   void add_to(checkpoint::Checkpoint& checkpoint);
+  /// Compares the files that were left, and goes on in them.
   void restore(const checkpoint::Checkpoint& checkpoint);
+  void go_on();
   /// Before a fork, and in it.
   void flush();
   void continue_in_copies(const ResultsTarget& results);
 
  private:
+  /// Calls `visit` with the name, the recorder and the member of ResultFiles of each that there is.
+  template <class Visit>
+  void visit(Visit&& visit);
+
   std::optional<recorders::CsvRecorder> signals_;
   std::optional<recorders::EventRecorder> events_;
   std::optional<recorders::VcdRecorder> trace_;
   std::optional<recorders::ActivityRecorder> activity_;
-  bool has_other_signals_ = false;
 };
 
 /// What a run is made from, and must outlive it.
@@ -143,6 +148,7 @@ class RecordedRun {
   const RunSetup setup_;
   core::Simulation simulation_;
   bool has_test_report_ = true;
+  bool has_begun_;  ///< or, before that: the results are still those of the run that is resumed
   checks::Checks checks_;
   std::vector<core::Verdict> verdicts_;
   std::optional<std::string> failure_{};

@@ -11,6 +11,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "master/capture/capture.h"
 #include "master/checkpoint/checkpoint_file.h"
 #include "master/cli/checkpoints.h"
 #include "master/cli/command_line.h"
@@ -19,6 +20,7 @@
 #include "master/cli/run_arguments.h"
 #include "master/cli/scenario_options.h"
 #include "master/cli/scenario_run.h"
+#include "master/recorders/results_folder.h"
 #include "master/scenario/unit_path.h"
 #include "master/util/error.h"
 #include "master/util/input_file.h"
@@ -48,6 +50,14 @@ fs::path results_of(const Resumption& resumption) {
   const fs::path folder = resumption.file.parent_path();
   if (folder.filename() == kCheckpointsFolder) return folder.parent_path();
   return resumption.from.results;
+}
+
+/// Where the checkpoints are, which a run that begins there would remove.
+void refuse_checkpoints_folder(const fs::path& out, const Resumption& resumption) {
+  const fs::path folder = recorders::resolved(resumption.file.parent_path());
+  if (recorders::resolved(out) != folder || folder.filename() != kCheckpointsFolder) return;
+  core::fail_input({}, fmt::format("--out {}: this is the folder of the checkpoints", out.string()),
+                   "name another folder");
 }
 
 /// Its files are named relative to it.
@@ -86,7 +96,7 @@ void go_elsewhere(RunArguments& arguments, Resumption& resumption, const fs::pat
   for (std::string& text : arguments.captures) {
     const auto parts = scenario::split_component_file(text);
     if (!parts) continue;
-    const fs::path copy = folder / fs::path(parts->file).filename();
+    const fs::path copy = capture::copied_stimuli(folder, parts->component);
     resumption.copies.emplace_back(parts->file, copy);
     text = fmt::format("{}={}", parts->component, copy.string());
   }
@@ -149,6 +159,7 @@ void parse_again(const recorders::Command& command, const fs::path& checkpoint, 
     add(*subcommand);
   }
   app.add_flag("--verbose");
+  app.require_subcommand(1);
   std::vector<std::string> words = with_repeated_options(command.words);
   std::ranges::reverse(words);  // as CLI11 takes them
   try {
@@ -199,6 +210,7 @@ void resume(ResumeArguments given) {
   RunArguments arguments = arguments_of(*resumption);
   change(arguments, *resumption, changes);
   arguments.out = changes.out.empty() ? resumption->results : changes.out;
+  refuse_checkpoints_folder(arguments.out, *resumption);
   if (resumption->has_other_signals && changes.out.empty()) {
     core::fail_input({}, "--signals: the file of the signals has others, up to the checkpoint",
                      "name another folder for results that begin at the checkpoint: --out FOLDER");

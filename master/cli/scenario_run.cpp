@@ -163,7 +163,10 @@ class ResultsOfRun {
     }
     if (!resumed) return;
     if (!goes_on) recorders::copy_results(resumed->results, target_.folder, target_.files);
-    for (const auto& [from, to] : resumed->copies) core::copy_input(from, to);
+    for (const auto& [from, to] : resumed->copies) {
+      std::filesystem::create_directories(to.parent_path());
+      core::copy_input(from, to);
+    }
   }
 
   ResultsTarget& target() { return target_; }

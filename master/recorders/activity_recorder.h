@@ -24,9 +24,7 @@ class ActivityRecorder : public core::Observer {
 
   /// At a communication point, behind on_start(): as core::OutputFile::persist().
   void persist(core::StateArchive& state);
-  /// core::OutputFile::flush() and continue_in_copy().
-  void flush() { file_.flush(); }
-  void continue_in_copy(const std::filesystem::path& file) { file_.continue_in_copy(file); }
+  core::OutputFile& file() { return file_; }
 
   void on_start(std::span<const core::Signal> signals) override;
   bool watches_activities() const override { return true; }

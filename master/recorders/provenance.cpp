@@ -1,13 +1,11 @@
 #include "master/recorders/provenance.h"
 
 #include <algorithm>
-#include <system_error>
 #include <utility>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "master/util/error.h"
 #include "master/util/input_file.h"
 #include "master/util/sha256.h"
 
@@ -15,26 +13,6 @@ namespace stride::recorders {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string sha256_of_folder(const fs::path& folder) {
-  std::vector<fs::path> files;
-  std::error_code error;
-  fs::recursive_directory_iterator entry(folder, error);
-  for (; !error && entry != fs::recursive_directory_iterator(); entry.increment(error)) {
-    if (core::is_file(entry->path())) files.push_back(entry->path());
-  }
-  if (error) {
-    core::fail_input({.where = {folder.string(), 0}},
-                     fmt::format("cannot list the folder: {}", error.message()));
-  }
-  std::ranges::sort(files);
-  core::Sha256 digest;
-  for (const fs::path& file : files) {
-    const std::string name = file.lexically_relative(folder).generic_string();
-    digest.add(fmt::format("{} {}\n", core::sha256_of_file(file), name));
-  }
-  return core::to_hex(digest.digest());
-}
 
 const Source* find(const Provenance& provenance, const std::string& what, const fs::path& name) {
   const auto found = std::ranges::find_if(provenance.sources, [&](const Source& source) {
@@ -47,7 +25,7 @@ const Source* find(const Provenance& provenance, const std::string& what, const 
 
 Source make_source(std::string what, const fs::path& path) {
   return {std::move(what), fs::absolute(path),
-          core::is_folder(path) ? sha256_of_folder(path) : core::sha256_of_file(path)};
+          core::is_folder(path) ? core::sha256_of_folder(path) : core::sha256_of_file(path)};
 }
 
 std::vector<std::string> differences(const Provenance& before, const Provenance& now) {

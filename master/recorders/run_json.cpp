@@ -265,6 +265,12 @@ void write_run_json(const std::filesystem::path& file, const RunRecord& record) 
 
 bool is_running(const std::filesystem::path& file) { return read(file)["outcome"] == kRunning; }
 
+std::optional<std::string> error_in(const std::filesystem::path& file) {
+  const Json run = read(file);
+  if (!run.contains("error") || !run["error"].is_string()) return std::nullopt;
+  return run["error"].get<std::string>();
+}
+
 bool add_error(const std::filesystem::path& file, const std::string& error,
                std::optional<Time> reached) {
   Json run = read(file);

@@ -35,6 +35,9 @@ void write_run_json(const std::filesystem::path& file, const RunRecord& record);
 /// Whether the run is not over. Throws as add_error() does.
 bool is_running(const std::filesystem::path& file);
 
+/// Why the run has failed; nothing if it has not, or is not over. Throws likewise.
+std::optional<std::string> error_in(const std::filesystem::path& file);
+
 /// Makes the run.json of a run one that has failed, for what has failed after it was written. A run
 /// that was not over has reached this time. Returns false if it has an error already, which stays.
 /// Throws core::Error (Run) if that cannot be read or written.

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 #include <sys/stat.h>
 #include <unistd.h>
+#include <zlib.h>
 
 #include "master/util/descriptor.h"
 #include "master/util/error.h"
@@ -48,9 +49,6 @@ constexpr const char* kTakenHint =
 
 constexpr const char* kKeepHint =
     "results can be continued only as they were left; let the whole run be made again";
-
-/// Enough to tell the file from another one.
-constexpr std::int64_t kLastBytes = 256;
 
 /// Opens it without waiting for the reader of a pipe; writing waits as usual.
 int open_without_waiting(const std::filesystem::path& path, int how) {
@@ -95,8 +93,8 @@ void OutputFile::open(Existing existing) {
     identity_ = FileIdentity::of(descriptor_);
     std::error_code ignored;  // then it cannot be opened again
     if (is_regular(descriptor_)) absolute_path_ = std::filesystem::absolute(path_, ignored);
-    rest_->identity = identity_.value_or(FileIdentity{});
-    rest_->path.set(absolute_path_.native());
+    is_untouched_ = existing == Existing::Kept;
+    if (!is_untouched_) let_rescue();
     return;
   }
   const int error = errno;
@@ -115,6 +113,12 @@ void OutputFile::open(Existing existing) {
       fmt::format("cannot create the file: {}", std::generic_category().message(error));
   if (is_shortage(error)) fail_run(where, message, hint_for_shortage(error));
   fail_input(where, message, hints_.create);
+}
+
+/// By another process, when this one has ended.
+void OutputFile::let_rescue() {
+  rest_->identity = identity_.value_or(FileIdentity{});
+  rest_->path.set(absolute_path_.native());
 }
 
 OutputFile::~OutputFile() {
@@ -171,7 +175,7 @@ void OutputFile::rescue_left() {
 
 /// In the middle of flush(), too.
 void OutputFile::rescue() noexcept {
-  if (descriptor_ < 0 || has_failed_) return;
+  if (descriptor_ < 0 || has_failed_ || is_untouched_) return;
   std::optional<std::int64_t> end;
   for (int tries = kMostTries; tries > 0 && !end && get_back(); --tries) {
     end = absolute_path_.empty() ? rescue_into_pipe() : rest_->write_to(descriptor_);
@@ -195,6 +199,10 @@ std::optional<std::int64_t> OutputFile::rescue_into_pipe() noexcept {
 }
 
 void OutputFile::flush() {
+  if (is_untouched_) {
+    rest_->size = 0;
+    return;
+  }
   bool was_taken = rest_->size > 0 && !has_failed_ && !is_own();
   bool is_back = !was_taken || get_back();
   if (!has_failed_ && is_own()) check_size();
@@ -277,47 +285,54 @@ void OutputFile::persist(StateArchive& state) {
   if (!state.is_reading()) {
     flush();
     if (!absolute_path_.empty() && ::fdatasync(descriptor_) != 0) fail(errno);
+    extend_checksum(taken_);
   }
-  std::int64_t place = taken_;
-  state.value(place);
-  std::string last = state.is_reading() ? "" : last_bytes(place);
-  state.value(last);
+  std::int64_t size = taken_;
+  std::uint32_t checksum = checksum_;
+  state.value(size);
+  state.value(checksum);
   if (!state.is_reading()) return;
-  if (place < 0) state.fail("the place in a file is negative");
-  continue_at(place, last);
+  if (size < 0) state.fail("the place in a file is negative");
+  compare(size, checksum);
 }
 
-void OutputFile::continue_at(std::int64_t place, const std::string& last) {
+void OutputFile::compare(std::int64_t size, std::uint32_t checksum) {
   const Context where{.where = {path_.string(), 0}};
   if (absolute_path_.empty()) {
     fail_input(where, "this is no regular file, so nothing can be written on in it", kKeepHint);
   }
   struct stat status {};
   if (::fstat(descriptor_, &status) != 0) fail(errno);
-  if (status.st_size < place) {
+  if (status.st_size < size) {
     fail_input(where,
                fmt::format("the file has {} bytes, and {} of the run had been written",
-                           status.st_size, place),
+                           status.st_size, size),
                kKeepHint);
   }
-  if (last_bytes(place) != last) {
+  extend_checksum(size);
+  if (checksum_ != checksum) {
     fail_input(where, "the file is not the one that the run had written", kKeepHint);
   }
-  if (::ftruncate(descriptor_, place) != 0) fail(errno);
-  rest_->size = 0;
-  taken_ = rest_->place = rest_->line_end = place;
+  taken_ = size;
 }
 
-/// Before this place; nothing of what cannot be read again.
-std::string OutputFile::last_bytes(std::int64_t place) const {
-  if (absolute_path_.empty()) return "";
-  const int file = ::open(absolute_path_.c_str(), O_RDONLY | O_CLOEXEC);
-  std::string bytes(static_cast<std::size_t>(std::min(place, kLastBytes)), '\0');
-  const auto size = static_cast<std::int64_t>(bytes.size());
-  const ssize_t count = file < 0 ? 0 : ::pread(file, bytes.data(), bytes.size(), place - size);
-  if (file >= 0) ::close(file);
-  bytes.resize(static_cast<std::size_t>(std::max<ssize_t>(count, 0)));
-  return bytes;
+/// To the first bytes of the file; of a pipe nothing can be read again.
+void OutputFile::extend_checksum(std::int64_t size) {
+  if (absolute_path_.empty()) return;
+  read_back(absolute_path_, summed_, size, [&](std::string_view piece) {
+    const auto* const bytes = reinterpret_cast<const Bytef*>(piece.data());
+    checksum_ = static_cast<std::uint32_t>(::crc32_z(checksum_, bytes, piece.size()));
+  });
+  summed_ = size;
+}
+
+void OutputFile::go_on() {
+  if (!is_untouched_) return;
+  if (::ftruncate(descriptor_, taken_) != 0) fail(errno);
+  is_untouched_ = false;
+  rest_->size = 0;
+  rest_->place = rest_->line_end = taken_;
+  let_rescue();
 }
 
 void OutputFile::continue_in_copy(std::filesystem::path path) {
@@ -328,33 +343,35 @@ void OutputFile::continue_in_copy(std::filesystem::path path) {
   rest_->size = 0;  // what is there may be that of the other process
   rest_->place = rest_->line_end = 0;
   open(Existing::Emptied);
-  copy_from(original, size);
+  read_back(original, 0, size, [&](std::string_view piece) { write(piece); });
+  flush();
 }
 
-/// The other process may write on behind it.
-void OutputFile::copy_from(const std::filesystem::path& original, std::int64_t size) {
-  const Descriptor file(::open(original.c_str(), O_RDONLY | O_CLOEXEC));
+/// The other process, or this one, may write on behind it.
+template <class Take>
+void OutputFile::read_back(const std::filesystem::path& from, std::int64_t begin, std::int64_t end,
+                           Take&& take) {
+  const Descriptor file(::open(from.c_str(), O_RDONLY | O_CLOEXEC));
   std::string piece(UnwrittenRest::kCapacity, '\0');
-  while (size > 0) {
+  while (begin < end) {
     const auto most =
-        static_cast<std::size_t>(std::min<std::int64_t>(size, UnwrittenRest::kCapacity));
-    const ssize_t count = ::read(file.number(), piece.data(), most);
+        static_cast<std::size_t>(std::min<std::int64_t>(end - begin, UnwrittenRest::kCapacity));
+    const ssize_t count = ::pread(file.number(), piece.data(), most, begin);
     if (count < 0 && errno == EINTR) continue;
     if (count <= 0) {
-      fail_run({.where = {original.string(), 0}},
-               "the file was cut off, or removed, while it was copied", kTakenHint);
+      fail_run({.where = {from.string(), 0}},
+               "the file was cut off, or removed, while it was written", kTakenHint);
     }
-    write(std::string_view(piece).substr(0, static_cast<std::size_t>(count)));
-    size -= count;
+    take(std::string_view(piece).substr(0, static_cast<std::size_t>(count)));
+    begin += count;
   }
-  flush();
 }
 
 void OutputFile::close() {
   if (descriptor_ < 0) return;
   flush();
   if (!has_failed_ && !is_own()) fail_taken(get_back());
-  if (!has_failed_) check_path();
+  if (!has_failed_ && !is_untouched_) check_path();
   rest_->path.set("");
   const int result = ::close(std::exchange(descriptor_, -1));
   if (result == 0 || has_failed_) return;
@@ -365,7 +382,7 @@ void OutputFile::close() {
 void OutputFile::fail(int error) {
   has_failed_ = true;
   // fails for what is no regular file, where there is nothing to cut
-  if (descriptor_ >= 0 && is_own() && taken_ > rest_->line_end)
+  if (descriptor_ >= 0 && !is_untouched_ && is_own() && taken_ > rest_->line_end)
     (void)!::ftruncate(descriptor_, rest_->line_end);
   fail_run({.where = {path_.string(), 0}, .time = time_},
            fmt::format("cannot write the file: {}", std::generic_category().message(error)),

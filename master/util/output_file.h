@@ -47,7 +47,7 @@ class OutputFile {
   };
 
   /// What becomes of a file of this name: a refused one, or a link, is an error; a kept one has to
-  /// be there, and is written on where persist() says.
+  /// be there, and stays as it is until go_on(): what is written before that is dropped.
   enum class Existing { Emptied, Refused, Kept };
 
   /// Creates the file or empties it. Throws Error (Input) if that is not possible, and Error (Run)
@@ -85,11 +85,16 @@ class OutputFile {
 
   /// Hands everything to the system.
   void flush();
-  /// Writing: flushes the file to the disk, and notes how far it goes. Reading: cuts the file,
-  /// which was kept, behind that, and goes on there; what was written since it was opened is
-  /// dropped. Throws Error (Run), Error (Input) for a file that does not go so far or has other
-  /// bytes there, and for a pipe, and BadState.
+  /// Writing: flushes the file to the disk, and notes how far it goes and a checksum up to there.
+  /// Reading: compares the file, which was kept, with that, and changes nothing. Throws Error
+  /// (Run), Error (Input) for a file that does not go so far or has other bytes before that, and
+  /// for a pipe, and BadState.
   void persist(StateArchive& state);
+  /// Where persist() has read: cuts the file behind that, to write on there. Does nothing for one
+  /// that was not kept. Throws Error (Run).
+  void go_on();
+  /// A kept one, before go_on().
+  bool is_untouched() const { return is_untouched_; }
   /// Flushes and closes. Does nothing if it was closed, or failed, before.
   void close();
 
@@ -121,13 +126,16 @@ class OutputFile {
   long write_piece(const char* bytes, std::size_t size) const noexcept;
   void check_size();
   void check_path();
-  void continue_at(std::int64_t place, const std::string& last);
-  std::string last_bytes(std::int64_t place) const;
+  void compare(std::int64_t size, std::uint32_t checksum);
+  void extend_checksum(std::int64_t size);
   [[noreturn]] void fail(int error);
   [[noreturn]] void fail_taken(bool is_back);
 
   void open(Existing existing);
-  void copy_from(const std::filesystem::path& original, std::int64_t size);
+  void let_rescue();
+  template <class Take>
+  void read_back(const std::filesystem::path& from, std::int64_t begin, std::int64_t end,
+                 Take&& take);
 
   std::filesystem::path path_;
   std::filesystem::path absolute_path_;  ///< of a regular file
@@ -137,6 +145,9 @@ class OutputFile {
   Outliving<UnwrittenRest> rest_;
   std::int64_t taken_ = 0;  ///< bytes that the system has taken
   int descriptor_ = -1;
+  std::uint32_t checksum_ = 0;  ///< CRC-32 of the first bytes,
+  std::int64_t summed_ = 0;     ///< so many of them
+  bool is_untouched_ = false;   ///< a kept file before go_on()
   bool has_failed_ = false;
   volatile bool is_flushing_ = false;  ///< for a signal handler
   Listed<OutputFile> listed_{*this};

@@ -1,5 +1,6 @@
 #include "master/util/sha256.h"
 
+#include <algorithm>
 #include <span>
 #include <system_error>
 #include <tuple>
@@ -57,6 +58,27 @@ std::string sha256_of_file(const std::filesystem::path& file) {
   } catch (const std::system_error& error) {
     fail_input({.where = {file.string(), 0}},
                fmt::format("cannot read the file: {}", error.code().message()));
+  }
+  return to_hex(hash.digest());
+}
+
+std::string sha256_of_folder(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> files;
+  std::error_code error;
+  std::filesystem::recursive_directory_iterator entry(folder, error);
+  for (; !error && entry != std::filesystem::recursive_directory_iterator();
+       entry.increment(error)) {
+    if (is_file(entry->path())) files.push_back(entry->path());
+  }
+  if (error) {
+    fail_input({.where = {folder.string(), 0}},
+               fmt::format("cannot list the folder: {}", error.message()));
+  }
+  std::ranges::sort(files);
+  Sha256 hash;
+  for (const std::filesystem::path& file : files) {
+    const std::string name = file.lexically_relative(folder).generic_string();
+    hash.add(fmt::format("{} {} {}\n", sha256_of_file(file), name.size(), name));
   }
   return to_hex(hash.digest());
 }

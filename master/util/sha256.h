@@ -37,6 +37,8 @@ std::string sha256(std::string_view bytes);
 /// Likewise of the content of a regular file of any length. Throws Error (Input) as open_input()
 /// does, and for one that cannot be read.
 std::string sha256_of_file(const std::filesystem::path& file);
+/// Likewise of the names and contents of all files in a folder and those in it.
+std::string sha256_of_folder(const std::filesystem::path& folder);
 
 }  // namespace stride::core
 

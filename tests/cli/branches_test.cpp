@@ -98,8 +98,8 @@ TEST_CASE("captured stimuli of a branch are in its folder") {
                     "0.5:futures.xml"})
               .exit_code == 0);
   const std::string nominal = read(workspace / "stimuli.csv");
-  CHECK(read(workspace / "out/branches/same/stimuli.csv") == nominal);
-  CHECK(read(workspace / "out/branches/other value/stimuli.csv") != nominal);
+  CHECK(read(workspace / "out/branches/same/stimuli/b.csv") == nominal);
+  CHECK(read(workspace / "out/branches/other value/stimuli/b.csv") != nominal);
 }
 
 TEST_CASE("a branch that fails is an error with its name, and the others are complete") {
@@ -135,6 +135,32 @@ TEST_CASE("a crash in a branch ends this branch, with its error and results") {
   CHECK_THAT(branch["error"].get<std::string>(), Contains("unit 'unit'") && Contains("SIGSEGV"));
   CHECK(read(workspace / "out/branches/one/signals.csv") == workspace.result("signals.csv"));
   CHECK(workspace.left_behind().empty());
+}
+
+TEST_CASE("whatever ends a branch, the table and its run.json say why, and the others go on") {
+  const auto [fault, reason] = GENERATE(table<std::string, std::string>(
+      {{"segfault", "signal 11 (SIGSEGV) ends stride in fmi3DoStep"},
+       {"exit with 0", "exit() ends stride in fmi3DoStep"},
+       {"exit by system call", "ended its process, with code 0"},
+       {"_exit", "ended its process, with code "},
+       {"kill", "its process was killed by SIGKILL"},
+       {"throw int", "fmi3DoStep returned fmi3Error"}}));
+  CAPTURE(fault);
+  const BranchingWorkspace workspace(
+      Parts{component("c", "faulty.fmu"), ""},
+      "<stride:Branch name='bad'><stride:Set variable='c.at' value='0.7' at='0.6'/>"
+      "</stride:Branch>\n<stride:Branch name='good'/>\n");
+  const Outcome outcome =
+      workspace.run({"--progress", "none", "--set", "c.at=2", "--set", "c.call=step", "--set",
+                     "c.fault=" + fault, "--branch", "0.5:futures.xml"});
+  INFO(outcome.err << outcome.out);
+  CHECK(outcome.exit_code == 1);
+  CHECK_THAT(outcome.err, Contains("1 of 2 branches has failed\n  bad: ") && Contains(reason));
+  CHECK_THAT(outcome.out, Contains("good    passed"));
+  const auto branch = nlohmann::json::parse(read(workspace / "out/branches/bad/run.json"));
+  CHECK(branch["outcome"] == "failed");
+  CHECK_THAT(branch["error"].get<std::string>(), Contains(reason));
+  CHECK(run_json(workspace)["outcome"] == "completed");
 }
 
 TEST_CASE("mistakes in a file of branches are errors before the run, with their lines") {

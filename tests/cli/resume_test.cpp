@@ -1,6 +1,7 @@
 // A run that goes on from a checkpoint, as if it had not ended.
 #include <csignal>
 #include <fstream>
+#include <map>
 #include <random>
 #include <set>
 
@@ -157,11 +158,46 @@ TEST_CASE("captured stimuli go on, and a copy of them where the results go elsew
   INFO(elsewhere.err);
   REQUIRE(elsewhere.exit_code == 0);
   CHECK(read(cut / "stimuli.csv") == stimuli);
-  const std::string other = read(cut / "elsewhere/stimuli.csv");
+  const std::string other = read(cut / "elsewhere/stimuli/b.csv");
   const std::size_t place = stimuli.find("0.751,");
   REQUIRE(place != std::string::npos);
   CHECK(other.substr(0, place) == stimuli.substr(0, place));
   CHECK(other != stimuli);
+}
+
+TEST_CASE("captures of equal names go on in copies of their own") {
+  const Workspace cut(plain_parts());
+  fs::create_directory(cut / "folder");
+  REQUIRE(cut.run({"--quiet", "--set", "a.u=1", "--checkpoint", "0.5", "--capture", "a=signals.csv",
+                   "--capture", "b=folder/signals.csv"})
+              .exit_code == 0);
+  const Outcome outcome = cut.stride({"resume", "out", "--quiet", "--out", "elsewhere"});
+  INFO(outcome.err);
+  REQUIRE(outcome.exit_code == 0);
+  CHECK(read(cut / "elsewhere/stimuli/a.csv") == read(cut / "signals.csv"));
+  CHECK(read(cut / "elsewhere/stimuli/b.csv") == read(cut / "folder/signals.csv"));
+  CHECK(read(cut / "elsewhere/signals.csv") == cut.result("signals.csv"));
+}
+
+TEST_CASE("a run that cannot be resumed leaves all results as they were") {
+  const Workspace cut(ticking_parts());
+  REQUIRE(
+      cut.run({"--quiet", "--checkpoint", "0.5", "--capture", "listener=stimuli.csv"}).exit_code ==
+      0);
+  const std::string damaged = GENERATE("signals.csv", "events.csv", "signals.vcd", "activity.csv");
+  CAPTURE(damaged);
+  std::string text = cut.result(damaged);
+  text[text.find_first_of("0123456789", 30)] ^= 1;
+  std::ofstream(cut / "out" / damaged, std::ios::binary | std::ios::trunc) << text;
+  std::map<std::string, std::string> before{{"stimuli", read(cut / "stimuli.csv")}};
+  for (const char* const file : kRecords) before[file] = cut.result(file);
+  for (const char* const file : {"run.json", "report.html"}) before[file] = cut.result(file);
+  CHECK_THAT(input_error_of(cut.stride({"resume", "out"})),
+             Contains(damaged + ": the file is not the one that the run had written"));
+  for (const auto& [file, content] : before) {
+    CAPTURE(file);
+    CHECK(content == (file == "stimuli" ? read(cut / "stimuli.csv") : cut.result(file)));
+  }
 }
 
 TEST_CASE("a run can go on for longer than it was meant to") {

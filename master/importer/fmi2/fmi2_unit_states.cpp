@@ -62,6 +62,7 @@ void Fmi2Unit::deserialize_state(std::span<const std::uint8_t> bytes) {
   void* state = nullptr;  // what a failed call leaves there is undefined
   call_for_state("fmi2DeSerializeFMUstate", fmi_.DeSerializeFMUstate,
                  reinterpret_cast<const fmi2Byte*>(bytes.data()), bytes.size(), &state);
+  check_state("fmi2DeSerializeFMUstate", state);
   saved.state = state;
   saved.is_present = true;
 }

@@ -49,6 +49,7 @@ void Fmi3Unit::deserialize_state(std::span<const std::uint8_t> bytes) {
   void* state = nullptr;  // what a failed call leaves there is undefined
   call_for_state("fmi3DeserializeFMUState", fmi_.DeserializeFMUState, bytes.data(), bytes.size(),
                  &state);
+  check_state("fmi3DeserializeFMUState", state);
   saved.state = state;
   saved.is_present = true;
 }

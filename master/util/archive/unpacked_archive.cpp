@@ -105,13 +105,15 @@ class Extraction {
   void run() {
     const Utf8Names names;
     open();
-    check_count(announced_entries(file_).value_or(0));  // before the work of unpacking them
+    const std::optional<std::uint64_t> announced = announced_entries(file_);
+    check_count(announced.value_or(0));  // before the work of unpacking them
     std::uint64_t entries = 0;
     while (next()) {
       check_count(++entries);
       unpack_entry();
     }
     if (entries == 0) fail("is an empty archive", expected_);
+    if (!announced) fail("is cut off: it has no directory at its end", "pack or copy it again");
     for (const Link& link : links_) make_link(link);
   }
 

@@ -4,9 +4,11 @@
 
 #include <catch2/catch.hpp>
 
+#include "master/util/archive/unpacked_archive.h"
 #include "master/util/archive/zip.h"
 #include "master/util/error.h"
 #include "master/util/input_file.h"
+#include "master/util/sha256.h"
 #include "master/util/state_archive.h"
 #include "tests/master/util/archive/support.h"
 
@@ -66,6 +68,9 @@ TEST_CASE("what is no checkpoint is refused, by its name") {
   contents["checkpoint.json"].text = "{\"stride checkpoint\": 1";
   archive::write_zip(scratch / "cut.zip", contents);
   CHECK_THROWS_WITH(read_checkpoint(scratch / "cut.zip"), Contains("or a damaged one"));
+  contents["checkpoint.json"].text = "[\"stride checkpoint\", 1]";
+  archive::write_zip(scratch / "list.zip", contents);
+  CHECK_THROWS_WITH(read_checkpoint(scratch / "list.zip"), Contains("or a damaged one"));
 }
 
 TEST_CASE("a state that is not what was written is found") {
@@ -76,6 +81,7 @@ TEST_CASE("a state that is not what was written is found") {
           "provenance": {"version": "1", "commands": [], "sources": []}, "units": [],
           "states": [{"name": "simulation",
                       "sha256": "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad"}]})";
+  contents["checkpoint.sha256"].text = core::sha256(contents["checkpoint.json"].text);
   contents["states/0"].text = "abc";
   archive::write_zip(scratch / "good.zip", contents);
   CHECK(read_checkpoint(scratch / "good.zip").states.at("simulation").size() == 3);
@@ -94,4 +100,18 @@ TEST_CASE("a checkpoint that cannot be written leaves the earlier one") {
   const std::string before = core::read_input(scratch / "c.zip");
   CHECK_THROWS_AS(write_checkpoint(scratch / "none/c.zip", example()), core::Error);
   CHECK(core::read_input(scratch / "c.zip") == before);
+}
+
+TEST_CASE("a checkpoint whose description was edited is refused") {
+  const Scratch scratch;
+  write_checkpoint(scratch / "c.zip", example());
+  const archive::UnpackedArchive unpacked(scratch / "c.zip", "a checkpoint");
+  const std::filesystem::path folder = scratch / "edited";
+  std::filesystem::copy(unpacked.folder(), folder, std::filesystem::copy_options::recursive);
+  CHECK(read_checkpoint(folder).time == example().time);
+  std::string text = core::read_input(folder / "checkpoint.json");
+  text.replace(text.find("a b.ssd"), 7, "other.s");
+  std::ofstream(folder / "checkpoint.json") << text;
+  CHECK_THROWS_WITH(read_checkpoint(folder), Contains("edited: the checkpoint is damaged, or was "
+                                                      "changed: its checkpoint.json is not"));
 }

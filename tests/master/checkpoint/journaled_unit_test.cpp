@@ -207,6 +207,19 @@ TEST_CASE("a unit that does not repeat itself is an error with its name and the 
   CHECK(error({.saves = false}) == "(no error)");
 }
 
+TEST_CASE("a unit whose outputs are others behind its restored state is an error") {
+  SpongeRun run({.serializes = true, .does_not_restore = true});
+  run.driver.goes_back = false;
+  run.start_and_advance(1);
+  const auto first = run.rig->write();
+  CHECK(error_of([&] { run.resumed(first); }) != "(no error)");
+  while (run.driver.time() < at(0.5)) run.driver.advance(**run.rig, 1);
+  const auto bytes = run.rig->write();
+  CHECK_THAT(error_of([&] { run.resumed(bytes); }),
+             StartsWith("system.ssd:7: unit 'part', variable 'y', at 0.5") &&
+                 Contains("its state was restored, and this output is not what it was"));
+}
+
 TEST_CASE("a run that goes on for longer gives its units the new stop time") {
   core::Describe describe("device");
   const auto description = describe.input("u").done();

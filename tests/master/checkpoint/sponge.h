@@ -31,10 +31,12 @@ struct SpongeTraits {
   bool is_random = false;       ///< it does not repeat itself
   bool is_random_late = false;  ///< likewise, from 1 s on
   bool fails_when_repeated = false;
+  bool does_not_restore = false;  ///< and says nothing
 };
 
 /// Inputs u (three numbers), n, s and b, a message m at the clock c, a countdown clock; outputs y,
-/// z and t, all made of a hash over all calls and their values. Even its getters are calls.
+/// z and t, all made of a hash over all calls and their values. Even its getters are calls, but for
+/// one that serialises its state, whose outputs are read then.
 class Sponge final : public core::Unit,
                      public core::ConfigurationMode,
                      public core::StateSaving,
@@ -90,11 +92,13 @@ class Sponge final : public core::Unit,
   }
   void exit_initialization() override { absorb("initialized"); }
   void get(References references, core::ValueBlock& values) override {
+    const checkpoint::AnswerCheck before = hash_;
     absorb("get");
     absorb(references);
     core::visit(values, [&](auto elements) {
       for (auto& element : elements) squeeze(element);
     });
+    if (traits_.serializes) hash_ = before;
   }
   void set(References references, const core::ValueBlock& values) override {
     absorb("set");
@@ -174,7 +178,9 @@ class Sponge final : public core::Unit,
   // ---- States ----
 
   void save_state() override { slots_[slot_] = hash_; }
-  void restore_state() override { hash_ = slots_.at(slot_).value(); }
+  void restore_state() override {
+    if (!traits_.does_not_restore) hash_ = slots_.at(slot_).value();
+  }
   void select_state(std::size_t slot) override {
     if (traits_.has_one_slot) throw std::logic_error("this kind of unit keeps one state only");
     slot_ = slot;

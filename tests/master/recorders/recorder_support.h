@@ -74,6 +74,7 @@ class ContinuedRecorder {
     core::StateArchive state(bytes);
     recorder.persist(state);
     state.end();
+    recorder.file().go_on();
     make_second_part(recorder);
     recorder.on_finish();
     return content(file_);

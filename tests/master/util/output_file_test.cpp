@@ -289,6 +289,7 @@ void go_on(const std::vector<std::byte>& bytes, const std::filesystem::path& pat
   file.write("a head that is there already\n");
   StateArchive state(bytes);
   file.persist(state);
+  file.go_on();
   file.write("second\n");
   file.close();
 }
@@ -315,7 +316,56 @@ TEST_CASE("A file does not go on in one that is shorter, another one or none") {
                     Contains("x: the file has 3 bytes, and 6 of the run"));
   folder.write("x", "other\nand longer\n");
   CHECK_THROWS_WITH(go_on(place, folder / "x"), Contains("is not the one that the run"));
+  CHECK(content(folder / "x") == "other\nand longer\n");
   std::filesystem::remove(folder / "x");
   CHECK_THROWS_WITH(go_on(place, folder / "x"), Contains("cannot write on in this file: No such"));
   CHECK_THROWS_WITH(go_on(place, "/dev/null"), Contains("no regular file"));
+}
+
+TEST_CASE("A file that is kept stays as it is until it goes on") {
+  const TemporaryFolder folder;
+  const std::vector<std::byte> place = place_behind("first\n", folder / "x");
+  const std::string before = content(folder / "x");
+  {
+    OutputFile file(folder / "x", {}, OutputFile::Existing::Kept);
+    CHECK(file.is_untouched());
+    file.write(std::string(200'000, 'x'));
+    OutputFile::rescue_all();
+    StateArchive state(place);
+    file.persist(state);
+    file.write("dropped\n");
+    file.flush();
+    CHECK(file.is_untouched());
+    file.close();
+  }
+  CHECK(content(folder / "x") == before);
+}
+
+TEST_CASE("A byte that has changed far before the place is seen") {
+  const TemporaryFolder folder;
+  std::string text(300'000, 'x');
+  const std::vector<std::byte> place = place_behind(text, folder / "x");
+  text[100'000] = 'y';
+  folder.write("x", text);
+  CHECK_THROWS_WITH(go_on(place, folder / "x"), Contains("is not the one that the run"));
+}
+
+TEST_CASE("A file that has gone on knows its first bytes, and so does a copy of it") {
+  const TemporaryFolder folder;
+  const std::vector<std::byte> place = place_behind("first\n", folder / "x");
+  OutputFile file(folder / "x", {}, OutputFile::Existing::Kept);
+  StateArchive state(place);
+  file.persist(state);
+  file.go_on();
+  file.write("second\n");
+  file.flush();
+  file.continue_in_copy(folder / "copy");
+  file.write("third\n");
+  StateArchive later;
+  file.persist(later);
+  file.close();
+  OutputFile again(folder / "copy", {}, OutputFile::Existing::Kept);
+  StateArchive read(later.bytes());
+  CHECK_NOTHROW(again.persist(read));
+  CHECK(content(folder / "copy") == "first\nsecond\nthird\n");
 }

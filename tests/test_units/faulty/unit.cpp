@@ -40,7 +40,8 @@ class Faulty : public stride::Unit {
     parameter("fault", fault_).description("what it does: " + stride::tests::fault_names());
     parameter("call", call_)
         .description("in which call: initialize, step, event, terminate, free, unload or exit");
-    parameter("at", at_).unit("s").description("the first end of a step at which it does so");
+    parameter("at", at_).unit("s").tunable().description(
+        "the first end of a step at which it does so");
     parameter("file", file_).description("a file that it writes instead");
     state(has_acted_);
     if (setup.instance_name == "dies_at_birth") std::abort();

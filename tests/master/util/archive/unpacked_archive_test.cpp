@@ -193,6 +193,16 @@ TEST_CASE("a damaged archive is an error") {
   CHECK_THAT(unpack_error(path), Contains("damaged"));
 }
 
+TEST_CASE("an archive without all of its directory is an error") {
+  const Scratch scratch;
+  const auto path = make_zip(scratch / "unit.fmu", {kDescription, {"resources/a", "x"}});
+  const std::string bytes = read(path);
+  for (const std::size_t missing : {1, 22, 60}) {
+    std::ofstream(path, std::ios::binary) << bytes.substr(0, bytes.size() - missing);
+    CHECK_THAT(unpack_error(path), Contains("is cut off: it has no directory at its end"));
+  }
+}
+
 TEST_CASE("no folder is left when unpacking fails") {
   const Scratch scratch;
   unpack_error(make_zip(scratch / "evil.fmu", {kDescription, {"../evil", "x"}}));
