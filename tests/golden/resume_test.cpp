@@ -18,15 +18,6 @@ namespace fs = std::filesystem;
 
 constexpr const char* kTraces[] = {"signals.csv", "events.csv", "signals.vcd", "activity.csv"};
 
-/// All in scenarios/ that have golden results, so that nothing is to be fetched for them.
-std::set<std::string> scenarios_to_cut() {
-  std::set<std::string> found;
-  for (const auto& entry : fs::directory_iterator(fs::path(STRIDE_SOURCE_DIR) / "scenarios")) {
-    if (fs::exists(entry.path() / "golden")) found.insert(entry.path().filename().string());
-  }
-  return found;
-}
-
 /// Some are those of rows of the results, at and beside events; the others are anywhere.
 std::set<std::string> instants(const fs::path& results, std::mt19937& random) {
   const Csv signals(results / "signals.csv");
@@ -89,7 +80,7 @@ void check_cuts(const std::string& scenario, const Arguments& options, unsigned 
 
 TEST_CASE("every scenario goes on from checkpoints to the same bytes") {
   unsigned seed = 1;
-  for (const std::string& scenario : scenarios_to_cut()) check_cuts(scenario, {}, seed++);
+  for (const std::string& scenario : golden_scenarios()) check_cuts(scenario, {}, seed++);
 }
 
 TEST_CASE("scenarios with hosts go on from checkpoints to the same bytes") {

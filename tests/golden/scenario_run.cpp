@@ -52,6 +52,14 @@ std::string signal_differences(const fs::path& golden, const Csv& signals) {
 
 }  // namespace
 
+std::set<std::string> golden_scenarios() {
+  std::set<std::string> found;
+  for (const auto& entry : fs::directory_iterator(fs::path(STRIDE_SOURCE_DIR) / "scenarios")) {
+    if (fs::exists(entry.path() / "golden")) found.insert(entry.path().filename().string());
+  }
+  return found;
+}
+
 fs::path scenario_folder(const std::string& scenario) {
   return fs::path(STRIDE_SOURCE_DIR) / "scenarios" / scenario;
 }

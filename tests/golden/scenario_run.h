@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,8 @@
 namespace stride::tests {
 
 std::filesystem::path scenario_folder(const std::string& scenario);
+/// All in scenarios/ that have golden results, so that nothing is to be fetched for them.
+std::set<std::string> golden_scenarios();
 std::string text_of(const std::filesystem::path& file);
 
 struct Extremes {
