@@ -52,7 +52,7 @@ void write_campaign_junit(const std::filesystem::path& file, const Plan& plan,
     xml.attribute("classname", suite);
     xml.attribute("time", fmt::format("{:.3f}", record ? record->result.wall_time : 0));
     if (record) {
-      write_end(xml, record->result, "stride run " + plan.arguments(plan.at(i)));
+      write_end(xml, record->result, plan.command(plan.at(i)));
     } else {
       xml.open("skipped");
       xml.attribute("message", "the case has not been run");

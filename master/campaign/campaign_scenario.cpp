@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "master/campaign/file_digests.h"
+#include "master/campaign/scenario_digests.h"
 #include "master/scenario/find_variable.h"
 #include "master/scenario/unit_path.h"
 #include "master/util/diagnostics.h"
@@ -311,7 +311,7 @@ void CampaignScenario::load_alternatives(const Campaign& campaign) {
 }
 
 void CampaignScenario::take_fingerprints(const Campaign& campaign) {
-  FileDigests digests;
+  ScenarioDigests digests;
   fingerprints_.files = digests.files(loaded_.scenario());
   const auto& components = loaded_.system().components();
   for (std::size_t i = 0; i < components.size(); ++i) {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <cctype>
 #include <cmath>
 #include <stdexcept>
 #include <utility>
@@ -12,6 +11,7 @@
 
 #include "master/campaign/intervention_parts.h"
 #include "master/campaign/random.h"
+#include "master/recorders/provenance.h"
 #include "master/util/boolean_text.h"
 #include "master/util/message_text.h"
 #include "master/util/sha256.h"
@@ -99,18 +99,6 @@ std::vector<std::string> drawn_names(const Campaign& campaign) {
 SamplingMethod method_of(const Campaign& campaign) {
   const auto* const stochastic = std::get_if<Stochastic>(&campaign.variation);
   return stochastic != nullptr ? stochastic->method : SamplingMethod::Independent;
-}
-
-/// As a word of a command line of a shell.
-std::string shell_word(const std::string& text) {
-  const bool is_plain = !text.empty() && std::ranges::all_of(text, [](unsigned char c) {
-    return std::isalnum(c) != 0 ||
-           std::string_view("._-/=:@,+").find(static_cast<char>(c)) != std::string_view::npos;
-  });
-  if (is_plain) return text;
-  std::string word = "'";
-  for (const char c : text) word += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return word + "'";
 }
 
 }  // namespace
@@ -235,11 +223,11 @@ scenario::ScenarioRequest Plan::request(const Case& row) const {
   return request;
 }
 
-std::string Plan::arguments(const Case& row) const {
+std::vector<std::string> Plan::words(const Case& row) const {
   const scenario::ScenarioRequest wanted = request(row);
-  std::string text = shell_word(wanted.scenario.string());
+  std::vector<std::string> words{"run", wanted.scenario.string()};
   const auto add = [&](const std::string& option, const std::string& value) {
-    text += fmt::format(" {} {}", option, shell_word(value));
+    words.insert(words.end(), {option, value});
   };
   for (const std::string& swap : wanted.swaps) add("--swap", swap);
   for (const auto& value : wanted.parameters) add("--set", value.name + "=" + value.value);
@@ -247,8 +235,10 @@ std::string Plan::arguments(const Case& row) const {
     const auto [option, value] = option_of(declared);
     add(option, value);
   }
-  return text;
+  return words;
 }
+
+std::string Plan::command(const Case& row) const { return recorders::shell_text(words(row)); }
 
 std::string Plan::hash(const Case& row) const {
   const scenario::ScenarioRequest wanted = request(row);

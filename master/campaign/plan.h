@@ -57,8 +57,9 @@ class Plan {
   /// `interventions`, which are there whether they vary or not. Throws core::Error (Input) where
   /// the text of a part of an intervention is wrong; after check_plan() there is none.
   scenario::ScenarioRequest request(const Case& row) const;
-  /// Arguments of `stride run` that repeat the case, ready for a shell.
-  std::string arguments(const Case& row) const;
+  /// What repeats the case: the words behind `stride`, and all of it, ready for a shell.
+  std::vector<std::string> words(const Case& row) const;
+  std::string command(const Case& row) const;
 
   /// 64 hexadecimal digits that stand for all that decides the result of the case: version, files
   /// of the scenario, units, settings. Its index does not.

@@ -109,7 +109,7 @@ void print_plan(const campaign::Plan& plan, const fs::path& folder, bool ssv) {
 }
 
 void print_case(const campaign::Plan& plan, std::uint64_t index) {
-  print_text("stride run {}\n", plan.arguments(plan.at(index)));
+  print_text("{}\n", plan.command(plan.at(index)));
 }
 
 void plan_campaign(const PlanArguments& arguments) {

@@ -61,7 +61,7 @@ void print_failures(const campaign::Plan& plan, const campaign::CaseSummary& sum
   print_text("\n{} failures\n{}\nEach is repeated by\n", are_all ? "All" : "First",
              table.text(output_width()));
   for (const campaign::FailedCase& failed : summary.first_failures) {
-    print_text("  {}: stride run {}\n", failed.index, plan.arguments(plan.at(failed.index)));
+    print_text("  {}: {}\n", failed.index, plan.command(plan.at(failed.index)));
   }
 }
 

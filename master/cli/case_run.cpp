@@ -8,6 +8,7 @@
 
 #include "master/cli/crash_guard.h"
 #include "master/cli/output.h"
+#include "master/cli/provenance.h"
 #include "master/cli/report_page.h"
 #include "master/recorders/results_folder.h"
 
@@ -48,14 +49,16 @@ CaseRun::CaseRun(const scenario::ScenarioRequest& request,
                  const std::vector<campaign::Aggregate>& aggregates, const CaseResults& results)
     : loaded_(request),
       target_(target_of(results, loaded_)),
+      provenance_(provenance(results, loaded_)),
       aggregates_(aggregates, loaded_.system()),
       options_(run_options()),
       capture_(loaded_.system(), loaded_.scenario().name, options_, {},
                core::OutputFile::Existing::Emptied),
       unit_folders_(unit_folders_in(target_.folder, loaded_)),
       recorders_(loaded_.system(), target_),
-      recorded_({loaded_, options_, target_, display_, recorders_, capture_, no_tests_},
-                loaded_.instantiate(target_.folder, &Interruption::flag())) {
+      recorded_(
+          {loaded_, options_, provenance_, target_, display_, recorders_, capture_, no_tests_},
+          loaded_.instantiate(target_.folder, &Interruption::flag())) {
   if (!aggregates.empty()) recorded_.add_observer(aggregates_, aggregates_.signals());
 }
 
@@ -67,6 +70,14 @@ ResultsTarget CaseRun::target_of(const CaseResults& results,
   recorders::make_results_folder(target.folder);
   recorders::check_name_lengths(target.folder, target.files);
   return target;
+}
+
+recorders::Provenance CaseRun::provenance(const CaseResults& results,
+                                          const scenario::LoadedScenario& loaded) {
+  if (results.folder.empty()) return {};
+  recorders::Provenance made = provenance_of(loaded, results.digests);
+  made.commands = {results.command};
+  return made;
 }
 
 core::RunOptions CaseRun::run_options() const {

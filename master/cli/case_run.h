@@ -24,6 +24,8 @@ namespace stride::cli {
 struct CaseResults {
   std::filesystem::path folder;  ///< empty: none; otherwise it is made
   bool has_report = false;       ///< else only a case that does not pass has one
+  recorders::Command command{};  ///< that repeats it
+  core::FileDigests& digests;    ///< of the files that it is made from
 };
 
 /// Prints nothing but warnings.
@@ -48,6 +50,8 @@ class CaseRun {
     ~EndOfUnits();
   };
 
+  static recorders::Provenance provenance(const CaseResults& results,
+                                          const scenario::LoadedScenario& loaded);
   static ResultsTarget target_of(const CaseResults& results,
                                  const scenario::LoadedScenario& loaded);
   core::RunOptions run_options() const;
@@ -56,6 +60,7 @@ class CaseRun {
   const Interruption interruption_;
   const scenario::LoadedScenario loaded_;
   const ResultsTarget target_;
+  const recorders::Provenance provenance_;
   campaign::Aggregates aggregates_;
   core::RunOptions options_;
   capture::Capture capture_;

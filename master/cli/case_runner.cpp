@@ -10,8 +10,10 @@
 
 #include "master/capture/capture.h"
 #include "master/cli/case_run.h"
+#include "master/cli/command_line.h"
 #include "master/cli/crash_guard.h"
 #include "master/cli/output.h"
+#include "master/cli/provenance.h"
 #include "master/cli/report_page.h"
 #include "master/util/error.h"
 #include "master/util/input_file.h"
@@ -65,6 +67,9 @@ CaseRunner::CaseRunner(const campaign::Plan& plan, const campaign::CampaignScena
   for (const fs::path& document : std::set(files.documents())) {
     if (core::is_file(document)) files.read_ahead(document);
   }
+  provenance_of(scenario.loaded(), digests_);
+  for (const auto& alternative : scenario.alternatives())
+    provenance_of(alternative.loaded, digests_);
 }
 
 bool CaseRunner::has_results_anyway(std::uint64_t index) const {
@@ -91,7 +96,9 @@ CaseResult CaseRunner::simulate(std::uint64_t index, bool& was_interrupted) cons
     request.units = scenario_.units();
     CaseRun run(request, plan_.campaign().aggregates,
                 {.folder = may_have_results(index) ? scratch_.results(index) : fs::path(),
-                 .has_report = has_results_anyway(index)});
+                 .has_report = has_results_anyway(index),
+                 .command = {plan_.words(plan_.at(index)), command_line().folder},
+                 .digests = digests_});
     const CrashGuard::Scope scope(guard, [&](const std::string& error) {
       tell_of_crash(error);
       run.abandon(error);

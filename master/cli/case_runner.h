@@ -41,6 +41,7 @@ class CaseRunner {
   const campaign::Plan& plan_;
   const campaign::CampaignScenario& scenario_;
   const campaign::CaseScratch& scratch_;
+  mutable core::FileDigests digests_;
 };
 
 }  // namespace stride::cli

@@ -1,11 +1,14 @@
 #include "master/cli/provenance.h"
 
 #include <algorithm>
+#include <ctime>
 #include <string>
 #include <vector>
 
+#include <fmt/chrono.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <sys/utsname.h>
 
 #include "master/cli/command_line.h"
 #include "master/cli/output_paths.h"
@@ -13,11 +16,24 @@
 #include "master/util/input_file.h"
 
 namespace stride::cli {
+namespace {
 
-recorders::Provenance provenance_of(const scenario::LoadedScenario& loaded) {
-  recorders::Provenance made{STRIDE_VERSION, {command_line()}, {}};
+/// In UTC.
+std::string now() { return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr))); }
+
+std::string host() {
+  struct utsname names {};
+  return ::uname(&names) == 0 ? names.nodename : "";
+}
+
+}  // namespace
+
+recorders::Provenance provenance_of(const scenario::LoadedScenario& loaded,
+                                    core::FileDigests& digests) {
+  recorders::Provenance made{
+      .version = STRIDE_VERSION, .date = now(), .host = host(), .commands = {command_line()}};
   const auto add = [&](const std::string& what, const std::filesystem::path& path) {
-    recorders::Source source = recorders::make_source(what, path);
+    recorders::Source source = recorders::make_source(what, path, digests);
     if (std::ranges::find(made.sources, source) == made.sources.end()) {
       made.sources.push_back(std::move(source));
     }

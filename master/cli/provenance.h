@@ -6,12 +6,15 @@
 
 #include "master/recorders/provenance.h"
 #include "master/scenario/loaded_scenario.h"
+#include "master/util/file_digests.h"
 #include "master/util/state_archive.h"
 
 namespace stride::cli {
 
-/// Of a run that this command line has loaded. Reads the files. Throws core::Error (Input).
-recorders::Provenance provenance_of(const scenario::LoadedScenario& loaded);
+/// Of a run that this command line has loaded, and which begins now. Reads the files whose digests
+/// are not known yet. Throws core::Error (Input).
+recorders::Provenance provenance_of(const scenario::LoadedScenario& loaded,
+                                    core::FileDigests& digests);
 
 /// Throws core::Error (Input), at the checkpoint, that names all that differs.
 void require_same(const recorders::Provenance& before, const recorders::Provenance& now,

@@ -257,6 +257,7 @@ void RecordedRun::run_rest(std::vector<core::Intervention> interventions) {
   has_test_report_ = false;
   setup_.recorders.continue_in_copies(setup_.results);
   setup_.capture.continue_in_copies(setup_.results.folder);
+  further_ = interventions;
   simulation_.add_interventions(std::move(interventions));
   announce();
   execute([&] { simulation_.run_rest(); });
@@ -419,10 +420,13 @@ void RecordedRun::write_statistics(std::optional<std::string> error) {
 
 void RecordedRun::write_run_file(const std::optional<std::string>& error, bool is_over) const {
   if (setup_.results.files.statistics.empty()) return;
+  core::RunOptions options = setup_.options;
+  options.interventions.insert(options.interventions.end(), further_.begin(), further_.end());
   recorders::write_run_json(setup_.results.folder / setup_.results.files.statistics,
                             {.scenario = setup_.loaded.scenario().path,
                              .system = setup_.loaded.system(),
-                             .options = setup_.options,
+                             .options = options,
+                             .provenance = setup_.provenance,
                              .statistics = simulation_.statistics(),
                              .verdicts = verdicts_,
                              .error = error,

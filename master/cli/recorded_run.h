@@ -22,6 +22,7 @@
 #include "master/recorders/activity_recorder.h"
 #include "master/recorders/csv_recorder.h"
 #include "master/recorders/event_recorder.h"
+#include "master/recorders/provenance.h"
 #include "master/recorders/results_folder.h"
 #include "master/recorders/vcd_recorder.h"
 #include "master/scenario/loaded_scenario.h"
@@ -78,6 +79,7 @@ class Recorders {
 struct RunSetup {
   const scenario::LoadedScenario& loaded;
   const core::RunOptions& options;
+  const recorders::Provenance& provenance;
   const ResultsTarget& results;
   const RunDisplay& display;
   Recorders& recorders;
@@ -151,6 +153,7 @@ class RecordedRun {
   bool has_begun_;  ///< or, before that: the results are still those of the run that is resumed
   checks::Checks checks_;
   std::vector<core::Verdict> verdicts_;
+  std::vector<core::Intervention> further_;  ///< interventions of run_rest()
   std::optional<std::string> failure_{};
   Summary summary_;
   Progress progress_;

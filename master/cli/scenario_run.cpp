@@ -215,11 +215,11 @@ void require_later_interventions(const core::RunOptions& options,
                    "let it begin later, or resume the run from an earlier checkpoint");
 }
 
-/// What a checkpoint has to agree with; nothing where the run has none.
-std::optional<recorders::Provenance> provenance(const RunArguments& arguments,
-                                                const scenario::LoadedScenario& loaded) {
-  if (!is_journaled(arguments)) return std::nullopt;
-  recorders::Provenance made = provenance_of(loaded);
+/// A run that goes on has to agree with its checkpoint in that.
+recorders::Provenance provenance(const RunArguments& arguments,
+                                 const scenario::LoadedScenario& loaded) {
+  core::FileDigests digests;
+  recorders::Provenance made = provenance_of(loaded, digests);
   if (!arguments.resumed) return made;
   const recorders::Provenance& before = arguments.resumed->from.provenance;
   require_same(before, made, arguments.resumed->file);
@@ -283,7 +283,7 @@ class ScenarioRun {
   Records& records_;
   const Interruption interruption_;
   const scenario::LoadedScenario loaded_;
-  const std::optional<recorders::Provenance> provenance_;
+  const recorders::Provenance provenance_;
   Checkpoints checkpoints_;
   Branches branches_;
   ResultsOfRun results_;  // when all that may be wrong has been looked at
@@ -314,7 +314,7 @@ ScenarioRun::ScenarioRun(const RunArguments& arguments, Records& records)
       units_(arguments, loaded_, results_.target().folder, capture_, options_),
       display_{progress_style(arguments), arguments.quiet, arguments.open},
       recorders_(make_recorders(arguments, loaded_, results_.target())),
-      recorded_({loaded_, options_, results_.target(), display_, recorders_, capture_,
+      recorded_({loaded_, options_, provenance_, results_.target(), display_, recorders_, capture_,
                  records.tests, is_resumed(), &checkpoints_},
                 units_.take()),
       branch_runs_({arguments, loaded_, results_.target(), recorded_,
@@ -333,7 +333,7 @@ Checkpoints::Span ScenarioRun::span() const {
 }
 
 checkpoint::Checkpoint ScenarioRun::take(Time now) {
-  checkpoint::Checkpoint taken{.provenance = *provenance_,
+  checkpoint::Checkpoint taken{.provenance = provenance_,
                                .time = now,
                                .results = std::filesystem::absolute(results_.target().folder),
                                .interventions = interventions_until(options_, now)};

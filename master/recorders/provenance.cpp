@@ -6,8 +6,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "master/util/input_file.h"
-#include "master/util/sha256.h"
+#include "master/util/shell_word.h"
 
 namespace stride::recorders {
 namespace {
@@ -23,9 +22,14 @@ const Source* find(const Provenance& provenance, const std::string& what, const 
 
 }  // namespace
 
-Source make_source(std::string what, const fs::path& path) {
-  return {std::move(what), fs::absolute(path),
-          core::is_folder(path) ? core::sha256_of_folder(path) : core::sha256_of_file(path)};
+std::string shell_text(const std::vector<std::string>& words) {
+  std::string text = "stride";
+  for (const std::string& word : words) text += " " + core::shell_word(word);
+  return text;
+}
+
+Source make_source(std::string what, const fs::path& path, core::FileDigests& digests) {
+  return {std::move(what), fs::absolute(path), digests.of(path)};
 }
 
 std::vector<std::string> differences(const Provenance& before, const Provenance& now) {
@@ -57,15 +61,20 @@ nlohmann::ordered_json to_json(const Provenance& provenance) {
   }
   nlohmann::ordered_json commands = nlohmann::ordered_json::array();
   for (const Command& command : provenance.commands) {
-    commands.push_back({{"words", command.words}, {"folder", command.folder.string()}});
+    commands.push_back({{"text", shell_text(command.words)},
+                        {"words", command.words},
+                        {"folder", command.folder.string()}});
   }
   return {{"version", provenance.version},
+          {"date", provenance.date},
+          {"host", provenance.host},
           {"commands", std::move(commands)},
           {"sources", std::move(sources)}};
 }
 
 Provenance provenance_of(const nlohmann::ordered_json& json) {
-  Provenance provenance{json.at("version"), {}, {}};
+  Provenance provenance{
+      .version = json.at("version"), .date = json.at("date"), .host = json.at("host")};
   for (const nlohmann::ordered_json& command : json.at("commands")) {
     provenance.commands.push_back({command.at("words").get<std::vector<std::string>>(),
                                    command.at("folder").get<std::string>()});

@@ -8,6 +8,8 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "master/util/file_digests.h"
+
 namespace stride::recorders {
 
 /// A file, or a folder, that decides what a run does, by its content.
@@ -23,15 +25,20 @@ struct Command {
   std::filesystem::path folder;    ///< the working folder, absolute
 };
 
+/// Ready for a POSIX shell, `stride` included.
+std::string shell_text(const std::vector<std::string>& words);
+
 struct Provenance {
   std::string version;  ///< of stride
+  std::string date{};   ///< when it began, in UTC: "2026-11-25T23:59:59Z"
+  std::string host{};   ///< where
   /// That of the run, and of each time that it was resumed.
-  std::vector<Command> commands;
-  std::vector<Source> sources;
+  std::vector<Command> commands{};
+  std::vector<Source> sources{};
 };
 
-/// Reads the files. Throws core::Error (Input) for what cannot be read.
-Source make_source(std::string what, const std::filesystem::path& path);
+/// Throws core::Error (Input) for what cannot be read.
+Source make_source(std::string what, const std::filesystem::path& path, core::FileDigests& digests);
 
 /// For each source that differs, or is missing: in words.
 std::vector<std::string> differences(const Provenance& before, const Provenance& now);

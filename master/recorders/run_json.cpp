@@ -244,8 +244,8 @@ void write(const std::filesystem::path& file, const Json& run) {
 }  // namespace
 
 void write_run_json(const std::filesystem::path& file, const RunRecord& record) {
-  const auto& [scenario, system, options, statistics, verdicts, error, is_over, files, plots] =
-      record;
+  const auto& [scenario, system, options, provenance, statistics, verdicts, error, is_over, files,
+               plots] = record;
   Json run = {{"scenario", scenario.string()},      {"system", system.name()},
               {"start", to_seconds(options.start)}, {"stop", to_seconds(options.stop)},
               {"step", step_entry(options)},        {"outcome", outcome(record)}};
@@ -260,6 +260,7 @@ void write_run_json(const std::filesystem::path& file, const RunRecord& record) 
   run["files"] = file_entries(files);
   run["signals"] = signal_entries(system, options.recorded);
   run["plots"] = plot_entries(plots);
+  run["provenance"] = to_json(provenance);
   write(file, run);
 }
 

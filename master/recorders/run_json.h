@@ -10,6 +10,7 @@
 #include "master/algorithm/statistics.h"
 #include "master/algorithm/verdict.h"
 #include "master/model/system.h"
+#include "master/recorders/provenance.h"
 #include "master/recorders/results_folder.h"
 
 namespace stride::recorders {
@@ -19,6 +20,7 @@ struct RunRecord {
   std::filesystem::path scenario;
   const core::System& system;
   const core::RunOptions& options;
+  Provenance provenance{};
   const core::RunStatistics& statistics;
   std::span<const core::Verdict> verdicts{};
   std::optional<std::string> error{};  ///< that ended the run, if one did
@@ -27,9 +29,9 @@ struct RunRecord {
   std::span<const Plot> plots{};
 };
 
-/// run.json: what was run, how far it came, what each unit did and cost, and what the other results
-/// hold. Times are in seconds. The wall-clock times differ from run to run, so unlike the other
-/// results this file does, too. It is there as a whole or not at all. Throws core::Error.
+/// run.json: what was run and from what, how far it came, what each unit did and cost, and what the
+/// other results hold. Times are in seconds. The wall-clock times differ from run to run, so unlike
+/// the other results this file does, too. It is there as a whole or not at all. Throws core::Error.
 void write_run_json(const std::filesystem::path& file, const RunRecord& record);
 
 /// Whether the run is not over. Throws as add_error() does.

@@ -3,10 +3,10 @@
 #include <fstream>
 #include <map>
 #include <random>
-#include <set>
 
 #include <nlohmann/json.hpp>
 
+#include "tests/cli/course.h"
 #include "tests/cli/failures.h"
 
 using namespace stride::tests;
@@ -14,37 +14,6 @@ using namespace std::chrono_literals;
 using Catch::Matchers::Contains;
 
 namespace {
-
-constexpr const char* kRecords[] = {"signals.csv", "events.csv", "signals.vcd", "activity.csv"};
-
-/// What run.json says of a run's course, without what it has cost.
-nlohmann::json course(nlohmann::json run) {
-  static const std::set<std::string> kCosts{
-      "wall_time",          "calls",   "saves",   "repeated_steps", "measured_steps", "scenario",
-      "uncertainties",      "resumed", "threads", "parallel_steps", "host",           "phases",
-      "phase_uncertainties"};
-  if (run.is_array()) {
-    for (auto& item : run) item = course(item);
-    return run;
-  }
-  if (!run.is_object()) return run;
-  nlohmann::json kept;
-  for (const auto& [key, value] : run.items()) {
-    if (kCosts.count(key) == 0) kept[key] = course(value);
-  }
-  return kept;
-}
-
-void check_same_results(const fs::path& whole, const fs::path& resumed) {
-  CAPTURE(resumed.string());
-  for (const char* const file : kRecords) {
-    CAPTURE(file);
-    const bool is_same = read(whole / file) == read(resumed / file);
-    CHECK(is_same);
-  }
-  CHECK(course(nlohmann::json::parse(read(whole / "run.json"))) ==
-        course(nlohmann::json::parse(read(resumed / "run.json"))));
-}
 
 std::vector<fs::path> checkpoints(const Workspace& workspace) {
   std::vector<fs::path> files;
@@ -190,7 +159,7 @@ TEST_CASE("a run that cannot be resumed leaves all results as they were") {
   text[text.find_first_of("0123456789", 30)] ^= 1;
   std::ofstream(cut / "out" / damaged, std::ios::binary | std::ios::trunc) << text;
   std::map<std::string, std::string> before{{"stimuli", read(cut / "stimuli.csv")}};
-  for (const char* const file : kRecords) before[file] = cut.result(file);
+  for (const char* const file : kTraces) before[file] = cut.result(file);
   for (const char* const file : {"run.json", "report.html"}) before[file] = cut.result(file);
   CHECK_THAT(input_error_of(cut.stride({"resume", "out"})),
              Contains(damaged + ": the file is not the one that the run had written"));

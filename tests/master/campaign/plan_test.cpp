@@ -131,15 +131,15 @@ TEST_CASE("a request holds start values, swaps and interventions") {
   CHECK(request.interventions[0].value == "3");
   CHECK(plan.request(plan.at(0)).swaps.empty());
   CHECK(plan.request(plan.at(1)).interventions.empty());
-  CHECK_THAT(plan.arguments(plan.at(2)),
+  CHECK_THAT(plan.command(plan.at(2)),
              Contains("x.ssd --swap s=new.fmu --set a.x=1 --force a.u=3@0.5..1"));
 }
 
 TEST_CASE("arguments are words of a shell") {
   const Plan plan = plan_of(campaign_text(deterministic(value_set("a.x", {"it&apos;s 5 $", ""}))),
                             KindType::Text);
-  CHECK_THAT(plan.arguments(plan.at(0)), Catch::EndsWith("x.ssd --set 'a.x=it'\\''s 5 $'"));
-  CHECK_THAT(plan.arguments(plan.at(1)), Catch::EndsWith("--set a.x="));
+  CHECK_THAT(plan.command(plan.at(0)), Catch::EndsWith("x.ssd --set 'a.x=it'\\''s 5 $'"));
+  CHECK_THAT(plan.command(plan.at(1)), Catch::EndsWith("--set a.x="));
 }
 
 TEST_CASE("the hash of a case stands for all that decides its result") {

@@ -21,6 +21,8 @@ namespace {
 
 Checkpoint example() {
   Checkpoint made{.provenance = {"9.9.9",
+                                 "2026-01-01T00:00:00Z",
+                                 "desk",
                                  {{{"run", "a b.ssd"}, "/somewhere"}, {{"resume", "x"}, "/else"}},
                                  {{"the scenario", "/somewhere/a b.ssd", "0f"}}},
                   .time = Time(Duration(14'200'000'000'001)),
@@ -78,7 +80,7 @@ TEST_CASE("a state that is not what was written is found") {
   archive::Contents contents;
   contents["checkpoint.json"].text =
       R"({"stride checkpoint": 1, "picoseconds": 1, "results": "r", "interventions": 0,
-          "provenance": {"version": "1", "commands": [], "sources": []}, "units": [],
+          "provenance": {"version": "1", "date": "", "host": "", "commands": [], "sources": []}, "units": [],
           "states": [{"name": "simulation",
                       "sha256": "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad"}]})";
   contents["checkpoint.sha256"].text = core::sha256(contents["checkpoint.json"].text);

@@ -15,9 +15,10 @@ using stride::tests::TemporaryFolder;
 namespace {
 
 Provenance of(const TemporaryFolder& folder) {
-  return {"1",
-          {},
-          {make_source("the scenario", folder / "a.ssd"), make_source("a unit", folder / "unit")}};
+  stride::core::FileDigests digests;
+  return {.version = "1",
+          .sources = {make_source("the scenario", folder / "a.ssd", digests),
+                      make_source("a unit", folder / "unit", digests)}};
 }
 
 }  // namespace
@@ -50,13 +51,20 @@ TEST_CASE("what results were made from is told apart by its content") {
   CHECK(texts[0] == "it is of stride 1, and this is 2");
   CHECK_THAT(texts[1], Contains("is not used any more"));
   CHECK_THAT(differences(other, before).at(1), Contains("was not used"));
-  CHECK_THROWS_AS(make_source("a unit", folder / "nothing"), stride::core::Error);
+  CHECK_THROWS_AS(of(TemporaryFolder()), stride::core::Error);
 }
 
 TEST_CASE("provenance is read back from its JSON") {
-  const Provenance made{"1", {{{"run", "a b", "--quiet"}, "/x y"}}, {{"a unit", "/u", "00"}}};
+  const Provenance made{"1",
+                        "2026-01-01T00:00:00Z",
+                        "desk",
+                        {{{"run", "a b", "--quiet"}, "/x y"}},
+                        {{"a unit", "/u", "00"}}};
+  CHECK(to_json(made)["commands"][0]["text"] == "stride run 'a b' --quiet");
   const Provenance read = provenance_of(to_json(made));
   CHECK(read.version == "1");
+  CHECK(read.date == made.date);
+  CHECK(read.host == "desk");
   REQUIRE(read.commands.size() == 1);
   CHECK(read.commands[0].words == made.commands[0].words);
   CHECK(read.commands[0].folder == made.commands[0].folder);

@@ -89,6 +89,11 @@ TEST_CASE("run.json has what was run and how far the run came") {
   write_run_json(folder / "run.json", {.scenario = "scenarios/x.ssd",
                                        .system = system,
                                        .options = options,
+                                       .provenance = {.version = "1",
+                                                      .date = "2026-01-01T00:00:00Z",
+                                                      .host = "desk",
+                                                      .commands = {{{"run", "x y.ssd"}, "/w"}},
+                                                      .sources = {{"a unit", "/w/a.fmu", "0f"}}},
                                        .statistics = statistics,
                                        .verdicts = verdicts,
                                        .files = files,
@@ -244,7 +249,29 @@ TEST_CASE("run.json has what was run and how far the run came") {
         "a.distance"
       ]
     }
-  ]
+  ],
+  "provenance": {
+    "version": "1",
+    "date": "2026-01-01T00:00:00Z",
+    "host": "desk",
+    "commands": [
+      {
+        "text": "stride run 'x y.ssd'",
+        "words": [
+          "run",
+          "x y.ssd"
+        ],
+        "folder": "/w"
+      }
+    ],
+    "sources": [
+      {
+        "what": "a unit",
+        "path": "/w/a.fmu",
+        "sha256": "0f"
+      }
+    ]
+  }
 }
 )");
 }

@@ -1,17 +1,18 @@
 // The digests of what a scenario consists of.
-#ifndef STRIDE_MASTER_CAMPAIGN_FILE_DIGESTS_H
-#define STRIDE_MASTER_CAMPAIGN_FILE_DIGESTS_H
+#ifndef STRIDE_MASTER_CAMPAIGN_SCENARIO_DIGESTS_H
+#define STRIDE_MASTER_CAMPAIGN_SCENARIO_DIGESTS_H
 
 #include <filesystem>
 #include <map>
 #include <string>
 
 #include "master/scenario/loaded_scenario.h"
+#include "master/util/file_digests.h"
 
 namespace stride::campaign {
 
-/// Keeps those of the files that it has read.
-class FileDigests {
+/// What decides the results of a scenario, by its content.
+class ScenarioDigests {
  public:
   /// Of the system files and parameter sets, by their paths from the folder of the scenario.
   std::map<std::string, std::string> files(const scenario::Scenario& scenario);
@@ -20,10 +21,7 @@ class FileDigests {
   std::string unit(const scenario::LoadedScenario& loaded, std::size_t component);
 
  private:
-  const std::string& file(const std::filesystem::path& path);
-  const std::string& folder(const std::filesystem::path& path);
-
-  std::map<std::filesystem::path, std::string> known_;
+  core::FileDigests digests_;
 };
 
 }  // namespace stride::campaign

@@ -1,0 +1,29 @@
+#include "master/campaign/scenario_digests.h"
+
+#include "master/scenario/unit_path.h"
+#include "master/util/input_file.h"
+#include "master/util/sha256.h"
+
+namespace stride::campaign {
+
+namespace fs = std::filesystem;
+
+std::map<std::string, std::string> ScenarioDigests::files(const scenario::Scenario& scenario) {
+  std::map<std::string, std::string> digests;
+  const fs::path around = fs::absolute(scenario.path).lexically_normal().parent_path();
+  for (const fs::path& document : scenario.files->documents()) {
+    if (!core::is_file(document)) continue;  // of an FMU alone, which is a unit
+    const fs::path shown = fs::absolute(scenario.files->shown(document)).lexically_normal();
+    digests[shown.lexically_relative(around).generic_string()] = digests_.of(document);
+  }
+  return digests;
+}
+
+std::string ScenarioDigests::unit(const scenario::LoadedScenario& loaded, std::size_t component) {
+  const fs::path path = scenario::find_unit(loaded.scenario().sources[component], {});
+  const fs::path& resources = loaded.fmus()[component]->resources();
+  if (path.extension() != ".so" || !core::is_folder(resources)) return digests_.of(path);
+  return core::sha256(digests_.of(path) + digests_.of(resources));
+}
+
+}  // namespace stride::campaign
