@@ -95,6 +95,15 @@ struct Keep {
   enum class Results { None, Failed, All };
   Results results = Results::Failed;
   std::uint64_t every = 0;  ///< beside these each one whose index is a multiple; 0: no further one
+
+  /// Whether those of the case are kept however it ends.
+  bool are_kept_anyway(std::uint64_t index) const {
+    return results == Results::All || (every != 0 && index % every == 0);
+  }
+  /// Whether they are kept if it fails, at least.
+  bool may_be_kept(std::uint64_t index) const {
+    return are_kept_anyway(index) || results == Results::Failed;
+  }
 };
 const char* name(Keep::Results results);
 inline constexpr Keep::Results kKeptResults[] = {Keep::Results::None, Keep::Results::Failed,

@@ -55,6 +55,13 @@ std::vector<Branch> read_branches(const RunArguments& arguments,
   return branches;
 }
 
+/// A unit's file that is open, or whose path it knows, would be that of all forks.
+bool can_fork(const scenario::LoadedScenario& loaded, const fs::path& results) {
+  const auto is_hosted = [](const auto& hosting) { return hosting.has_value(); };
+  return std::ranges::none_of(loaded.hostings(), is_hosted) && !has_threads() &&
+         (results.empty() || !recorders::has_unit_files(results));
+}
+
 void BranchRuns::connect(Branches& branches) {
   branches.set_work(
       {.prepare = [this](Time now) { return prepare(now); },
@@ -64,18 +71,11 @@ void BranchRuns::connect(Branches& branches) {
        .conclude = [this] { conclude(); }});
 }
 
-/// A unit's file that is open, or whose path it knows, would be that of all branches.
-bool BranchRuns::can_fork() const {
-  const auto is_hosted = [](const auto& hosting) { return hosting.has_value(); };
-  return std::ranges::none_of(setup_.loaded.hostings(), is_hosted) && !has_threads() &&
-         setup_.arguments.scenario.film.empty() &&
-         !recorders::has_unit_files(setup_.results.folder);
-}
-
 bool BranchRuns::prepare(Time now) {
   setup_.recorded.flush();
   fs::create_directories(setup_.results.folder / kBranchesFolder);
-  if (can_fork()) return false;
+  const bool has_film = !setup_.arguments.scenario.film.empty();
+  if (!has_film && can_fork(setup_.loaded, setup_.results.folder)) return false;
   checkpoint_ = fs::absolute(setup_.results.folder) / kBranchesFolder / "begin.zip";
   checkpoint::write_checkpoint(checkpoint_, setup_.take(now));
   return true;

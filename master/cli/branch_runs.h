@@ -22,6 +22,10 @@ namespace stride::cli {
 std::vector<Branch> read_branches(const RunArguments& arguments,
                                   const scenario::LoadedScenario& loaded);
 
+/// Whether a fork of this process can go on with a run, beside it: not where units have processes
+/// of their own or have written files, and not with several threads.
+bool can_fork(const scenario::LoadedScenario& loaded, const std::filesystem::path& results);
+
 /// What the branches go on with.
 struct BranchSetup {
   const RunArguments& arguments;
@@ -44,7 +48,6 @@ class BranchRuns {
   void make_rest(const Branch& branch);
   std::string explain(const Branch& branch, const std::string& reason) const;
   void conclude() const;
-  bool can_fork() const;
   std::filesystem::path folder(const Branch& branch) const;
   [[noreturn]] void resume(const Branch& branch) const;
 

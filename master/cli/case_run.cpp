@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "master/cli/branch_runs.h"
 #include "master/cli/crash_guard.h"
 #include "master/cli/output.h"
 #include "master/cli/provenance.h"
@@ -90,9 +91,28 @@ core::RunOptions CaseRun::run_options() const {
 }
 
 CaseResult CaseRun::run() {
+  return result_of([&] { recorded_.run(); });
+}
+
+bool CaseRun::prepare_rest() {
+  if (!can_fork(loaded_, target_.folder)) return false;
+  recorded_.flush();
+  return true;
+}
+
+CaseResult CaseRun::run_rest(std::span<const scenario::InterventionDeclaration> interventions,
+                             Time from, const CaseResults& results) {
+  target_ = target_of(results, loaded_);
+  provenance_.commands = {results.command};
+  return result_of(
+      [&] { recorded_.run_rest(loaded_.interventions_of_branch(interventions, from)); });
+}
+
+template <class Go>
+CaseResult CaseRun::result_of(Go&& go) {
   std::optional<std::string> failure;
   try {
-    recorded_.run();
+    go();
   } catch (const core::TakenFileError& taken) {
     end_with(taken.what());
   } catch (const std::exception& error) {

@@ -37,6 +37,14 @@ class CaseRun {
 
   /// To its end, be it good or not.
   campaign::CaseResult run();
+  /// Before run().
+  void set_control(core::RunControl& control) { recorded_.set_control(control); }
+  /// In a pause, before the process is forked: whether it can be.
+  bool prepare_rest();
+  /// In a fork of the process, in place of what follows the pause: with these interventions, of
+  /// which none begins before that instant, and with results of its own.
+  campaign::CaseResult run_rest(std::span<const scenario::InterventionDeclaration> interventions,
+                                Time from, const CaseResults& results);
   /// Then the result is none.
   bool was_interrupted() const;
 
@@ -55,12 +63,14 @@ class CaseRun {
   static ResultsTarget target_of(const CaseResults& results,
                                  const scenario::LoadedScenario& loaded);
   core::RunOptions run_options() const;
+  template <class Go>
+  campaign::CaseResult result_of(Go&& go);
 
   const core::SpareFiles spare_;
   const Interruption interruption_;
   const scenario::LoadedScenario loaded_;
-  const ResultsTarget target_;
-  const recorders::Provenance provenance_;
+  ResultsTarget target_;
+  recorders::Provenance provenance_;
   campaign::Aggregates aggregates_;
   core::RunOptions options_;
   capture::Capture capture_;

@@ -12,11 +12,13 @@
 #include "master/cli/case_run.h"
 #include "master/cli/command_line.h"
 #include "master/cli/crash_guard.h"
+#include "master/cli/interruption.h"
 #include "master/cli/output.h"
 #include "master/cli/provenance.h"
 #include "master/cli/report_page.h"
 #include "master/util/error.h"
 #include "master/util/input_file.h"
+#include "master/util/process/deadline.h"
 
 namespace stride::cli {
 namespace {
@@ -25,7 +27,6 @@ namespace fs = std::filesystem;
 using campaign::CaseResult;
 using campaign::Outcome;
 using End = isolation::ChildOutcome::End;
-using Results = campaign::Keep::Results;
 
 struct EndOfCase {
   ~EndOfCase() { end_guarding(); }
@@ -72,15 +73,6 @@ CaseRunner::CaseRunner(const campaign::Plan& plan, const campaign::CampaignScena
     provenance_of(alternative.loaded, digests_);
 }
 
-bool CaseRunner::has_results_anyway(std::uint64_t index) const {
-  const campaign::Keep& keep = plan_.campaign().keep;
-  return keep.results == Results::All || (keep.every != 0 && index % keep.every == 0);
-}
-
-bool CaseRunner::may_have_results(std::uint64_t index) const {
-  return has_results_anyway(index) || plan_.campaign().keep.results == Results::Failed;
-}
-
 std::string CaseRunner::run(std::uint64_t index) const {
   const EndOfCase end;
   bool was_interrupted = false;
@@ -88,17 +80,25 @@ std::string CaseRunner::run(std::uint64_t index) const {
   return was_interrupted ? "" : campaign::record_line(plan_, plan_.at(index), result);
 }
 
+scenario::ScenarioRequest CaseRunner::request(std::uint64_t index) const {
+  scenario::ScenarioRequest request = plan_.request(plan_.at(index));
+  request.files = scenario_.loaded().scenario().files;
+  request.units = scenario_.units();
+  return request;
+}
+
+CaseResults CaseRunner::results(std::uint64_t index) const {
+  const campaign::Keep& keep = plan_.campaign().keep;
+  return {.folder = keep.may_be_kept(index) ? scratch_.results(index) : fs::path(),
+          .has_report = keep.are_kept_anyway(index),
+          .command = {plan_.words(plan_.at(index)), command_line().folder},
+          .digests = digests_};
+}
+
 CaseResult CaseRunner::simulate(std::uint64_t index, bool& was_interrupted) const {
   CrashGuard guard(tell_of_crash);
   try {
-    scenario::ScenarioRequest request = plan_.request(plan_.at(index));
-    request.files = scenario_.loaded().scenario().files;
-    request.units = scenario_.units();
-    CaseRun run(request, plan_.campaign().aggregates,
-                {.folder = may_have_results(index) ? scratch_.results(index) : fs::path(),
-                 .has_report = has_results_anyway(index),
-                 .command = {plan_.words(plan_.at(index)), command_line().folder},
-                 .digests = digests_});
+    CaseRun run(request(index), plan_.campaign().aggregates, results(index));
     const CrashGuard::Scope scope(guard, [&](const std::string& error) {
       tell_of_crash(error);
       run.abandon(error);
@@ -109,6 +109,86 @@ CaseResult CaseRunner::simulate(std::uint64_t index, bool& was_interrupted) cons
   } catch (const std::exception& mistake) {
     return {.outcome = Outcome::Error, .reason = in_words(mistake)};
   }
+}
+
+// ---- Several from a common beginning ----
+
+namespace {
+
+/// Ends the run of the beginning. It is no std::exception, so nothing takes it for a failure.
+struct EndOfBeginning {};
+
+/// Where the beginning ends.
+class Fork final : public core::RunControl {
+ public:
+  Fork(Time time, std::function<void()> work) : time_(time), work_(std::move(work)) {}
+
+  std::optional<core::Pause> next(Time /*now*/) override {
+    return core::Pause{.time = time_, .before = true};
+  }
+  void on_pause(Time /*now*/) override {
+    work_();
+    throw EndOfBeginning();
+  }
+
+ private:
+  Time time_;
+  std::function<void()> work_;
+};
+
+}  // namespace
+
+std::string CaseRunner::run_together(const campaign::SharedBeginning& shared, std::size_t jobs,
+                                     const isolation::ChildOptions& options) const {
+  const EndOfCase end;
+  const CrashGuard guard;
+  std::optional<core::Deadline> deadline(options.limit);
+  const std::uint64_t first = shared.cases.front();
+  CaseResults results = this->results(first);
+  if (!results.folder.empty()) results.folder = scratch_.file(fmt::format("beginning_{}", first));
+  scenario::ScenarioRequest request = this->request(first);
+  request.interventions.clear();
+  try {
+    CaseRun run(request, plan_.campaign().aggregates, results);
+    Fork fork(shared.until, [&] {
+      deadline.reset();
+      if (!run.prepare_rest()) return;
+      CasePool pool(jobs, options);
+      const auto collect = [&] {
+        if (const auto ended = pool.collect(std::chrono::milliseconds(100))) conclude(*ended);
+      };
+      for (const std::uint64_t index : shared.cases) {
+        while (pool.is_full()) collect();
+        if (Interruption::flag() != 0) break;
+        pool.start(index, [&, index] { return simulate_rest(index, shared, run); });
+      }
+      while (!pool.is_empty()) collect();
+    });
+    run.set_control(fork);
+    run.run();
+  } catch (const EndOfBeginning&) {
+  } catch (const std::exception&) {  // each case says it for itself
+  }
+  std::error_code ignored;  // it goes with the folder that it is in
+  fs::remove_all(results.folder, ignored);
+  return "";
+}
+
+std::string CaseRunner::simulate_rest(std::uint64_t index, const campaign::SharedBeginning& shared,
+                                      CaseRun& run) const {
+  const EndOfCase end;
+  const CrashGuard guard([&](const std::string& error) {
+    tell_of_crash(error);
+    run.abandon(error);
+  });
+  CaseResult result;
+  try {
+    const auto interventions = plan_.request(plan_.at(index)).interventions;
+    result = run.run_rest(interventions, shared.until, results(index));
+  } catch (const std::exception& mistake) {
+    result = {.outcome = Outcome::Error, .reason = in_words(mistake)};
+  }
+  return run.was_interrupted() ? "" : campaign::record_line(plan_, plan_.at(index), result);
 }
 
 std::optional<CaseResult> CaseRunner::result_of(const CasePool::Ended& ended) const {
@@ -145,7 +225,8 @@ std::optional<CaseResult> CaseRunner::conclude(const CasePool::Ended& ended) con
   }
   result->wall_time = ended.wall_time.count();
   result->reason = with_lasting_paths(ended.index, std::move(result->reason));
-  const bool is_wanted = has_results_anyway(ended.index) || result->outcome != Outcome::Passed;
+  const bool is_wanted =
+      plan_.campaign().keep.are_kept_anyway(ended.index) || result->outcome != Outcome::Passed;
   result->has_results = is_wanted && core::is_folder(scratch_.results(ended.index));
   if (result->has_results) {
     warn_of_failure([&] { complete_results(ended.index, *result); });

@@ -15,21 +15,6 @@ using KindType = ValueKind::Type;
 
 namespace {
 
-/// All of this kind but for texts.
-Plan plan_of(const std::string& text, KindType type = KindType::Float64) {
-  Campaign campaign = read_text(text);
-  std::vector<ValueKind> kinds;
-  for (const PlanColumn& column : plan_columns(campaign)) {
-    const bool is_instant = column.part == "from" || column.part == "until" || column.part == "at";
-    kinds.push_back({.type = column.role == PlanColumn::Role::Swap ? KindType::Text
-                             : is_instant                          ? KindType::Instant
-                                                                   : type});
-  }
-  Fingerprints fingerprints{"1.0", {{"x.ssd", "f"}}, {{"a", "u"}, {"s", "v"}}, {}};
-  fingerprints.alternatives[{"device", "new"}] = "w";
-  return Plan(std::move(campaign), std::move(kinds), std::move(fingerprints));
-}
-
 std::string row_text(const Plan& plan, std::uint64_t index) {
   std::string text;
   for (const Text& value : plan.at(index).values) {

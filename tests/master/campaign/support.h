@@ -5,6 +5,7 @@
 #include <string>
 
 #include "master/campaign/campaign_file.h"
+#include "master/campaign/plan.h"
 #include "tests/build.h"
 #include "tests/master/ssp/support.h"
 
@@ -28,6 +29,24 @@ inline std::string campaign_text(const std::string& distributions,
 inline campaign::Campaign read_text(const std::string& text) {
   const TemporaryFolder folder;
   return campaign::read_campaign(folder.write("c.xosc", text));
+}
+
+/// All of this kind but for texts.
+inline campaign::Plan plan_of(const std::string& text,
+                              campaign::ValueKind::Type type = campaign::ValueKind::Type::Float64) {
+  using namespace stride::campaign;
+  using KindType = ValueKind::Type;
+  Campaign read = read_text(text);
+  std::vector<ValueKind> kinds;
+  for (const PlanColumn& column : plan_columns(read)) {
+    const bool is_instant = column.part == "from" || column.part == "until" || column.part == "at";
+    kinds.push_back({.type = column.role == PlanColumn::Role::Swap ? KindType::Text
+                             : is_instant                          ? KindType::Instant
+                                                                   : type});
+  }
+  Fingerprints fingerprints{"1.0", {{"x.ssd", "f"}}, {{"a", "u"}, {"s", "v"}}, {}};
+  fingerprints.alternatives[{"device", "new"}] = "w";
+  return Plan(std::move(read), std::move(kinds), std::move(fingerprints));
 }
 
 inline std::string deterministic(const std::string& inside) {

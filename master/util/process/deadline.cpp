@@ -1,0 +1,30 @@
+#include "master/util/process/deadline.h"
+
+#include <cerrno>
+#include <csignal>
+#include <system_error>
+
+namespace stride::core {
+
+Deadline::Deadline(std::optional<std::chrono::milliseconds> limit) {
+  if (!limit) return;
+  sigevent kill{};
+  kill.sigev_notify = SIGEV_SIGNAL;
+  kill.sigev_signo = SIGKILL;
+  const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(*limit);
+  const std::chrono::nanoseconds rest = *limit - seconds;
+  const itimerspec once{{},
+                        {static_cast<time_t>(seconds.count()), static_cast<long>(rest.count())}};
+  timer_t timer{};
+  if (::timer_create(CLOCK_MONOTONIC, &kill, &timer) != 0) {
+    throw std::system_error(errno, std::generic_category(), "timer_create");
+  }
+  timer_ = timer;
+  ::timer_settime(timer, 0, &once, nullptr);
+}
+
+Deadline::~Deadline() {
+  if (timer_) ::timer_delete(*timer_);
+}
+
+}  // namespace stride::core
