@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <cctype>
 #include <cmath>
 #include <stdexcept>
 #include <utility>
@@ -15,6 +14,7 @@
 #include "master/util/boolean_text.h"
 #include "master/util/message_text.h"
 #include "master/util/sha256.h"
+#include "master/util/shell_word.h"
 #include "master/util/suggest.h"
 
 namespace stride::campaign {
@@ -99,18 +99,6 @@ std::vector<std::string> drawn_names(const Campaign& campaign) {
 SamplingMethod method_of(const Campaign& campaign) {
   const auto* const stochastic = std::get_if<Stochastic>(&campaign.variation);
   return stochastic != nullptr ? stochastic->method : SamplingMethod::Independent;
-}
-
-/// As a word of a command line of a shell.
-std::string shell_word(const std::string& text) {
-  const bool is_plain = !text.empty() && std::ranges::all_of(text, [](unsigned char c) {
-    return std::isalnum(c) != 0 ||
-           std::string_view("._-/=:@,+").find(static_cast<char>(c)) != std::string_view::npos;
-  });
-  if (is_plain) return text;
-  std::string word = "'";
-  for (const char c : text) word += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return word + "'";
 }
 
 }  // namespace
@@ -237,9 +225,9 @@ scenario::ScenarioRequest Plan::request(const Case& row) const {
 
 std::string Plan::arguments(const Case& row) const {
   const scenario::ScenarioRequest wanted = request(row);
-  std::string text = shell_word(wanted.scenario.string());
+  std::string text = core::shell_word(wanted.scenario.string());
   const auto add = [&](const std::string& option, const std::string& value) {
-    text += fmt::format(" {} {}", option, shell_word(value));
+    text += fmt::format(" {} {}", option, core::shell_word(value));
   };
   for (const std::string& swap : wanted.swaps) add("--swap", swap);
   for (const auto& value : wanted.parameters) add("--set", value.name + "=" + value.value);
