@@ -11,6 +11,7 @@
 #include "master/capture/capture.h"
 #include "master/cli/case_run.h"
 #include "master/cli/crash_guard.h"
+#include "master/cli/interruption.h"
 #include "master/cli/output.h"
 #include "master/cli/report_page.h"
 #include "master/util/error.h"
@@ -54,6 +55,13 @@ CaseResult crashed(const isolation::ChildOutcome& outcome) {
                  : fmt::format("its process ended with the exit code {}", outcome.code);
   }
   return {.outcome = Outcome::Crashed, .reason = std::move(reason)};
+}
+
+/// A workload manager ends all processes of a job at once, those of hosted units as well, and what
+/// became of a case that had lost one would be its error.
+bool is_end_of_all(const CaseResult& result) {
+  const bool was_complete = result.outcome == Outcome::Passed || result.outcome == Outcome::Failed;
+  return !was_complete && Interruption::flag() != 0;
 }
 
 }  // namespace
@@ -126,7 +134,7 @@ std::optional<CaseResult> CaseRunner::result_of(const CasePool::Ended& ended) co
 
 std::optional<CaseResult> CaseRunner::conclude(const CasePool::Ended& ended) const {
   std::optional<CaseResult> result = result_of(ended);
-  if (!result) {
+  if (!result || is_end_of_all(*result)) {
     scratch_.drop_results(ended.index);
     return std::nullopt;
   }
