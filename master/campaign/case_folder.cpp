@@ -36,9 +36,12 @@ core::Descriptor opened(const fs::path& folder) {
   return core::Descriptor(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
 }
 
-/// Whoever is at work in a folder holds its lock. A file system may have none.
-bool is_locked_by_other(const core::Descriptor& folder) {
-  return ::flock(folder.number(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+/// Whoever is at work in a folder holds its lock.
+enum class Lock { Taken, OfOther, None };  ///< a file system may have none
+
+Lock lock(const core::Descriptor& folder) {
+  if (::flock(folder.number(), LOCK_EX | LOCK_NB) == 0) return Lock::Taken;
+  return errno == EWOULDBLOCK ? Lock::OfOther : Lock::None;
 }
 
 void remove_leftovers(const fs::path& running, const std::string& host) {
@@ -46,7 +49,7 @@ void remove_leftovers(const fs::path& running, const std::string& host) {
   for (fs::directory_iterator it(running, ignored), end; it != end; it.increment(ignored)) {
     if (it->path().stem() != host) continue;
     const core::Descriptor folder = opened(it->path());
-    if (folder.is_open() && !is_locked_by_other(folder)) fs::remove_all(it->path(), ignored);
+    if (folder.is_open() && lock(folder) == Lock::Taken) fs::remove_all(it->path(), ignored);
   }
 }
 
@@ -102,7 +105,7 @@ bool CaseScratch::is_made() {
   std::error_code error;
   fs::create_directories(folder_, error);
   lock_ = opened(folder_);
-  if (error || !lock_.is_open() || is_locked_by_other(lock_)) return false;
+  if (error || !lock_.is_open() || lock(lock_) == Lock::OfOther) return false;
   return core::FileIdentity::of(lock_.number()) == core::FileIdentity::of(folder_.c_str());
 }
 

@@ -46,7 +46,8 @@ class CaseFolder {
 /// may be at work.
 class CaseScratch {
  public:
-  /// Removes what processes of this host have left that were killed. `folder` must outlive this.
+  /// Removes what processes of this host have left that were killed, unless the file system has no
+  /// locks (flock), which tell them from those at work. `folder` must outlive this.
   /// Throws core::Error (Input) if nothing can be written there.
   explicit CaseScratch(const CaseFolder& folder);
   ~CaseScratch();

@@ -59,6 +59,13 @@ CaseResult crashed(const isolation::ChildOutcome& outcome) {
   return {.outcome = Outcome::Crashed, .reason = std::move(reason)};
 }
 
+/// A workload manager ends all processes of a job at once, those of hosted units as well, and what
+/// became of a case that had lost one would be its error.
+bool is_end_of_all(const CaseResult& result) {
+  const bool was_complete = result.outcome == Outcome::Passed || result.outcome == Outcome::Failed;
+  return !was_complete && Interruption::flag() != 0;
+}
+
 }  // namespace
 
 CaseRunner::CaseRunner(const campaign::Plan& plan, const campaign::CampaignScenario& scenario,
@@ -213,7 +220,7 @@ std::optional<CaseResult> CaseRunner::result_of(const CasePool::Ended& ended) co
 
 std::optional<CaseResult> CaseRunner::conclude(const CasePool::Ended& ended) const {
   std::optional<CaseResult> result = result_of(ended);
-  if (!result) {
+  if (!result || is_end_of_all(*result)) {
     scratch_.drop_results(ended.index);
     return std::nullopt;
   }

@@ -1,0 +1,33 @@
+#include "master/campaign/case_range.h"
+
+#include <charconv>
+#include <system_error>
+
+#include <fmt/format.h>
+
+namespace stride::campaign {
+namespace {
+
+std::optional<std::uint64_t> case_index(std::string_view text) {
+  std::uint64_t index = 0;
+  const char* const end = text.data() + text.size();
+  const auto [rest, error] = std::from_chars(text.data(), end, index);
+  return error == std::errc() && rest == end ? std::optional(index) : std::nullopt;
+}
+
+}  // namespace
+
+std::string to_text(const CaseRange& range) {
+  if (range.first == range.last) return fmt::format("{}", range.first);
+  return fmt::format("{}-{}", range.first, range.last);
+}
+
+std::optional<CaseRange> parse_case_range(std::string_view text) {
+  const std::size_t dash = text.find('-');
+  const auto first = case_index(text.substr(0, dash));
+  const auto last = dash == std::string_view::npos ? first : case_index(text.substr(dash + 1));
+  if (!first || !last || *first > *last) return std::nullopt;
+  return CaseRange{*first, *last};
+}
+
+}  // namespace stride::campaign
