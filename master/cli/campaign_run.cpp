@@ -1,7 +1,7 @@
 #include "master/cli/campaign_run.h"
 
+#include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <memory>
 #include <optional>
 #include <string>
@@ -17,11 +17,11 @@
 #include "master/campaign/case_table.h"
 #include "master/campaign/plan_folder.h"
 #include "master/cli/campaign_input.h"
-#include "master/cli/campaign_progress.h"
 #include "master/cli/case_pool.h"
 #include "master/cli/case_runner.h"
 #include "master/cli/crash_guard.h"
 #include "master/cli/interruption.h"
+#include "master/cli/missing_cases.h"
 #include "master/cli/output.h"
 #include "master/cli/output_paths.h"
 #include "master/cli/table.h"
@@ -75,83 +75,6 @@ void print_summary(const CampaignInput& input, const campaign::CaseSummary& summ
              campaign::kCaseLines);
 }
 
-/// Those of a campaign that have no record, in a pool of processes.
-class MissingCases {
- public:
-  MissingCases(const CampaignRunArguments& arguments, const CampaignInput& input,
-               const campaign::CaseFolder& cases, const campaign::CaseScratch& scratch)
-      : cases_(cases),
-        runner_(input.plan(), input.scenario(), scratch),
-        pool_(jobs_of(arguments), child_options(input.plan().campaign())),
-        totals_(totals_before(input.plan())),
-        progress_(arguments.progress.value_or(arguments.quiet ? ProgressStyle::None
-                                                              : ProgressStyle::Auto),
-                  totals_) {}
-
-  /// Until all are there, or the user interrupts it.
-  void run() {
-    for (std::uint64_t i = 0; i < totals_.cases && !is_interrupted(); ++i) {
-      if (is_done_[i] || is_done_elsewhere(i)) continue;
-      while (pool_.is_full()) collect();
-      if (is_interrupted()) break;
-      pool_.start(i, [&] { return runner_.run(i); });
-    }
-    while (!pool_.is_empty()) collect();
-    progress_.end(totals_, is_interrupted() ? "interrupted" : "completed");
-  }
-
-  static bool is_interrupted() { return Interruption::flag() != 0; }
-
- private:
-  static std::size_t jobs_of(const CampaignRunArguments& arguments) {
-    return arguments.jobs != 0 ? arguments.jobs
-                               : std::max<std::size_t>(std::thread::hardware_concurrency(), 1);
-  }
-
- public:
-  static isolation::ChildOptions child_options(const campaign::Campaign& campaign) {
-    isolation::ChildOptions options{.limit = {}, .interrupted = &Interruption::flag()};
-    if (campaign.wall_time_limit) {
-      options.limit = std::chrono::milliseconds(std::llround(*campaign.wall_time_limit * 1000));
-    }
-    return options;
-  }
-
- private:
-  campaign::CaseTotals totals_before(const campaign::Plan& plan) {
-    campaign::CaseTotals totals{.cases = plan.size()};
-    is_done_.resize(plan.size());
-    for (std::uint64_t i = 0; i < plan.size(); ++i) {
-      const auto record = cases_.read(i);
-      if (!record) continue;
-      is_done_[i] = true;
-      totals.add(record->result.outcome);
-    }
-    return totals;
-  }
-
-  /// By another process, since this one began.
-  bool is_done_elsewhere(std::uint64_t index) {
-    const auto record = cases_.read(index);
-    if (record) totals_.add(record->result.outcome);
-    return record.has_value();
-  }
-
-  void collect() {
-    const auto ended = pool_.collect(std::chrono::milliseconds(100));
-    if (!ended) return progress_.show(totals_);
-    if (const auto result = runner_.conclude(*ended)) totals_.add(result->outcome);
-    progress_.show(totals_);
-  }
-
-  const campaign::CaseFolder& cases_;
-  const CaseRunner runner_;
-  CasePool pool_;
-  std::vector<bool> is_done_;
-  campaign::CaseTotals totals_;
-  CampaignProgress progress_;
-};
-
 void require_all_passed(const CampaignInput& input, const campaign::CaseTotals& totals) {
   if (MissingCases::is_interrupted()) {
     core::fail_run({},
@@ -164,12 +87,21 @@ void require_all_passed(const CampaignInput& input, const campaign::CaseTotals& 
                                  totals.failed == 1 ? "has" : "have"));
 }
 
+MissingCases::Options missing_options(const CampaignRunArguments& arguments,
+                                      const CampaignInput& input) {
+  const std::size_t cores = std::max<std::size_t>(std::thread::hardware_concurrency(), 1);
+  return {.range = {0, input.plan().size() - 1},
+          .jobs = arguments.jobs != 0 ? arguments.jobs : cores,
+          .progress = arguments.progress.value_or(arguments.quiet ? ProgressStyle::None
+                                                                  : ProgressStyle::Auto)};
+}
+
 void run_missing(const CampaignRunArguments& arguments, const CampaignInput& input) {
   const recorders::ResultsLock lock(input.folder());
   const campaign::CaseFolder cases(input.plan(), input.folder());
   const campaign::CaseScratch scratch(cases);
   const Interruption interruption;
-  MissingCases(arguments, input, cases, scratch).run();
+  MissingCases(input, cases, scratch, missing_options(arguments, input)).run();
   const campaign::CaseSummary summary =
       write_case_tables(input.plan(), cases, scratch, kShownFailures);
   if (!arguments.junit.empty()) {
@@ -185,7 +117,7 @@ std::optional<campaign::CaseResult> run_case(const CampaignInput& input,
   const campaign::CaseScratch scratch(cases);
   const Interruption interruption;
   const CaseRunner runner(input.plan(), input.scenario(), scratch);
-  CasePool pool(1, MissingCases::child_options(input.plan().campaign()));
+  CasePool pool(1, case_options(input.plan().campaign()));
   pool.start(index, [&] { return runner.run(index); });
   std::optional<CasePool::Ended> ended;
   while (!ended) ended = pool.collect(std::chrono::hours(1));

@@ -5,9 +5,10 @@
 
 namespace stride::cli {
 
-void CasePool::start(std::uint64_t index, const std::function<std::string()>& work) {
+void CasePool::start(std::uint64_t index, const std::function<std::string()>& work,
+                     const isolation::ChildOptions& options) {
   const auto begin = Clock::now();
-  running_.push_back({index, begin, isolation::Child(work, options_)});
+  running_.push_back({index, begin, isolation::Child(work, options)});
 }
 
 std::optional<CasePool::Ended> CasePool::collect(std::chrono::milliseconds patience) {

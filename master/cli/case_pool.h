@@ -30,7 +30,12 @@ class CasePool {
   bool is_empty() const { return running_.empty(); }
 
   /// Forks this process. Throws std::system_error if that is not possible.
-  void start(std::uint64_t index, const std::function<std::string()>& work);
+  void start(std::uint64_t index, const std::function<std::string()>& work) {
+    start(index, work, options_);
+  }
+  /// Likewise, with other options.
+  void start(std::uint64_t index, const std::function<std::string()>& work,
+             const isolation::ChildOptions& options);
 
   /// One that has ended; nothing if none does within the patience.
   std::optional<Ended> collect(std::chrono::milliseconds patience);

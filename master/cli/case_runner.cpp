@@ -131,9 +131,11 @@ class Fork final : public core::RunControl {
   Fork(Time time, std::function<void()> work) : time_(time), work_(std::move(work)) {}
 
   std::optional<core::Pause> next(Time /*now*/) override {
+    if (is_over_) return std::nullopt;
     return core::Pause{.time = time_, .before = true};
   }
   void on_pause(Time /*now*/) override {
+    is_over_ = true;
     work_();
     throw EndOfBeginning();
   }
@@ -141,6 +143,7 @@ class Fork final : public core::RunControl {
  private:
   Time time_;
   std::function<void()> work_;
+  bool is_over_ = false;  ///< in forks, too
 };
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include <sys/mount.h>
 
 #include "tests/build.h"
+#include "tests/cli/course.h"
 #include "tests/cli/failures.h"
 #include "tests/cli/leftovers.h"
 
@@ -251,6 +252,98 @@ TEST_CASE("a case that exhausts the memory is a row, and the others go on") {
   CHECK(outcome.exit_code == 1);
   space.check_row(0, "error", "bad_alloc");
   space.check_row(1, "passed", "");
+}
+
+namespace {
+
+/// A set of values of one parameter.
+std::string values(const std::string& name, std::initializer_list<const char*> texts) {
+  std::string elements;
+  for (const char* text : texts) elements += "<Element value='" + std::string(text) + "'/>";
+  return "<DeterministicSingleParameterDistribution parameterName='" + name +
+         "'><DistributionSet>" + elements +
+         "</DistributionSet></DeterministicSingleParameterDistribution>";
+}
+
+/// Combinations of two start values with interventions at 0.5 s or later, of which some fail.
+std::string late_interventions(const std::string& extension) {
+  return "<OpenSCENARIO><FileHeader revMajor='1' revMinor='1' date='2026-01-01T00:00:00' "
+         "description='' author=''/><ParameterValueDistribution>"
+         "<ScenarioFile filepath='test.ssd'/><Deterministic>" +
+         values("first.u", {"0.25", "0.5"}) + values("wire.from", {"0.75", "0.5"}) +
+         values("wire.value", {"0", "0.5", "9"}) +
+         "</Deterministic></ParameterValueDistribution>"
+         "<stride:Campaign xmlns:stride='urn:org.stride:campaign:1'>"
+         "<stride:Aggregate name='last' signal='second.y' function='final'/>"
+         "<stride:Aggregate name='mean' signal='second.y' function='mean'/>"
+         "<stride:Intervention name='wire'><stride:Force variable='second.u' value='0' from='0.5'/>"
+         "</stride:Intervention>" +
+         extension + "</stride:Campaign></OpenSCENARIO>";
+}
+
+Parts checked_second() {
+  Parts parts = two_filters();
+  parts.annotation =
+      "<stride:Checks><stride:Always name='bounded' signal='second.y' max='1'/></stride:Checks>\n";
+  return parts;
+}
+
+}  // namespace
+
+TEST_CASE("cases that share a beginning are what they are alone") {
+  const std::string keep =
+      GENERATE(as<std::string>(), "<stride:Keep results='failed'/>", "<stride:Keep results='all'/>",
+               "<stride:Keep results='none' every='5'/>");
+  CAPTURE(keep);
+  const CampaignRuns space(late_interventions(keep), checked_second());
+  const Outcome outcome = space.campaign("together", {"--junit", "junit.xml"});
+  INFO(outcome.err);
+  CHECK(outcome.exit_code == 1);
+  for (int i = 0; i < 12; ++i) {
+    space.campaign("alone", {"--case", std::to_string(i)});
+  }
+  CHECK(records_in(space / "alone") == 12);
+  CHECK(space.stride({"campaign", "status", "alone"}).exit_code == 0);
+  CHECK_THAT(outcome.err, Contains("of 12 cases have not passed"));
+  CHECK(space.table("together") == space.table("alone"));
+  for (int i = 0; i < 12; ++i) {
+    const fs::path results = "cases/000/0000" + std::string(i < 10 ? "0" : "") + std::to_string(i);
+    const bool is_kept = fs::exists(space / "alone" / results);
+    CHECK(fs::exists(space / "together" / results) == is_kept);
+    if (is_kept) check_same_results(space / "alone" / results, space / "together" / results);
+  }
+  CHECK_FALSE(fs::exists(space / "together/running"));
+  CHECK(space.left_behind().empty());
+}
+
+TEST_CASE("a beginning that fails, or a rest that does, is a row for each case") {
+  const std::string fault = GENERATE("segfault", "sleep");
+  CAPTURE(fault);
+  const std::string failed = fault == "sleep" ? "timed out" : "crashed";
+  const auto rows = [&](const std::string& at) {
+    const CampaignRuns space(
+        "<OpenSCENARIO><FileHeader revMajor='1' revMinor='1' date='2026-01-01T00:00:00' "
+        "description='' author=''/><ParameterValueDistribution>"
+        "<ScenarioFile filepath='test.ssd'/><Deterministic>" +
+            values("c.call", {"step"}) + values("c.fault", {fault.c_str()}) +
+            values("c.at", {at.c_str()}) + values("late.value", {"2", "0.75", "3"}) +
+            "</Deterministic></ParameterValueDistribution>"
+            "<stride:Campaign xmlns:stride='urn:org.stride:campaign:1'>"
+            "<stride:Intervention name='late'><stride:Set variable='c.at' value='2' at='0.5'/>"
+            "</stride:Intervention><stride:Limit wallTime='2'/>" +
+            kKeepNone + "</stride:Campaign></OpenSCENARIO>",
+        {component("c", "faulty.fmu"), ""});
+    const Leftovers leftovers;
+    const Outcome outcome = space.campaign("out", {"--jobs", "2"});
+    INFO(outcome.err);
+    CHECK(outcome.exit_code == 1);
+    CHECK(leftovers.after_a_while().empty());
+    std::vector<std::string> outcomes;
+    for (int i = 0; i < 3; ++i) outcomes.push_back(space.line("out", i)["outcome"]);
+    return outcomes;
+  };
+  CHECK(rows("2") == std::vector<std::string>{"passed", failed, "passed"});
+  CHECK(rows("0.25") == std::vector<std::string>{failed, failed, failed});
 }
 
 TEST_CASE("a campaign that is interrupted says how it goes on") {
