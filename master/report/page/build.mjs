@@ -114,6 +114,12 @@ const cppSource = (functions) =>
 /** By the names of their functions in C++. */
 const kPages = {
   page: { file: "report_page.html", script: "src/main.js", style: "src/style.css", what: "run" },
+  campaign_page: {
+    file: "campaign_page.html",
+    script: "src/campaign/main.js",
+    style: "src/campaign/style.css",
+    what: "campaign",
+  },
 };
 
 await mkdir(output, { recursive: true });
