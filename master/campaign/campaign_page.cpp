@@ -26,11 +26,16 @@ using report::json_text;
 
 constexpr int kFormat = 1;
 
-fs::path folder_of(const fs::path& file) { return fs::absolute(file).lexically_normal().parent_path(); }
+fs::path folder_of(const fs::path& file) {
+  return fs::absolute(file).lexically_normal().parent_path();
+}
 
 /// As seen from the page, with slashes.
 std::string seen_from(const fs::path& page, const fs::path& folder) {
-  return fs::absolute(folder).lexically_normal().lexically_proximate(folder_of(page)).generic_string();
+  return fs::absolute(folder)
+      .lexically_normal()
+      .lexically_proximate(folder_of(page))
+      .generic_string();
 }
 
 Json confidence_json(const Confidence& confidence) { return {confidence.low, confidence.high}; }
@@ -76,7 +81,8 @@ Json campaign_json(const Plan& plan) {
   const auto* const drawn = std::get_if<Stochastic>(&campaign.variation);
   return {{"name", campaign.file.stem().string()},
           {"file", campaign.file.filename().string()},
-          {"scenario", campaign.scenario.lexically_proximate(campaign.file.parent_path()).generic_string()},
+          {"scenario",
+           campaign.scenario.lexically_proximate(campaign.file.parent_path()).generic_string()},
           {"sampling", drawn != nullptr ? name(drawn->method) : "all combinations"},
           {"random_seed", drawn != nullptr ? Json(campaign.random_seed) : Json()},
           {"keep", name(campaign.keep.results)},
@@ -138,8 +144,8 @@ class PageWriter {
     member("parameters", "[");
     for (std::size_t i = 0; i < columns_.parameters.size(); ++i) {
       const ParameterColumn& column = columns_.parameters[i];
-      file_.write(fmt::format(R"({}{{"name":{},"values":)", i == 0 ? "" : ",",
-                              json_text(column.name)));
+      file_.write(
+          fmt::format(R"({}{{"name":{},"values":)", i == 0 ? "" : ",", json_text(column.name)));
       file_.write(column.is_number ? report::blob(std::span(column.numbers))
                                    : report::blob(texts_of(column)));
       file_.write('}');
@@ -204,7 +210,8 @@ std::vector<std::string> links_to(const CaseFolder& cases, const CaseColumns& co
     }
     const fs::path results = cases.results_name(static_cast<std::uint64_t>(columns.indices[i]));
     const bool has_page = !report.empty() && core::is_file(cases.path() / results / report);
-    links.push_back((base / results / (has_page ? report : "")).lexically_normal().generic_string());
+    links.push_back(
+        (base / results / (has_page ? report : "")).lexically_normal().generic_string());
   }
   return links;
 }

@@ -27,8 +27,7 @@ std::optional<double> pearson(std::span<const double> x, std::span<const double>
 
 std::optional<Confidence> confidence_of(double r, std::size_t count) {
   if (count < 4 || std::abs(r) == 1) return std::nullopt;
-  const double spread =
-      kQuantile * std::sqrt((1 + r * r / 2) / (static_cast<double>(count) - 3));
+  const double spread = kQuantile * std::sqrt((1 + r * r / 2) / (static_cast<double>(count) - 3));
   return Confidence{std::tanh(std::atanh(r) - spread), std::tanh(std::atanh(r) + spread)};
 }
 

@@ -33,9 +33,9 @@ struct RankCorrelation {
 /// (2000), 23-28. It is an approximation, the rougher the more ties there are.
 RankCorrelation rank_correlation(std::span<const double> x, std::span<const double> y);
 
-/// Of the share of `hits` in `count` trials, which is not 0: the score interval of Wilson, "Probable
-/// inference, the law of succession, and statistical inference", JASA 22 (1927), 209-212, without
-/// correction for continuity.
+/// Of the share of `hits` in `count` trials, which is not 0: the score interval of Wilson,
+/// "Probable inference, the law of succession, and statistical inference", JASA 22 (1927), 209-212,
+/// without correction for continuity.
 Confidence share_confidence(std::uint64_t hits, std::uint64_t count);
 
 }  // namespace stride::campaign

@@ -223,8 +223,8 @@ void run_campaign(const CampaignRunArguments& arguments) {
   const CampaignInput input(arguments.campaign);
   if (arguments.only) input.require_case(*arguments.only);
   using namespace campaign;
-  input.refuse_inputs({kPlanTable, kPlanDescription, kCaseTable, kCaseLines, kCampaignPage, kCases,
-                       kRunning});
+  input.refuse_inputs(
+      {kPlanTable, kPlanDescription, kCaseTable, kCaseLines, kCampaignPage, kCases, kRunning});
   if (!arguments.junit.empty()) {
     const OutputPath output{"--junit " + arguments.junit.string(), arguments.junit};
     refuse_kept_paths({&output, 1}, inputs_of(input.scenario().loaded()));

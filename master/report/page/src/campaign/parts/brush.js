@@ -76,7 +76,8 @@ export class Brush {
     from.addEventListener("change", change);
     until.addEventListener("change", change);
     this.showFields = (limits) => {
-      const text = (value) => (value === undefined || !Number.isFinite(value) ? "" : numberText(Number(value.toPrecision(6))));
+      const text = (value) =>
+        value === undefined || !Number.isFinite(value) ? "" : numberText(Number(value.toPrecision(6)));
       if (document.activeElement !== from) from.value = text(limits?.[0]);
       if (document.activeElement !== until) until.value = text(limits?.[1]);
     };

@@ -4,7 +4,7 @@ import { h, svg } from "../../dom.js";
 const kWidth = 150;
 const kHeight = 18;
 
-const signed = (value) => `${value < 0 ? "−" : ""}${Math.abs(value).toFixed(2)}`;
+const signed = (value) => `${value <= -0.005 ? "−" : ""}${Math.abs(value).toFixed(2)}`;
 const percent = (share) => `${(share * 100).toFixed(share > 0 && share < 0.1 ? 1 : 0)} %`;
 
 /** Whether 0 is not within the interval. */
@@ -12,15 +12,17 @@ export const isClear = ({ confidence }) => confidence !== null && (confidence[0]
 
 /** Those that decide most of all are first; what is not known is last. */
 export function byStrength(correlations) {
+  const size = ({ value }) => (value === null ? -1 : Math.abs(value));
   const strength = ({ failure, aggregates }) =>
-    failure.value !== null ? 2 + Math.abs(failure.value) : Math.max(-1, ...aggregates.map(({ value }) => Math.abs(value ?? -1)));
+    failure.value === null ? Math.max(-1, ...aggregates.map(size)) : 2 + size(failure);
   return [...correlations].sort((a, b) => strength(b) - strength(a));
 }
 
 /** An interval with its middle, on a line from `least` to `most`. */
 function intervalPicture(middle, [low, high], least, most, isStrong) {
   const x = (value) => (2 + ((value - least) / (most - least)) * (kWidth - 4)).toFixed(1);
-  const line = (from, to, name) => svg("line", { x1: x(from), x2: x(to), y1: kHeight / 2, y2: kHeight / 2, class: name });
+  const line = (from, to, name) =>
+    svg("line", { x1: x(from), x2: x(to), y1: kHeight / 2, y2: kHeight / 2, class: name });
   const zero = svg("line", { x1: x(0), x2: x(0), y1: 2, y2: kHeight - 2, class: "interval-zero" });
   return svg(
     "svg",
@@ -49,12 +51,7 @@ function correlationCell(found) {
 function correlationTable({ correlations, parameters, aggregates }) {
   const heads = ["parameter", "failure", ...aggregates.map(({ name }) => name)];
   const row = ({ parameter, failure, aggregates: others }) =>
-    h(
-      "tr",
-      {},
-      h("th", { scope: "row" }, parameters[parameter].name),
-      ...[failure, ...others].map(correlationCell),
-    );
+    h("tr", {}, h("th", { scope: "row" }, parameters[parameter].name), ...[failure, ...others].map(correlationCell));
   return h(
     "div.scroll",
     { tabIndex: 0, role: "region", "aria-label": "Rank correlations" },
@@ -101,7 +98,9 @@ function shareTable({ parameter, values, count }, parameters) {
 function chanceNote({ correlations }) {
   const all = correlations.flatMap(({ failure, aggregates }) => [failure, ...aggregates]);
   const count = all.filter(({ confidence }) => confidence !== null).length;
-  return count < 10 ? "" : ` Of ${count} such intervals about ${Math.max(1, Math.round(count / 20))} may miss by chance.`;
+  return count < 10
+    ? ""
+    : ` Of ${count} such intervals about ${Math.max(1, Math.round(count / 20))} may miss by chance.`;
 }
 
 export function decisiveSection(report) {

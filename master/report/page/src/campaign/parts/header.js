@@ -15,7 +15,8 @@ export function verdictOf(outcomes) {
   const failed = outcomes.reduce((sum, { cases }, i) => sum + (hasFailed(i) ? cases : 0), 0);
   const missing = outcomes[kMissing].cases;
   const verb = (count) => (count === 1 ? "has" : "have");
-  if (failed > 0) return { kind: "bad", text: `${numberOf(failed)} of ${numberOf(all)} cases ${verb(failed)} not passed` };
+  if (failed > 0)
+    return { kind: "bad", text: `${numberOf(failed)} of ${numberOf(all)} cases ${verb(failed)} not passed` };
   if (missing === all) return { kind: "open", text: "No case has been run" };
   if (missing > 0) return { kind: "open", text: `All ${numberOf(all - missing)} cases that have been run passed` };
   return { kind: "good", text: all === 1 ? "The case passed" : `All ${numberOf(all)} cases passed` };
@@ -71,7 +72,9 @@ function checkTable(checks) {
 }
 
 function numbersOf({ campaign, outcomes, wall_time }) {
-  const counted = outcomes.filter(({ cases }, i) => cases > 0 || i < 2).map(({ name, cases }) => [name, numberOf(cases)]);
+  const counted = outcomes
+    .filter(({ cases }, i) => cases > 0 || i < 2)
+    .map(({ name, cases }) => [name, numberOf(cases)]);
   const all = [["cases", numberOf(campaign.cases)], ...counted, ["wall time of all", `${briefText(wall_time)} s`]];
   return all.map(([what, text]) => h("div", {}, h("dt", {}, what), h("dd", {}, text)));
 }

@@ -1,7 +1,7 @@
 // Parallel coordinates: an axis for each column, a line for each case. A brush on an axis selects.
 import { h, sizedContext } from "../../dom.js";
 import { color } from "../../plot/colors.js";
-import { kDrawingOrder, kOutcomes, kPassed } from "../data/outcomes.js";
+import { kOutcomes } from "../data/outcomes.js";
 import { axisTicks, axisTitle, fitted } from "../plot/axis.js";
 import { Brush } from "./brush.js";
 
@@ -19,8 +19,18 @@ const kAtOnce = 20;
 
 const kInner = kHeight - kTop - kBottom;
 
-/** How much a line covers what is below it. */
-const opacity = (count) => Math.min(0.85, Math.max(0.08, 12 / Math.sqrt(count + 1) / 2));
+/** How much a line covers what is below it: the more lines, the less. */
+const opacity = (count) => Math.min(0.85, Math.max(0.03, 130 / (count + 1)));
+
+/** Rows that are drawn at once, in one colour. */
+function bundled(rows, name) {
+  const alpha = opacity(rows.length);
+  const bundles = [];
+  for (let first = 0; first < rows.length; first += kAtOnce) {
+    bundles.push({ rows: rows.slice(first, first + kAtOnce), name, alpha });
+  }
+  return bundles;
+}
 
 export class Parallel {
   constructor({ report, selection }) {
@@ -88,22 +98,27 @@ export class Parallel {
       return found;
     };
     if (!selection.isWhole) {
-      this.#stroke(pen, rows((i) => !selection.mask[i] && !selection.hidden.has(outcomes[i])), shares, "--unselected", 0.5);
+      const others = rows((i) => !selection.mask[i] && !selection.hidden.has(outcomes[i]));
+      this.#stroke(pen, bundled(others, "--unselected"), shares);
     }
-    for (const outcome of kDrawingOrder) {
-      const found = rows((i) => selection.mask[i] && outcomes[i] === outcome);
-      this.#stroke(pen, found, shares, kOutcomes[outcome].color, outcome === kPassed ? 1 : 1.6);
-    }
+    const bundles = kOutcomes.flatMap(({ color }, outcome) =>
+      bundled(
+        rows((i) => selection.mask[i] && outcomes[i] === outcome),
+        color,
+      ),
+    );
+    this.#stroke(pen, bundles, shares);
     pen.globalAlpha = 1;
   }
 
-  #stroke(pen, rows, shares, name, weight) {
-    pen.strokeStyle = color(name);
-    pen.globalAlpha = Math.min(0.9, opacity(rows.length) * weight);
+  /** In the order of the cases, so that no outcome hides another one. */
+  #stroke(pen, bundles, shares) {
     pen.lineWidth = 1;
-    for (let first = 0; first < rows.length; first += kAtOnce) {
+    for (const { rows, name, alpha } of bundles.sort((a, b) => a.rows[0] - b.rows[0])) {
+      pen.strokeStyle = color(name);
+      pen.globalAlpha = alpha;
       pen.beginPath();
-      for (const row of rows.slice(first, first + kAtOnce)) this.#trace(pen, row, shares);
+      for (const row of rows) this.#trace(pen, row, shares);
       pen.stroke();
     }
   }
@@ -143,7 +158,11 @@ export class Parallel {
       }
       pen.fillStyle = color("--text");
       pen.textAlign = "center";
-      pen.fillText(fitted(pen, axisTitle(column), Math.min(room, 2 * kSide - 6)), x, 14 + (i % 2 && room < 130 ? 14 : 0));
+      pen.fillText(
+        fitted(pen, axisTitle(column), Math.min(room, 2 * kSide - 6)),
+        x,
+        14 + (i % 2 && room < 130 ? 14 : 0),
+      );
     });
   }
 }

@@ -79,9 +79,22 @@ export class Scatter {
     this.#drawPoints(pen);
     const count = this.selection.count.toLocaleString("en");
     this.canvas.setAttribute("aria-label", `${this.y.name} over ${this.x.name} of ${count} cases`);
-    this.scale.textContent = this.shade
-      ? `From pale to strong: ${this.shade.name} from ${briefText(this.shade.least)} to ${briefText(this.shade.most)}.`
-      : "Drag to select a part, click on a point for its case.";
+    this.scale.textContent = [this.#shadeText(), this.#absentText()].filter(Boolean).join(" ");
+  }
+
+  #shadeText() {
+    if (!this.shade) return "Drag to select a part, click on a point for its case.";
+    const { name, least, most } = this.shade;
+    return `From pale to strong: ${name} from ${briefText(least)} to ${briefText(most)}.`;
+  }
+
+  /** What is not known has no place. */
+  #absentText() {
+    let absent = 0;
+    for (let i = 0; i < this.report.count; ++i) {
+      if (this.selection.mask[i] && Number.isNaN(this.xs[i] + this.ys[i])) ++absent;
+    }
+    return absent === 0 ? "" : `Without a value here: ${absent.toLocaleString("en")}.`;
   }
 
   #place() {
@@ -206,7 +219,12 @@ export class Scatter {
   }
 
   #showFrame([x, y], [toX, toY]) {
-    const style = { left: Math.min(x, toX), top: Math.min(y, toY), width: Math.abs(toX - x), height: Math.abs(toY - y) };
+    const style = {
+      left: Math.min(x, toX),
+      top: Math.min(y, toY),
+      width: Math.abs(toX - x),
+      height: Math.abs(toY - y),
+    };
     for (const [name, value] of Object.entries(style)) this.frame.style[name] = `${value}px`;
     this.frame.hidden = false;
   }
@@ -230,7 +248,9 @@ export class Scatter {
     if (row < 0) return this.tip.hide();
     const { cases } = this.report;
     const shown = [...new Set([this.x, this.y, ...(this.shade ? [this.shade] : [])])];
-    const anchor = { getBoundingClientRect: () => ({ left: event.clientX + 6, top: event.clientY, bottom: event.clientY }) };
+    const anchor = {
+      getBoundingClientRect: () => ({ left: event.clientX + 6, top: event.clientY, bottom: event.clientY }),
+    };
     this.tip.show(anchor, [
       `case ${cases.indices[row]}: ${kOutcomes[cases.outcomes[row]].name}`,
       ...shown.map((column) => `${column.name} = ${column.textAt(row)}`),
