@@ -12,6 +12,7 @@
 #include "master/campaign/plan_check.h"
 #include "master/campaign/plan_folder.h"
 #include "master/cli/campaign_input.h"
+#include "master/cli/campaign_report.h"
 #include "master/cli/campaign_run.h"
 #include "master/cli/commands.h"
 #include "master/cli/crash_guard.h"
@@ -147,6 +148,7 @@ void add_campaign(CLI::App& app) {
   command->callback([arguments] { plan_campaign(*arguments); });
   add_campaign_run(*group);
   add_campaign_status(*group);
+  add_campaign_report(*group);
 }
 
 }  // namespace stride::cli

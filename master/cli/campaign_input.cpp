@@ -79,6 +79,12 @@ void CampaignInput::refuse_inputs(std::initializer_list<const char*> names) cons
   }
 }
 
+void CampaignInput::require_plan() const {
+  if (campaign::has_plan(plan_, folder_)) return;
+  core::fail_input({.where = {folder_.string(), 0}}, "there is no plan in this folder",
+                   fmt::format("make it with: stride campaign run {}", word()));
+}
+
 /// Several processes may want to make it: one of them does.
 void CampaignInput::make_plan() const {
   constexpr int kAttempts = 100;

@@ -38,6 +38,8 @@ class CampaignInput {
 
   /// Throws core::Error (Input) if a file of these names in the folder is one that is read.
   void refuse_inputs(std::initializer_list<const char*> names) const;
+  /// Throws core::Error (Input) where there is no plan yet, or another one.
+  void require_plan() const;
   /// Checks and writes the plan, unless it is there. Throws core::Error (Input) if another one is.
   void make_plan() const;
   /// Throws core::Error (Input) for an index that no case has.

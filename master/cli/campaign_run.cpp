@@ -13,10 +13,12 @@
 #include <fmt/format.h>
 
 #include "master/campaign/campaign_junit.h"
+#include "master/campaign/campaign_page.h"
 #include "master/campaign/case_folder.h"
 #include "master/campaign/case_table.h"
 #include "master/campaign/plan_folder.h"
 #include "master/cli/campaign_input.h"
+#include "master/cli/campaign_report.h"
 #include "master/cli/case_pool.h"
 #include "master/cli/case_runner.h"
 #include "master/cli/crash_guard.h"
@@ -24,6 +26,7 @@
 #include "master/cli/missing_cases.h"
 #include "master/cli/output.h"
 #include "master/cli/output_paths.h"
+#include "master/cli/report_page.h"
 #include "master/cli/table.h"
 #include "master/recorders/results_folder.h"
 #include "master/util/error.h"
@@ -96,6 +99,15 @@ MissingCases::Options missing_options(const CampaignRunArguments& arguments,
                                                                   : ProgressStyle::Auto)};
 }
 
+/// A page that cannot be written does not hide what became of the cases.
+void write_page(const CampaignRunArguments& arguments, const CampaignInput& input,
+                const campaign::CaseFolder& cases) {
+  if (!has_reports()) return;
+  const fs::path page = input.folder() / campaign::kCampaignPage;
+  write_campaign_report(page, input, cases);
+  if (!arguments.quiet) print_text("Page in {}\n", page.string());
+}
+
 void run_missing(const CampaignRunArguments& arguments, const CampaignInput& input) {
   const recorders::ResultsLock lock(input.folder());
   const campaign::CaseFolder cases(input.plan(), input.folder());
@@ -108,6 +120,7 @@ void run_missing(const CampaignRunArguments& arguments, const CampaignInput& inp
     write_campaign_junit(arguments.junit, input.plan(), cases, summary.totals);
   }
   if (!arguments.quiet) print_summary(input, summary);
+  warn_of_failure([&] { write_page(arguments, input, cases); });
   require_all_passed(input, summary.totals);
 }
 
@@ -142,7 +155,8 @@ void run_campaign(const CampaignRunArguments& arguments) {
   const CampaignInput input(arguments.campaign);
   if (arguments.only) input.require_case(*arguments.only);
   using namespace campaign;
-  input.refuse_inputs({kPlanTable, kPlanDescription, kCaseTable, kCaseLines, kCases, kRunning});
+  input.refuse_inputs(
+      {kPlanTable, kPlanDescription, kCaseTable, kCaseLines, kCampaignPage, kCases, kRunning});
   if (!arguments.junit.empty()) {
     const OutputPath output{"--junit " + arguments.junit.string(), arguments.junit};
     refuse_kept_paths({&output, 1}, inputs_of(input.scenario().loaded()));
@@ -155,10 +169,7 @@ void run_campaign(const CampaignRunArguments& arguments) {
 void show_status(const CampaignArguments& arguments) {
   const CrashGuard guard;
   const CampaignInput input(arguments);
-  if (!campaign::has_plan(input.plan(), input.folder())) {
-    core::fail_input({.where = {input.folder().string(), 0}}, "there is no plan in this folder",
-                     fmt::format("make it with: stride campaign run {}", input.word()));
-  }
+  input.require_plan();
   input.refuse_inputs({campaign::kCaseTable, campaign::kCaseLines, campaign::kRunning});
   const campaign::CaseFolder cases(input.plan(), input.folder());
   const campaign::CaseScratch scratch(cases);

@@ -1,4 +1,4 @@
-// The page that shows a run: one HTML text, to which only the run's data must be added.
+// The pages that show a run and a campaign: HTML texts, to which only the data must be added.
 #ifndef STRIDE_MASTER_REPORT_PAGE_H
 #define STRIDE_MASTER_REPORT_PAGE_H
 
@@ -6,11 +6,14 @@
 
 namespace stride::report {
 
-/// It is in the page once, on a line of its own, and is replaced by the run's data.
+/// It is in a page once, on a line of its own, and is replaced by the data.
 inline constexpr std::string_view kDataMark = "<!-- stride:data -->";
 
-/// The page, UTF-8, made from master/report/page. Empty in a build with STRIDE_REPORT=OFF.
+/// The page of a run, UTF-8, made from master/report/page. Empty in a build with STRIDE_REPORT=OFF.
 std::string_view page();
+
+/// Likewise that of a campaign.
+std::string_view campaign_page();
 
 }  // namespace stride::report
 

@@ -107,6 +107,16 @@ std::string blob(const Texts& texts) {
                      blob(std::span(texts.indices())));
 }
 
+std::string text_blob(std::span<const std::string> texts) {
+  std::vector<std::uint8_t> bytes;
+  for (const std::string& text : texts) {
+    for (const char c : text) bytes.push_back(c == '\0' ? ' ' : static_cast<std::uint8_t>(c));
+    bytes.push_back(0);
+  }
+  return fmt::format(R"({{"type":"texts","count":{},"bytes":{}}})", texts.size(),
+                     blob(std::span<const std::uint8_t>(bytes)));
+}
+
 std::string blob(const Column::Values& values) {
   return std::visit(
       [](const auto& held) {

@@ -33,6 +33,10 @@ std::string blob(std::span<const std::uint8_t> values);
 std::string blob(const Texts& texts);
 std::string blob(const Column::Values& values);
 
+/// Likewise for texts of which few are equal, but many alike: {"type":"texts","count":…,
+/// "bytes":…}, the array of their bytes (UTF-8), a 0 behind each.
+std::string text_blob(std::span<const std::string> texts);
+
 }  // namespace stride::report
 
 #endif

@@ -1,5 +1,6 @@
-// node build.mjs NODE_MODULES OUTPUT_FOLDER: bundles the page into one html text, report_page.html, and makes a C++
-// source of it, page.cpp. NODE_MODULES is the folder into which `npm ci` installed the packages of package-lock.json.
+// node build.mjs NODE_MODULES OUTPUT_FOLDER: bundles each page into one html text, such as report_page.html, and makes a
+// C++ source of all, page.cpp. NODE_MODULES is the folder into which `npm ci` installed the packages of
+// package-lock.json.
 import { mkdir, readFile, writeFile } from "node:fs/promises";
 import { createRequire } from "node:module";
 import path from "node:path";
@@ -46,57 +47,86 @@ async function withDependencies(packages) {
   return [...found].sort();
 }
 
-/** The licences of all bundled packages, as their authors require. */
+/** The licences of all bundled packages, as their authors require; an empty text if there are none. */
 async function licences(inputs) {
   const packages = await withDependencies(inputs.map(packageOf).filter(Boolean));
+  if (packages.length === 0) return "";
   const texts = packages.map(async (name) => {
     const text = await readFile(path.join(nodeModules, name, "LICENSE"), "utf8");
     return `${name}\n\n${text.trim()}`;
   });
-  return (await Promise.all(texts)).join("\n\n\n");
+  const all = escapeHtml((await Promise.all(texts)).join("\n\n\n"));
+  return `<details id="licences"><summary>Licences of what this page is made with</summary><pre>\n${all}\n</pre></details>`;
 }
 
 const escapeHtml = (text) => text.replace(/[&<>]/g, (c) => ({ "&": "&amp;", "<": "&lt;", ">": "&gt;" })[c]);
 
+/** The text of a page. */
+async function pageOf({ script, style, what }) {
+  const [code, look, template] = await Promise.all([
+    bundle(script),
+    bundle(style),
+    readFile(path.join(here, "src/page.html"), "utf8"),
+  ]);
+  const parts = {
+    "<!-- stride:style -->": look.text,
+    "<!-- stride:what -->": what,
+    "<!-- stride:script -->": code.text.replaceAll("</script", "<\\/script"),
+    "<!-- stride:licences -->": await licences([...code.inputs, ...look.inputs]),
+  };
+  let html = template;
+  for (const [mark, text] of Object.entries(parts)) {
+    if (html.split(mark).length !== 2) throw new Error(`src/page.html: expected "${mark}" once`);
+    html = html.replace(mark, () => text);
+  }
+  if (html.split("\n<!-- stride:data -->\n").length !== 2) {
+    throw new Error('src/page.html: expected the line "<!-- stride:data -->" once');
+  }
+  return html;
+}
+
 /** Compilers limit the length of a string literal, so the text is divided into many pieces. */
-function cppSource(html) {
+function cppFunction(name, html) {
   const pieces = html.match(/[^]{1,12000}/gu).map((piece) => `R"page(${piece})page"`);
   return [
-    "// Made from master/report/page by build.mjs.",
-    '#include "master/report/page.h"',
-    "",
-    "namespace stride::report {",
-    "",
-    "std::string_view page() {",
+    `std::string_view ${name}() {`,
     "  static constexpr char kPage[] =",
     pieces.join("\n"),
     ";",
     "  return {kPage, sizeof kPage - 1};",
     "}",
     "",
-    "}  // namespace stride::report",
-    "",
   ].join("\n");
 }
 
-const [script, style, template] = await Promise.all([
-  bundle("src/main.js"),
-  bundle("src/style.css"),
-  readFile(path.join(here, "src/page.html"), "utf8"),
-]);
-const parts = {
-  "<!-- stride:style -->": style.text,
-  "<!-- stride:script -->": script.text.replaceAll("</script", "<\\/script"),
-  "<!-- stride:licences -->": escapeHtml(await licences([...script.inputs, ...style.inputs])),
+const cppSource = (functions) =>
+  [
+    "// Made from master/report/page by build.mjs.",
+    '#include "master/report/page.h"',
+    "",
+    "namespace stride::report {",
+    "",
+    ...functions,
+    "}  // namespace stride::report",
+    "",
+  ].join("\n");
+
+/** By the names of their functions in C++. */
+const kPages = {
+  page: { file: "report_page.html", script: "src/main.js", style: "src/style.css", what: "run" },
+  campaign_page: {
+    file: "campaign_page.html",
+    script: "src/campaign/main.js",
+    style: "src/campaign/style.css",
+    what: "campaign",
+  },
 };
-let html = template;
-for (const [mark, text] of Object.entries(parts)) {
-  if (html.split(mark).length !== 2) throw new Error(`src/page.html: expected "${mark}" once`);
-  html = html.replace(mark, () => text);
-}
-if (html.split("\n<!-- stride:data -->\n").length !== 2) {
-  throw new Error('src/page.html: expected the line "<!-- stride:data -->" once');
-}
+
 await mkdir(output, { recursive: true });
-await writeFile(path.join(output, "report_page.html"), html);
-await writeFile(path.join(output, "page.cpp"), cppSource(html));
+const functions = [];
+for (const [name, page] of Object.entries(kPages)) {
+  const html = await pageOf(page);
+  await writeFile(path.join(output, page.file), html);
+  functions.push(cppFunction(name, html));
+}
+await writeFile(path.join(output, "page.cpp"), cppSource(functions));

@@ -1,8 +1,9 @@
-// In place of the page where the build leaves it out (STRIDE_REPORT=OFF).
+// In place of the pages where the build leaves them out (STRIDE_REPORT=OFF).
 #include "master/report/page.h"
 
 namespace stride::report {
 
 std::string_view page() { return {}; }
+std::string_view campaign_page() { return {}; }
 
 }  // namespace stride::report

@@ -7,8 +7,7 @@
 #include <unistd.h>
 
 #include "master/campaign/campaign_junit.h"
-#include "master/campaign/campaign_scenario.h"
-#include "tests/master/campaign/support.h"
+#include "tests/master/campaign/records.h"
 
 using namespace stride;
 using namespace stride::campaign;
@@ -18,33 +17,6 @@ using Catch::Contains;
 namespace {
 
 namespace fs = std::filesystem;
-
-/// A plan of four cases, and where its records are.
-struct Records {
-  explicit Records(const std::string& runs = "4")
-      : folder(campaign_text(stochastic(drawn("b.u", uniform("0", "1")), runs),
-                             "<stride:Aggregate name='a, \"b\"' signal='b.y' function='max'/>")),
-        plan(plan_in(folder)),
-        cases(plan, folder / "out") {}
-
-  static Plan plan_in(const CampaignFolder& folder) {
-    Campaign read = folder.read();
-    const CampaignScenario scenario(read, "1.0");
-    return Plan(std::move(read), scenario.kinds(), scenario.fingerprints());
-  }
-  /// An empty file, with its folders.
-  void touch(const std::string& name) const {
-    fs::create_directories((folder / name).parent_path());
-    folder.write(name, "");
-  }
-  void write(std::uint64_t index, const CaseResult& result) const {
-    CaseScratch(cases).write(index, record_line(plan, plan.at(index), result));
-  }
-
-  CampaignFolder folder;
-  Plan plan;
-  CaseFolder cases;
-};
 
 const CaseResult kFailed{.outcome = Outcome::Failed,
                          .reason = "low: at 0.5 s, \"y\"\nand more",

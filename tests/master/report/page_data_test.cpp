@@ -79,6 +79,15 @@ TEST_CASE("texts are an array of indices and the distinct ones") {
         std::vector<std::string>{"on", "off", "on", "</script>", "\xEF\xBF\xBD"});
 }
 
+TEST_CASE("texts that are joined are bytes with a 0 behind each") {
+  const std::vector<std::string> texts{"a", "", "</b>\xff", std::string("c\0d", 3)};
+  const json parsed = json::parse(text_blob(texts));
+  CHECK(parsed["type"] == "texts");
+  CHECK(parsed["count"] == 4);
+  const auto bytes = unpacked<std::uint8_t>(parsed["bytes"]);
+  CHECK(std::string(bytes.begin(), bytes.end()) == std::string("a\0\0</b>\xff\0c d\0", 13));
+}
+
 TEST_CASE("no text ends the element that contains the JSON") {
   const std::string text = json_text({{"a", "</script><!-- \\ \" \n"}, {"<b>", 1}});
   CHECK(text == R"({"a":"\u003c/script>\u003c!-- \\ \" \n","\u003cb>":1})");

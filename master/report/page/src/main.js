@@ -1,7 +1,7 @@
 // The page: reads the run's data, creates the parts, and connects them.
 import { moveByMessages, moveBySamples } from "./cursor.js";
 import { readReport } from "./data/report.js";
-import { h, pause } from "./dom.js";
+import { h } from "./dom.js";
 import { listenToKeys } from "./keys.js";
 import { costs } from "./parts/costs.js";
 import { diagramSection } from "./parts/diagram.js";
@@ -11,6 +11,7 @@ import { MessageTable } from "./parts/message_table.js";
 import { Theme } from "./parts/theme.js";
 import { Tip } from "./parts/tip.js";
 import { timeStack } from "./rows.js";
+import { startPage } from "./start.js";
 import { View } from "./view.js";
 
 /** The actions of keys and buttons. */
@@ -65,25 +66,4 @@ function build(report) {
   return { report, view, stack, theme };
 }
 
-async function main() {
-  const loading = document.getElementById("loading");
-  const element = document.getElementById("stride-report");
-  if (!element) throw new Error("there is no data in this page");
-  if (typeof DecompressionStream === "undefined")
-    throw new Error("this browser is too old: it has no DecompressionStream");
-  await pause();
-  const data = JSON.parse(element.textContent);
-  element.remove();
-  const report = await readReport(data, (share) => {
-    loading.textContent = `Reading the run … ${Math.round(share * 100)} %`;
-  });
-  // for tests and debugging
-  window.stride = build(report);
-  document.getElementById("report").setAttribute("aria-busy", "false");
-}
-
-main().catch((error) => {
-  const text = `This report cannot be shown: ${error.message}.`;
-  document.getElementById("report").replaceChildren(h("p.banner.bad", { role: "alert" }, text));
-  console.error(error);
-});
+startPage("Reading the run", readReport, build);

@@ -33,6 +33,12 @@ def column(name, values, unit="", kind="Float64", stepped=None):
     return {"name": name, "unit": unit, "type": kind, "stepped": is_stepped, "values": packed}
 
 
+def pack_texts(texts):
+    """Texts one after the other, a 0 behind each."""
+    texts = list(texts)
+    return {"type": "texts", "count": len(texts), "bytes": pack("uint8", b"".join(t.encode() + b"\0" for t in texts))}
+
+
 def activity(component, kind, intervals):
     return {"component": component, "kind": kind, "from": pack("int64", [a for a, _ in intervals]),
             "until": pack("int64", [b for _, b in intervals])}

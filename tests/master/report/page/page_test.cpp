@@ -1,4 +1,4 @@
-// What the program takes for granted of the page: where the data goes, and that it needs nothing
+// What the program takes for granted of the pages: where the data goes, and that it needs nothing
 // from elsewhere.
 #include "master/report/page.h"
 
@@ -9,8 +9,18 @@
 
 namespace report = stride::report;
 
-TEST_CASE("the mark for the data is in the page once, on its own line, before the script") {
-  const std::string page(report::page());
+namespace {
+
+std::string any_page() {
+  return std::string(GENERATE(as<std::string>{}, "run", "campaign") == "run"
+                         ? report::page()
+                         : report::campaign_page());
+}
+
+}  // namespace
+
+TEST_CASE("the mark for the data is in a page once, on its own line, before the script") {
+  const std::string page = any_page();
   const std::string line = "\n" + std::string(report::kDataMark) + "\n";
   const std::size_t mark = page.find(line);
   REQUIRE(mark != std::string::npos);
@@ -18,14 +28,18 @@ TEST_CASE("the mark for the data is in the page once, on its own line, before th
   CHECK(page.find("<script>", mark) != std::string::npos);
 }
 
-TEST_CASE("the page loads nothing and allows nothing to be loaded") {
-  const std::string page(report::page());
+TEST_CASE("a page loads nothing and allows nothing to be loaded") {
+  const std::string page = any_page();
   CHECK(page.find("default-src 'none'") != std::string::npos);
   const std::regex loads(R"re((src|href)=["']?(https?:)?//)re");
   CHECK_FALSE(std::regex_search(page, loads));
 }
 
-TEST_CASE("the page carries the licences of what is bundled") {
+TEST_CASE("a page says so where JavaScript is off") {
+  CHECK(any_page().find("<noscript><p class=\"warning\">") != std::string::npos);
+}
+
+TEST_CASE("the page of a run carries the licences of what is bundled") {
   const std::string page(report::page());
   for (const char* name : {"uplot", "@dagrejs/dagre", "@dagrejs/graphlib"}) {
     INFO(name);

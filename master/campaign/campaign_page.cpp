@@ -1,0 +1,237 @@
+#include "master/campaign/campaign_page.h"
+
+#include <cmath>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "master/campaign/case_analysis.h"
+#include "master/campaign/case_columns.h"
+#include "master/report/page.h"
+#include "master/report/page_data.h"
+#include "master/util/error.h"
+#include "master/util/input_file.h"
+#include "master/util/replacement.h"
+
+namespace stride::campaign {
+namespace {
+
+namespace fs = std::filesystem;
+using report::Json;
+using report::json_text;
+
+constexpr int kFormat = 1;
+
+fs::path folder_of(const fs::path& file) {
+  return fs::absolute(file).lexically_normal().parent_path();
+}
+
+/// As seen from the page, with slashes.
+std::string seen_from(const fs::path& page, const fs::path& folder) {
+  return fs::absolute(folder)
+      .lexically_normal()
+      .lexically_proximate(folder_of(page))
+      .generic_string();
+}
+
+Json confidence_json(const Confidence& confidence) { return {confidence.low, confidence.high}; }
+
+Json correlation_json(const RankCorrelation& found) {
+  return {{"count", found.count},
+          {"value", found.value ? Json(*found.value) : Json()},
+          {"confidence", found.confidence ? confidence_json(*found.confidence) : Json()}};
+}
+
+Json correlations_json(const CaseAnalysis& analysis) {
+  Json all = Json::array();
+  for (const ParameterCorrelation& of : analysis.correlations) {
+    Json aggregates = Json::array();
+    for (const RankCorrelation& found : of.with_aggregates) {
+      aggregates.push_back(correlation_json(found));
+    }
+    all.push_back({{"parameter", of.parameter},
+                   {"failure", correlation_json(of.with_failure)},
+                   {"aggregates", aggregates}});
+  }
+  return all;
+}
+
+Json shares_json(const CaseAnalysis& analysis) {
+  Json all = Json::array();
+  for (const ParameterShares& of : analysis.shares) {
+    Json values = Json::array();
+    for (const ValueShare& share : of.shares) {
+      values.push_back({{"value", share.value},
+                        {"cases", share.cases},
+                        {"failed", share.failed},
+                        {"confidence", confidence_json(share.confidence)}});
+    }
+    all.push_back({{"parameter", of.parameter}, {"count", of.values}, {"values", values}});
+  }
+  return all;
+}
+
+/// How the cases were made.
+Json campaign_json(const Plan& plan) {
+  const Campaign& campaign = plan.campaign();
+  const auto* const drawn = std::get_if<Stochastic>(&campaign.variation);
+  return {{"name", campaign.file.stem().string()},
+          {"file", campaign.file.filename().string()},
+          {"scenario",
+           campaign.scenario.lexically_proximate(campaign.file.parent_path()).generic_string()},
+          {"sampling", drawn != nullptr ? name(drawn->method) : "all combinations"},
+          {"random_seed", drawn != nullptr ? Json(campaign.random_seed) : Json()},
+          {"keep", name(campaign.keep.results)},
+          {"cases", plan.size()}};
+}
+
+Json outcomes_json(const CaseColumns& columns) {
+  Json counts = Json::array();
+  for (std::size_t i = 0; i < kOutcomeKinds; ++i) {
+    counts.push_back({{"name", i == kMissing ? "missing" : name(static_cast<Outcome>(i))},
+                      {"cases", columns.counts[i]}});
+  }
+  return counts;
+}
+
+Json checks_json(const CaseColumns& columns) {
+  Json checks = Json::array();
+  for (const CheckCounts& check : columns.checks) {
+    checks.push_back({{"name", check.name},
+                      {"kind", check.kind},
+                      {"passed", check.passed},
+                      {"failed", check.failed},
+                      {"undecided", check.undecided}});
+  }
+  return checks;
+}
+
+/// Writes the members of the data one after the other.
+class PageWriter {
+ public:
+  PageWriter(core::OutputFile& file, const Plan& plan, const CaseColumns& columns)
+      : file_(file), plan_(plan), columns_(columns) {}
+
+  void write(const std::string& working_folder, const std::vector<std::string>& links) {
+    file_.write(R"(<script type="application/json" id="stride-report">{)");
+    file_.write(fmt::format(R"("format":{})", kFormat));
+    member("stride", json_text(plan_.fingerprints().version));
+    member("campaign", json_text(campaign_json(plan_)));
+    member("outcomes", json_text(outcomes_json(columns_)));
+    member("wall_time", json_text(columns_.wall_time));
+    member("checks", json_text(checks_json(columns_)));
+    write_parameters();
+    write_aggregates();
+    write_cases(links);
+    const CaseAnalysis analysis = analyse(columns_);
+    member("correlations", json_text(correlations_json(analysis)));
+    member("shares", json_text(shares_json(analysis)));
+    member("working_folder", json_text(working_folder));
+    file_.write("}</script>\n");
+  }
+
+ private:
+  void member(const char* name, const std::string& text) {
+    file_.write(fmt::format(",\"{}\":", name));
+    file_.write(text);
+  }
+
+  void write_parameters() {
+    member("parameters", "[");
+    for (std::size_t i = 0; i < columns_.parameters.size(); ++i) {
+      const ParameterColumn& column = columns_.parameters[i];
+      file_.write(
+          fmt::format(R"({}{{"name":{},"values":)", i == 0 ? "" : ",", json_text(column.name)));
+      file_.write(column.is_number ? report::blob(std::span(column.numbers))
+                                   : report::blob(texts_of(column)));
+      file_.write('}');
+    }
+    file_.write(']');
+  }
+
+  static report::Texts texts_of(const ParameterColumn& column) {
+    report::Texts texts;
+    for (const std::string& text : column.texts) texts.add(text);
+    return texts;
+  }
+
+  void write_aggregates() {
+    member("aggregates", "[");
+    for (std::size_t i = 0; i < columns_.aggregates.size(); ++i) {
+      const Aggregate& aggregate = plan_.campaign().aggregates[i];
+      file_.write(fmt::format(R"({}{{"name":{},"signal":{},"function":"{}","values":)",
+                              i == 0 ? "" : ",", json_text(aggregate.name),
+                              json_text(aggregate.signal), name(aggregate.function)));
+      file_.write(report::blob(std::span(columns_.aggregates[i])));
+      file_.write('}');
+    }
+    file_.write(']');
+  }
+
+  void write_cases(const std::vector<std::string>& links) {
+    member("cases", "{\"count\":" + std::to_string(columns_.size()));
+    member("indices", report::blob(std::span(columns_.indices)));
+    member("outcomes", report::blob(std::span(columns_.outcomes)));
+    member("wall_times", report::blob(std::span(columns_.wall_times)));
+    member("reached", report::blob(std::span(columns_.reached)));
+    member("failed_at", report::blob(std::span(columns_.failed_at)));
+    member("reasons", report::text_blob(columns_.reasons));
+    member("links", report::text_blob(links));
+    member("commands", report::text_blob(commands()));
+    file_.write('}');
+  }
+
+  std::vector<std::string> commands() const {
+    std::vector<std::string> made;
+    for (const std::int32_t index : columns_.indices) {
+      made.push_back(plan_.command(plan_.at(static_cast<std::uint64_t>(index))));
+    }
+    return made;
+  }
+
+  core::OutputFile& file_;
+  const Plan& plan_;
+  const CaseColumns& columns_;
+};
+
+/// To the page of each case, or else to its results; empty where none are kept.
+std::vector<std::string> links_to(const CaseFolder& cases, const CaseColumns& columns,
+                                  const fs::path& page, const std::string& report) {
+  const fs::path base = seen_from(page, cases.path());
+  std::vector<std::string> links;
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    if (columns.has_results[i] == 0) {
+      links.emplace_back();
+      continue;
+    }
+    const fs::path results = cases.results_name(static_cast<std::uint64_t>(columns.indices[i]));
+    const bool has_page = !report.empty() && core::is_file(cases.path() / results / report);
+    links.push_back(
+        (base / results / (has_page ? report : "")).lexically_normal().generic_string());
+  }
+  return links;
+}
+
+}  // namespace
+
+void write_campaign_page(const fs::path& file, const Plan& plan, const CaseFolder& cases,
+                         const std::string& report, std::uint64_t most_cases) {
+  const std::string_view text = report::campaign_page();
+  const std::size_t mark = text.find(report::kDataMark);
+  if (mark == std::string_view::npos) {
+    core::fail_input({}, "this stride was built without reports (STRIDE_REPORT=OFF)");
+  }
+  const CaseColumns columns = read_case_columns(plan, cases, most_cases);
+  core::Replacement page(file);
+  page.file().write(text.substr(0, mark));
+  PageWriter(page.file(), plan, columns)
+      .write(seen_from(file, fs::current_path()), links_to(cases, columns, file, report));
+  page.file().write(text.substr(mark + report::kDataMark.size()));
+  page.commit();
+}
+
+}  // namespace stride::campaign

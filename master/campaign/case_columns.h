@@ -1,0 +1,61 @@
+// The records of a campaign, column by column.
+#ifndef STRIDE_MASTER_CAMPAIGN_CASE_COLUMNS_H
+#define STRIDE_MASTER_CAMPAIGN_CASE_COLUMNS_H
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "master/campaign/case_folder.h"
+#include "master/campaign/plan.h"
+
+namespace stride::campaign {
+
+/// In place of an outcome: there is no record. Behind all of Outcome.
+inline constexpr std::uint8_t kMissing = 5;
+inline constexpr std::size_t kOutcomeKinds = 6;
+
+/// A parameter of the campaign that is no seed.
+struct ParameterColumn {
+  std::string name;
+  bool is_number = false;
+  std::vector<double> numbers;     ///< of one that is; NaN where the scenario's value holds
+  std::vector<std::string> texts;  ///< of one that is not; likewise kScenarioValue
+};
+inline constexpr const char* kScenarioValue = "(as in the scenario)";
+
+/// How often a check, or the verdict of a unit, came to which end.
+struct CheckCounts {
+  std::string name;
+  std::string kind;  ///< empty: of a unit
+  std::uint64_t passed = 0, failed = 0, undecided = 0;
+};
+
+/// Vectors have an element for each case that was taken; what is not known is NaN.
+struct CaseColumns {
+  std::vector<std::int32_t> indices;   ///< ascending
+  std::vector<std::uint8_t> outcomes;  ///< an Outcome, or kMissing
+  std::vector<ParameterColumn> parameters;
+  std::vector<std::vector<double>> aggregates;  ///< of Campaign::aggregates
+  std::vector<double> reached, wall_times;      ///< [s]
+  std::vector<double> failed_at;                ///< the first instant of a failure [s]
+  std::vector<std::uint8_t> has_results;
+  std::vector<std::string> reasons;
+
+  // of all cases
+  std::array<std::uint64_t, kOutcomeKinds> counts{};  ///< by outcomes
+  std::vector<CheckCounts> checks;                    ///< in the order in which they appear
+  double wall_time = 0;                               ///< the sum [s]
+
+  std::size_t size() const { return indices.size(); }
+};
+
+/// Reads all records. Of more than `most` cases it takes so many, one from each of as many blocks
+/// of equal size, chosen by random numbers that are the same each time: no pattern of the plan
+/// shows in them.
+CaseColumns read_case_columns(const Plan& plan, const CaseFolder& cases, std::uint64_t most);
+
+}  // namespace stride::campaign
+
+#endif

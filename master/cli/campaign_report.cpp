@@ -1,0 +1,77 @@
+#include "master/cli/campaign_report.h"
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "master/campaign/campaign_page.h"
+#include "master/campaign/case_table.h"
+#include "master/campaign/plan_folder.h"
+#include "master/cli/output.h"
+#include "master/cli/output_paths.h"
+#include "master/cli/report_page.h"
+
+namespace stride::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct CampaignReportArguments {
+  CampaignArguments campaign;
+  fs::path page;  ///< empty: in the folder of the campaign
+  bool open = false;
+};
+
+/// Of what the campaign consists of, and has left, nothing may be replaced but its page.
+void check_page(const CampaignInput& input, const fs::path& page) {
+  using namespace campaign;
+  std::vector<KeptPath> kept = inputs_of(input.scenario().loaded());
+  kept.push_back({input.plan().campaign().file, "the campaign"});
+  for (const char* name : {kPlanTable, kPlanDescription, kCaseTable, kCaseLines, kCases}) {
+    kept.push_back({input.folder() / name, fmt::format("{} of the campaign", name)});
+  }
+  const OutputPath output{"--page " + page.string(), page};
+  refuse_kept_paths({&output, 1}, kept);
+}
+
+void make_campaign_report(const CampaignReportArguments& arguments) {
+  const CrashGuard guard;
+  const CampaignInput input(arguments.campaign);
+  input.require_plan();
+  fs::path page = arguments.page;
+  if (page.empty()) {
+    input.refuse_inputs({campaign::kCampaignPage});
+    page = input.folder() / campaign::kCampaignPage;
+  } else {
+    check_page(input, page);
+  }
+  write_campaign_report(page, input, campaign::CaseFolder(input.plan(), input.folder()));
+  print_text("Page in {}\n", page.string());
+  if (arguments.open) open_in_browser(page);
+}
+
+}  // namespace
+
+void write_campaign_report(const fs::path& file, const CampaignInput& input,
+                           const campaign::CaseFolder& cases) {
+  const auto& results = input.scenario().loaded().scenario().annotation.results;
+  campaign::write_campaign_page(file, input.plan(), cases, results.report);
+}
+
+void add_campaign_report(CLI::App& group) {
+  CLI::App* command = group.add_subcommand(
+      "report", "Make the page of a campaign from what is known of its cases so far");
+  const auto arguments = std::make_shared<CampaignReportArguments>();
+  add_campaign_options(*command, arguments->campaign);
+  command
+      ->add_option("--page", arguments->page,
+                   "Write the page there instead of into the folder of the campaign")
+      ->type_name("FILE");
+  command->add_flag("--open", arguments->open, "Open the page in a browser");
+  command->callback([arguments] { make_campaign_report(*arguments); });
+}
+
+}  // namespace stride::cli
