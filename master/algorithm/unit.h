@@ -102,7 +102,7 @@ class Unit {
   virtual void exit_initialization() = 0;
 
   /// Reads the variables (all of the block's type) into the block, in order, arrays element by
-  /// element.
+  /// element; the block has as many elements as all of them.
   virtual void get(std::span<const ValueReference> references, ValueBlock& values) = 0;
   virtual void set(std::span<const ValueReference> references, const ValueBlock& values) = 0;
 

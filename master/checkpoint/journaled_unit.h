@@ -37,7 +37,8 @@ namespace stride::checkpoint {
 ///
 /// Whether a unit serialises its state is tried once, at the end of its initialization. One that
 /// fails then though it declares that it can is as one that cannot, and a warning says so. Where it
-/// fails later, the calls since the last success are written.
+/// fails later, the calls since the last success are written. One that can do nothing more behind
+/// such a failure fails with it.
 ///
 /// A new unit is made what the other was by repeating the calls, with its log switched off. For
 /// that a unit has to do the same again where it is given the same: a hash over all that it has
@@ -136,6 +137,7 @@ class JournaledUnit final : public core::ForwardingUnit,
   template <class Action>
   auto in_own_slot(Action&& action);
   SerializedState serialize();
+  bool can_go_on();
   void try_serialization();
   void add_state();
   void drop_needless_states();

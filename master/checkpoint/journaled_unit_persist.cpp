@@ -67,6 +67,16 @@ JournaledUnit::SerializedState JournaledUnit::serialize() {
   return {journal_.mark(), std::move(bytes), shown_outputs(inner(), description_)};
 }
 
+/// Behind a failure: a unit that cannot has no other one to tell.
+bool JournaledUnit::can_go_on() {
+  try {
+    shown_outputs(inner(), description_);
+    return true;
+  } catch (const core::Error&) {
+    return false;
+  }
+}
+
 void JournaledUnit::try_serialization() {
   try {
     SerializedState state = serialize();
@@ -75,6 +85,7 @@ void JournaledUnit::try_serialization() {
     state.mark = journal_.mark();
     states_.push_back(std::move(state));
   } catch (const std::exception& failure) {
+    if (!can_go_on()) throw;
     if (!options_.warn) return;
     options_.warn(
         fmt::format("its state cannot be serialised, though it declares that it can "
@@ -89,6 +100,7 @@ void JournaledUnit::add_state() {
   try {
     states_.push_back(serialize());
   } catch (const core::Error&) {
+    if (!can_go_on()) throw;
     return;
   }
   journal_.begin_part();

@@ -168,11 +168,19 @@ void refuse_shared_paths(std::span<const OutputPath> outputs) {
   }
 }
 
-void refuse_unit_folders(const fs::path& results, const OutputPath& output) {
-  if (!recorders::is_in_unit_folders(results, output.file)) return;
-  core::fail_input(
-      {}, fmt::format("{}: the file is in the folder of the files of units", output.option),
-      "choose a file elsewhere; units write to that folder");
+void refuse_result_folders(const fs::path& results, const OutputPath& output) {
+  if (recorders::is_in_unit_folders(results, output.file)) {
+    core::fail_input(
+        {}, fmt::format("{}: the file is in the folder of the files of units", output.option),
+        "choose a file elsewhere; units write to that folder");
+  }
+  const fs::path file = recorders::resolved(output.file);
+  for (const char* const name : {kCheckpointsFolder, kBranchesFolder}) {
+    if (!recorders::is_below(file, recorders::resolved(results / name))) continue;
+    core::fail_input(
+        {}, fmt::format("{}: this is in the folder '{}' of the results", output.option, name),
+        "choose a file elsewhere");
+  }
 }
 
 }  // namespace stride::cli

@@ -62,9 +62,9 @@ void refuse_kept_paths(std::span<const OutputPath> outputs, std::span<const Kept
 /// Throws core::Error (Input) if two outputs are the same file.
 void refuse_shared_paths(std::span<const OutputPath> outputs);
 
-/// Throws core::Error (Input) if an output is in the folder of the files of units in `results`: a
-/// unit could put a link there, which would be followed.
-void refuse_unit_folders(const std::filesystem::path& results, const OutputPath& output);
+/// Throws core::Error (Input) if an output is in a folder of `results`: that of the files of units,
+/// where a unit could put a link, which would be followed, and those of checkpoints and branches.
+void refuse_result_folders(const std::filesystem::path& results, const OutputPath& output);
 
 }  // namespace stride::cli
 

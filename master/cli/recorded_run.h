@@ -121,6 +121,8 @@ class RecordedRun {
   const core::RunStatistics& statistics() const { return simulation_.statistics(); }
   /// When it is over.
   const std::vector<core::Verdict>& verdicts() const { return verdicts_; }
+  /// Whether its results are its own: not before resume() has found that it can go on.
+  bool has_begun() const { return has_begun_; }
   /// Why it has not come to its end, if it has not.
   const std::optional<std::string>& failure() const { return failure_; }
 

@@ -28,7 +28,7 @@ struct ReportArguments {
 void check_output_path(const ReportArguments& arguments, recorders::ResultFiles files) {
   const OutputPath output{"--output " + arguments.out.string(), arguments.out};
   files.report.clear();
-  refuse_unit_folders(arguments.folder, output);
+  refuse_result_folders(arguments.folder, output);
   refuse_kept_paths({&output, 1}, kept_results(arguments.folder, files));
 }
 

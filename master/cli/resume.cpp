@@ -24,6 +24,7 @@
 #include "master/scenario/unit_path.h"
 #include "master/util/error.h"
 #include "master/util/input_file.h"
+#include "master/util/time_text.h"
 
 namespace stride::cli {
 namespace {
@@ -37,6 +38,9 @@ struct ResumeArguments {
 
 /// The newest one in a results folder, or the file itself.
 fs::path checkpoint_file(const fs::path& from) {
+  if (from.empty()) {
+    core::fail_input({}, "the name of the checkpoint is empty", "name a folder of results");
+  }
   if (!core::is_folder(from)) return fs::absolute(from);
   const std::vector<fs::path> found = checkpoints_in(from);
   if (!found.empty()) return fs::absolute(found.back());
@@ -58,6 +62,14 @@ void refuse_checkpoints_folder(const fs::path& out, const Resumption& resumption
   if (recorders::resolved(out) != folder || folder.filename() != kCheckpointsFolder) return;
   core::fail_input({}, fmt::format("--out {}: this is the folder of the checkpoints", out.string()),
                    "name another folder");
+}
+
+void require_later_checkpoints(const CheckpointTimes& times, Time now) {
+  for (const Time time : times.at) {
+    if (time > now) continue;
+    core::fail_input({}, fmt::format("--checkpoint {}: the run goes on at {} s",
+                                     core::to_text(time), core::to_text(now)));
+  }
 }
 
 /// Its files are named relative to it.
@@ -207,11 +219,14 @@ void resume(ResumeArguments given) {
   resumption->file = checkpoint_file(given.from);
   resumption->from = checkpoint::read_checkpoint(resumption->file);
   resumption->results = results_of(*resumption);
+  require_later_checkpoints(changes.checkpoints, resumption->from.time);
   RunArguments arguments = arguments_of(*resumption);
   change(arguments, *resumption, changes);
   arguments.out = changes.out.empty() ? resumption->results : changes.out;
   refuse_checkpoints_folder(arguments.out, *resumption);
-  if (resumption->has_other_signals && changes.out.empty()) {
+  const bool goes_elsewhere =
+      recorders::resolved(arguments.out) != recorders::resolved(resumption->results);
+  if (resumption->has_other_signals && !goes_elsewhere) {
     core::fail_input({}, "--signals: the file of the signals has others, up to the checkpoint",
                      "name another folder for results that begin at the checkpoint: --out FOLDER");
   }

@@ -53,16 +53,26 @@ std::vector<OutputPath> output_paths(const RunArguments& arguments) {
   return outputs;
 }
 
+std::vector<KeptPath> further_inputs(const RunArguments& arguments) {
+  std::vector<KeptPath> inputs;
+  if (arguments.branches.request) {
+    inputs.push_back({arguments.branches.request->file, "the file of the branches"});
+  }
+  if (arguments.resumed) inputs.push_back({arguments.resumed->file, "the checkpoint"});
+  return inputs;
+}
+
 /// Throws core::Error (Input), before anything is written. Returns what it has read of the
 /// scenario, which may be nothing.
 std::shared_ptr<ssp::Files> check_output_paths(const RunArguments& arguments) {
   const std::vector<OutputPath> outputs = output_paths(arguments);
   if (outputs.empty()) return nullptr;
   const std::filesystem::path folder = results_folder(arguments);
-  for (const OutputPath& output : outputs) refuse_unit_folders(folder, output);
+  for (const OutputPath& output : outputs) refuse_result_folders(folder, output);
   const ScenarioFiles files =
       files_of_scenario(arguments.scenario.scenario, arguments.scenario.swaps);
   refuse_kept_paths(outputs, files.inputs);
+  refuse_kept_paths(outputs, further_inputs(arguments));
   refuse_kept_paths(outputs, kept_results(folder, files.results));
   refuse_shared_paths(outputs);
   return files.read;
@@ -147,29 +157,42 @@ void Records::add(const std::string& error) {
 }
 
 /// The results folder of a run, which no other run may use meanwhile. What an earlier run has left
-/// there goes, unless this run goes on with it.
+/// there goes, unless this run goes on with it: of one that is resumed in another folder it goes
+/// when the units are what they were at the checkpoint.
 class ResultsOfRun {
  public:
   ResultsOfRun(const RunArguments& arguments, const scenario::LoadedScenario& loaded)
       : target_{results_folder(arguments), chosen_files(arguments, loaded.scenario())},
+        names_(loaded.scenario().annotation.results),
+        resumed_(arguments.resumed.get()),
         lock_(made(target_, loaded)) {
-    const auto& resumed = arguments.resumed;
-    const bool goes_on =
-        resumed && recorders::resolved(resumed->results) == recorders::resolved(target_.folder);
-    if (!goes_on) {
-      recorders::remove_results(target_.folder, loaded.scenario().annotation.results);
-      remove_checkpoints(target_.folder);
-      recorders::clean_unit_folders(target_.folder, loaded.component_names());
+    if (resumed_ == nullptr) remove_earlier();
+    if (goes_on()) return;
+    recorders::clean_unit_folders(target_.folder, loaded.component_names());
+    if (resumed_ != nullptr) recorders::copy_unit_files(resumed_->results, target_.folder);
+  }
+
+  ResultsTarget& target() { return target_; }
+
+  /// Copies what the run goes on with elsewhere.
+  void begin() const {
+    if (resumed_ == nullptr) return;
+    if (!goes_on()) {
+      remove_earlier();
+      recorders::copy_records(resumed_->results, target_.folder, target_.files);
     }
-    if (!resumed) return;
-    if (!goes_on) recorders::copy_results(resumed->results, target_.folder, target_.files);
-    for (const auto& [from, to] : resumed->copies) {
+    for (const auto& [from, to] : resumed_->copies) {
       std::filesystem::create_directories(to.parent_path());
       core::copy_input(from, to);
     }
   }
-
-  ResultsTarget& target() { return target_; }
+  /// Behind begin(), where the run could not go on.
+  void drop_copies() const {
+    if (resumed_ == nullptr) return;
+    if (!goes_on()) recorders::remove_results(target_.folder, names_);
+    std::error_code ignored;
+    for (const auto& [from, to] : resumed_->copies) std::filesystem::remove(to, ignored);
+  }
 
  private:
   static const std::filesystem::path& made(const ResultsTarget& target,
@@ -179,8 +202,18 @@ class ResultsOfRun {
     recorders::check_name_lengths(target.folder, target.files);
     return target.folder;
   }
+  bool goes_on() const {
+    return resumed_ != nullptr &&
+           recorders::resolved(resumed_->results) == recorders::resolved(target_.folder);
+  }
+  void remove_earlier() const {
+    recorders::remove_results(target_.folder, names_);
+    remove_checkpoints(target_.folder);
+  }
 
   ResultsTarget target_;
+  recorders::ResultFiles names_;  ///< also of those that are not chosen
+  const Resumption* resumed_;     ///< null: the run begins at its start
   recorders::ResultsLock lock_;
 };
 
@@ -233,16 +266,18 @@ recorders::Provenance provenance(const RunArguments& arguments,
 class UnitsOfRun {
  public:
   UnitsOfRun(const RunArguments& arguments, const scenario::LoadedScenario& loaded,
-             const std::filesystem::path& results, capture::Capture& capture,
-             core::RunOptions& options)
+             const std::filesystem::path& results, const core::RunOptions& options)
       : journals_(loaded.system()), instances_(loaded.instantiate(results, &Interruption::flag())) {
     if (is_journaled(arguments)) journals_.wrap(instances_, options.stop);
     if (arguments.resumed) restore(*arguments.resumed);
-    capture.wrap(instances_, options);
   }
 
   checkpoint::Journals& journals() { return journals_; }
-  std::vector<std::unique_ptr<core::Unit>> take() { return std::move(instances_); }
+  std::vector<std::unique_ptr<core::Unit>> take(capture::Capture& capture,
+                                                core::RunOptions& options) {
+    capture.wrap(instances_, options);
+    return std::move(instances_);
+  }
 
  private:
   void restore(const Resumption& resumption) {
@@ -275,6 +310,7 @@ class ScenarioRun {
 
   bool is_resumed() const { return arguments_.resumed != nullptr; }
   Checkpoints::Span span() const;
+  capture::Capture begin() const;
   checkpoint::Checkpoint take(Time now);
   void make_run();
   void print_branches() const;
@@ -288,10 +324,10 @@ class ScenarioRun {
   Branches branches_;
   ResultsOfRun results_;  // when all that may be wrong has been looked at
   core::RunOptions options_;
-  capture::Capture capture_;
   const recorders::UnitFolders unit_folders_;
   const EndOfUnits end_{loaded_.process()};
   UnitsOfRun units_;
+  capture::Capture capture_;
   const RunDisplay display_;
   Recorders recorders_;
   RecordedRun recorded_;
@@ -308,15 +344,14 @@ ScenarioRun::ScenarioRun(const RunArguments& arguments, Records& records)
       branches_(read_branches(arguments, loaded_), arguments.branches, &Interruption::flag()),
       results_(arguments, loaded_),
       options_(run_options(arguments, loaded_, results_.target().files)),
-      capture_(loaded_.system(), loaded_.scenario().name, options_, captures(arguments),
-               is_resumed() ? Existing::Kept : Existing::Emptied),
       unit_folders_(results_.target().folder, loaded_.component_names()),
-      units_(arguments, loaded_, results_.target().folder, capture_, options_),
+      units_(arguments, loaded_, results_.target().folder, options_),
+      capture_(begin()),
       display_{progress_style(arguments), arguments.quiet, arguments.open},
       recorders_(make_recorders(arguments, loaded_, results_.target())),
       recorded_({loaded_, options_, provenance_, results_.target(), display_, recorders_, capture_,
                  records.tests, is_resumed(), &checkpoints_},
-                units_.take()),
+                units_.take(capture_, options_)),
       branch_runs_({arguments, loaded_, results_.target(), recorded_,
                     [this](Time now) { return take(now); }}) {
   records.results = results_.target();
@@ -324,6 +359,13 @@ ScenarioRun::ScenarioRun(const RunArguments& arguments, Records& records)
   if (!arguments.branches.request) return;
   branch_runs_.connect(branches_);
   recorded_.set_control(branches_);
+}
+
+/// The files of the results, of which the first ones are those of captures.
+capture::Capture ScenarioRun::begin() const {
+  results_.begin();
+  return {loaded_.system(), loaded_.scenario().name, options_, captures(arguments_),
+          is_resumed() ? Existing::Kept : Existing::Emptied};
 }
 
 Checkpoints::Span ScenarioRun::span() const {
@@ -343,7 +385,10 @@ checkpoint::Checkpoint ScenarioRun::take(Time now) {
 }
 
 void ScenarioRun::run(CrashGuard& guard) {
-  const CrashGuard::Scope scope(guard, [&](const std::string& error) { recorded_.abandon(error); });
+  const CrashGuard::Scope scope(guard, [&](const std::string& error) {
+    recorded_.abandon(error);
+    print_branches();
+  });
   try {
     make_run();
     checkpoints_.require_all();
@@ -365,6 +410,7 @@ void ScenarioRun::make_run() {
       recorded_.run();
     }
   } catch (const std::exception&) {
+    if (!recorded_.has_begun()) results_.drop_copies();
     print_branches();
     throw;
   }

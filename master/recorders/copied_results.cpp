@@ -11,12 +11,15 @@
 
 namespace stride::recorders {
 
-void copy_results(const std::filesystem::path& from, const std::filesystem::path& to,
+void copy_records(const std::filesystem::path& from, const std::filesystem::path& to,
                   const ResultFiles& files) {
-  for (const auto& [what, member] : kResultFiles) {
-    const std::string& name = files.*member;
-    if (!name.empty() && core::is_file(from / name)) core::copy_input(from / name, to / name);
+  for (const std::string* const name :
+       {&files.signals, &files.events, &files.trace, &files.activity}) {
+    if (!name->empty() && core::is_file(from / *name)) core::copy_input(from / *name, to / *name);
   }
+}
+
+void copy_unit_files(const std::filesystem::path& from, const std::filesystem::path& to) {
   if (!core::is_folder(from / kUnitsFolder)) return;
   std::error_code error;
   std::filesystem::copy(from / kUnitsFolder, to / kUnitsFolder,

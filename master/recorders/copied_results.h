@@ -7,11 +7,13 @@
 
 namespace stride::recorders {
 
-/// Copies the files of these names that are there, and the folders of units without links.
-/// Throws core::Error: of the kind Input for what cannot be read, of the kind Run for what cannot
-/// be written.
-void copy_results(const std::filesystem::path& from, const std::filesystem::path& to,
+/// Copies the files of these names that are there and that a run writes on. Throws core::Error: of
+/// the kind Input for what cannot be read, of the kind Run for what cannot be written.
+void copy_records(const std::filesystem::path& from, const std::filesystem::path& to,
                   const ResultFiles& files);
+
+/// Copies the folders of units, without links. Throws likewise.
+void copy_unit_files(const std::filesystem::path& from, const std::filesystem::path& to);
 
 }  // namespace stride::recorders
 

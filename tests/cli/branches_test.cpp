@@ -178,6 +178,12 @@ TEST_CASE("mistakes in a file of branches are errors before the run, with their 
   const BranchingWorkspace workspace("<stride:Branch name='x'/>\n");
   CHECK_THAT(input_error_of(workspace.run({"--branch", "futures.xml"})),
              Contains("expected SECONDS:FILE"));
+  CHECK_THAT(
+      input_error_of(workspace.run({"--branch", "0.5:futures.xml", "--junit", "futures.xml"})),
+      Contains("this is the file of the branches"));
+  CHECK_THAT(input_error_of(workspace.run(
+                 {"--branch", "0.5:futures.xml", "--junit", "out/branches/x/run.json"})),
+             Contains("in the folder 'branches' of the results"));
   CHECK_THAT(input_error_of(workspace.run({"--branch", "0.5:nothing.xml"})),
              Contains("nothing.xml"));
   CHECK_THAT(input_error_of(workspace.run({"--branch", "0.5:futures.xml", "--checkpoint", "1"})),

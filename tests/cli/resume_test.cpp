@@ -269,6 +269,67 @@ TEST_CASE("a folder without checkpoints, a file that is none and missing results
   CHECK_THAT(input_error_of(cut.run({"--checkpoint", "soon"})), Contains("--checkpoint soon"));
 }
 
+TEST_CASE("a checkpoint of a unit with clocks of all kinds goes on") {
+  const Workspace whole({component("c", "clocks.fmu"), ""});
+  const Workspace cut({component("c", "clocks.fmu"), ""});
+  const Arguments options{"--quiet", "--stop", "0.1", "--signals", "*"};
+  REQUIRE(whole.run(options).exit_code == 0);
+  Arguments arguments = options;
+  arguments.insert(arguments.end(), {"--checkpoint", "0.05"});
+  REQUIRE(cut.run(arguments).exit_code == 0);
+  const Outcome outcome = cut.stride({"resume", "out", "--quiet"});
+  INFO(outcome.err);
+  REQUIRE(outcome.exit_code == 0);
+  check_same_results(whole / "out", cut / "out");
+}
+
+TEST_CASE("a run whose unit cannot go on leaves what is in another folder") {
+  const Workspace cut({component("c", "fmi2_types.fmu"), ""});
+  const Outcome first = cut.run({"--quiet", "--checkpoint", "0.5"});
+  INFO(first.err);
+  REQUIRE(first.exit_code == 0);
+  REQUIRE(cut.stride({"run", "minimal.fmu", "--quiet", "--out", "other", "--checkpoint", "0.5"})
+              .exit_code == 0);
+  const std::string signals = read(cut / "other/signals.csv");
+  const Outcome outcome = cut.stride({"resume", "out", "--quiet", "--out", "other"});
+  CHECK(outcome.exit_code == 1);
+  CHECK_THAT(outcome.err, Contains("it cannot be resumed"));
+  CHECK(read(cut / "other/signals.csv") == signals);
+  CHECK(fs::exists(cut / "other/run.json"));
+  CHECK(fs::exists(cut / "other/checkpoints/checkpoint_0.5s.zip"));
+  CHECK(cut.stride({"resume", "out", "--quiet", "--out", "new"}).exit_code == 1);
+  CHECK_FALSE(fs::exists(cut / "new/signals.csv"));
+  CHECK_FALSE(fs::exists(cut / "new/run.json"));
+}
+
+TEST_CASE("a resumed run refuses what would lose results or checkpoints") {
+  const Workspace cut(plain_parts());
+  REQUIRE(cut.run({"--quiet", "--checkpoint", "0.5"}).exit_code == 0);
+  const std::string results = cut.result("signals.csv");
+  const fs::path file = checkpoints(cut).front();
+  const std::string checkpoint = read(file);
+  fs::create_directory_symlink("out", cut / "link");
+  const auto error = [&](Arguments further) {
+    Arguments arguments{"resume", "out", "--quiet"};
+    arguments.insert(arguments.end(), further.begin(), further.end());
+    const std::string text = input_error_of(cut.stride(arguments));
+    CHECK(cut.result("signals.csv") == results);
+    CHECK(read(file) == checkpoint);
+    return text;
+  };
+  for (const char* out : {"out", "./out/", "link"}) {
+    CHECK_THAT(error({"--signals", "a.y", "--out", out}), Contains("name another folder"));
+  }
+  CHECK_THAT(error({"--junit", file.string()}), Contains("in the folder 'checkpoints' of the res"));
+  CHECK_THAT(error({"--junit", file.string(), "--out", "other"}), Contains("checkpoint"));
+  CHECK_THAT(error({"--out", "out/checkpoints"}), Contains("the folder of the checkpoints"));
+  CHECK_THAT(error({"--checkpoint", "0.2"}), Contains("--checkpoint 0.2: the run goes on at 0.5"));
+  CHECK_THAT(input_error_of(cut.stride({"resume", ""})), Contains("is empty"));
+  CHECK_THAT(input_error_of(cut.run(
+                 {"--checkpoint", "0.5", "--junit", "out/checkpoints/checkpoint_0.5s.zip"})),
+             Contains("in the folder 'checkpoints' of the results"));
+}
+
 TEST_CASE("a damaged checkpoint is an error, and the results stay what they are") {
   const Workspace cut(ticking_parts());
   REQUIRE(cut.run({"--quiet", "--checkpoint", "0.5"}).exit_code == 0);

@@ -29,8 +29,9 @@ Clocks::Clocks(const System& system, std::span<const std::unique_ptr<Unit>> unit
     clocked_.push_back(std::move(own));
   }
   due_.reserve(clocked_.size());
-  ticks_ = ValueBlock(ValueType::Clock, most);
-  std::ranges::fill(ticks_.numbers<bool>(), true);
+  for (std::size_t count = 1; count <= most; ++count) {
+    std::ranges::fill(ticks_.emplace_back(ValueType::Clock, count).numbers<bool>(), true);
+  }
 }
 
 Clocks::ComponentClocks* Clocks::clocks_of(std::size_t component) {
@@ -166,7 +167,7 @@ std::span<const std::size_t> Clocks::tick(Time time) {
                        ? tick_time(clock.base, clock.shift, clock.interval, ++clock.count)
                        : std::nullopt;
     }
-    units_[component]->set(ticking.ticking, ticks_);
+    units_[component]->set(ticking.ticking, ticks_[ticking.ticking.size() - 1]);
     is_stale_ = true;
   }
   return due_;

@@ -96,7 +96,7 @@ class Clocks {
   std::vector<ComponentClocks> clocked_;    ///< of the components that have such clocks
   std::vector<std::size_t> index_of_;       ///< by component; clocked_.size() = none
   std::vector<std::size_t> due_;
-  ValueBlock ticks_{ValueType::Clock, 0};  ///< as many ticks as a unit can need at once
+  std::vector<ValueBlock> ticks_;  ///< of one clock, of two, and as many as a unit can need at once
   std::optional<Time> next_;
   bool is_stale_ = false;  ///< next_ has to be computed again
 };

@@ -68,8 +68,7 @@ TEST_CASE("the page of a campaign has what became of each case, and what repeats
         std::vector<std::string>{"", "", "low: </script>\nmore", ""});
   CHECK(joined_texts(cases["links"]) ==
         std::vector<std::string>{"", "", "cases/000/000002/report.html", ""});
-  CHECK(joined_texts(cases["commands"])[2] ==
-        "stride run " + records.plan.arguments(records.plan.at(2)));
+  CHECK(joined_texts(cases["commands"])[2] == records.plan.command(records.plan.at(2)));
   CHECK(page["parameters"][0]["name"] == "b.u");
   CHECK(unpacked<double>(page["parameters"][0]["values"])[2] ==
         std::stod(*records.plan.at(2).values[0]));
