@@ -33,6 +33,7 @@ class CaseRunner {
  private:
   bool may_have_results(std::uint64_t index) const;
   bool has_results_anyway(std::uint64_t index) const;
+  bool has_hosts() const;
   campaign::CaseResult simulate(std::uint64_t index, bool& was_interrupted) const;
   std::optional<campaign::CaseResult> result_of(const CasePool::Ended& ended) const;
   void complete_results(std::uint64_t index, const campaign::CaseResult& result) const;
