@@ -14,6 +14,7 @@
 
 #include "master/campaign/campaign_junit.h"
 #include "master/campaign/case_folder.h"
+#include "master/campaign/case_range.h"
 #include "master/campaign/case_table.h"
 #include "master/campaign/plan_folder.h"
 #include "master/cli/campaign_input.h"
@@ -33,14 +34,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kMostCaseJobs = 1024;
 constexpr std::size_t kShownFailures = 10;
 
 struct CampaignRunArguments {
   CampaignArguments campaign;
-  std::size_t jobs = 0;               ///< 0: as many as there are cores
-  std::optional<std::uint64_t> only;  ///< the case to be run
-  fs::path junit;                     ///< empty: none
+  std::size_t jobs = 0;                      ///< 0: as many as there are cores
+  std::optional<std::uint64_t> only;         ///< the case to be run
+  std::optional<campaign::CaseRange> range;  ///< the cases to be run; nothing: all
+  fs::path junit;                            ///< empty: none
   std::optional<ProgressStyle> progress;
   bool quiet = false;
 };
@@ -75,23 +76,24 @@ void print_summary(const CampaignInput& input, const campaign::CaseSummary& summ
              campaign::kCaseLines);
 }
 
-/// Those of a campaign that have no record, in a pool of processes.
+/// Those of a range that have no record, in a pool of processes.
 class MissingCases {
  public:
   MissingCases(const CampaignRunArguments& arguments, const CampaignInput& input,
                const campaign::CaseFolder& cases, const campaign::CaseScratch& scratch)
-      : cases_(cases),
+      : range_(arguments.range.value_or(campaign::CaseRange{0, input.plan().size() - 1})),
+        cases_(cases),
         runner_(input.plan(), input.scenario(), scratch),
         pool_(jobs_of(arguments), child_options(input.plan().campaign())),
-        totals_(totals_before(input.plan())),
+        totals_(totals_before()),
         progress_(arguments.progress.value_or(arguments.quiet ? ProgressStyle::None
                                                               : ProgressStyle::Auto),
                   totals_) {}
 
   /// Until all are there, or the user interrupts it.
   void run() {
-    for (std::uint64_t i = 0; i < totals_.cases && !is_interrupted(); ++i) {
-      if (is_done_[i] || is_done_elsewhere(i)) continue;
+    for (std::uint64_t i = range_.first; i <= range_.last && !is_interrupted(); ++i) {
+      if (is_done_[i - range_.first] || is_done_elsewhere(i)) continue;
       while (pool_.is_full()) collect();
       if (is_interrupted()) break;
       pool_.start(i, [&] { return runner_.run(i); });
@@ -100,6 +102,7 @@ class MissingCases {
     progress_.end(totals_, is_interrupted() ? "interrupted" : "completed");
   }
 
+  const campaign::CaseTotals& totals() const { return totals_; }
   static bool is_interrupted() { return Interruption::flag() != 0; }
 
  private:
@@ -118,13 +121,13 @@ class MissingCases {
   }
 
  private:
-  campaign::CaseTotals totals_before(const campaign::Plan& plan) {
-    campaign::CaseTotals totals{.cases = plan.size()};
-    is_done_.resize(plan.size());
-    for (std::uint64_t i = 0; i < plan.size(); ++i) {
+  campaign::CaseTotals totals_before() {
+    campaign::CaseTotals totals{.cases = range_.size()};
+    is_done_.resize(range_.size());
+    for (std::uint64_t i = range_.first; i <= range_.last; ++i) {
       const auto record = cases_.read(i);
       if (!record) continue;
-      is_done_[i] = true;
+      is_done_[i - range_.first] = true;
       totals.add(record->result.outcome);
     }
     return totals;
@@ -144,16 +147,19 @@ class MissingCases {
     progress_.show(totals_);
   }
 
+  const campaign::CaseRange range_;
   const campaign::CaseFolder& cases_;
   const CaseRunner runner_;
   CasePool pool_;
-  std::vector<bool> is_done_;
+  std::vector<bool> is_done_;  ///< from the first of the range on
   campaign::CaseTotals totals_;
   CampaignProgress progress_;
 };
 
+}  // namespace
+
 void require_all_passed(const CampaignInput& input, const campaign::CaseTotals& totals) {
-  if (MissingCases::is_interrupted()) {
+  if (MissingCases::is_interrupted() || totals.missing() > 0) {
     core::fail_run({},
                    fmt::format("the campaign was interrupted; {} of {} are done", totals.done(),
                                cases_text(totals.cases)),
@@ -163,6 +169,8 @@ void require_all_passed(const CampaignInput& input, const campaign::CaseTotals& 
   core::fail_run({}, fmt::format("{} of {} {} not passed", totals.failed, cases_text(totals.cases),
                                  totals.failed == 1 ? "has" : "have"));
 }
+
+namespace {
 
 void run_missing(const CampaignRunArguments& arguments, const CampaignInput& input) {
   const recorders::ResultsLock lock(input.folder());
@@ -177,6 +185,21 @@ void run_missing(const CampaignRunArguments& arguments, const CampaignInput& inp
   }
   if (!arguments.quiet) print_summary(input, summary);
   require_all_passed(input, summary.totals);
+}
+
+/// Others may be at work in the folder, so it is not locked, and the table is not made.
+void run_range(const CampaignRunArguments& arguments, const CampaignInput& input) {
+  const campaign::CaseFolder cases(input.plan(), input.folder());
+  const campaign::CaseScratch scratch(cases);
+  const Interruption interruption;
+  MissingCases missing(arguments, input, cases, scratch);
+  missing.run();
+  const campaign::CaseTotals& totals = missing.totals();
+  if (!arguments.quiet) {
+    print_text("cases {}: {} passed, {} failed, {} missing\n", to_text(*arguments.range),
+               totals.passed, totals.failed, totals.missing());
+  }
+  require_all_passed(input, totals);
 }
 
 std::optional<campaign::CaseResult> run_case(const CampaignInput& input,
@@ -208,7 +231,8 @@ void run_only(const CampaignRunArguments& arguments, const CampaignInput& input)
 void run_campaign(const CampaignRunArguments& arguments) {
   const CrashGuard guard;
   const CampaignInput input(arguments.campaign);
-  if (arguments.only) input.require_case(*arguments.only);
+  if (arguments.only) input.require_case(*arguments.only, "--case");
+  if (arguments.range) input.require_case(arguments.range->last, "--cases");
   using namespace campaign;
   input.refuse_inputs({kPlanTable, kPlanDescription, kCaseTable, kCaseLines, kCases, kRunning});
   if (!arguments.junit.empty()) {
@@ -217,12 +241,13 @@ void run_campaign(const CampaignRunArguments& arguments) {
   }
   input.make_plan();
   if (arguments.only) return run_only(arguments, input);
+  if (arguments.range) return run_range(arguments, input);
   run_missing(arguments, input);
 }
 
-void show_status(const CampaignArguments& arguments) {
-  const CrashGuard guard;
-  const CampaignInput input(arguments);
+}  // namespace
+
+campaign::CaseTotals print_status(const CampaignInput& input) {
   if (!campaign::has_plan(input.plan(), input.folder())) {
     core::fail_input({.where = {input.folder().string(), 0}}, "there is no plan in this folder",
                      fmt::format("make it with: stride campaign run {}", input.word()));
@@ -230,10 +255,11 @@ void show_status(const CampaignArguments& arguments) {
   input.refuse_inputs({campaign::kCaseTable, campaign::kCaseLines, campaign::kRunning});
   const campaign::CaseFolder cases(input.plan(), input.folder());
   const campaign::CaseScratch scratch(cases);
-  print_summary(input, write_case_tables(input.plan(), cases, scratch, kShownFailures));
+  const campaign::CaseSummary summary =
+      write_case_tables(input.plan(), cases, scratch, kShownFailures);
+  print_summary(input, summary);
+  return summary.totals;
 }
-
-}  // namespace
 
 void add_campaign_run(CLI::App& group) {
   CLI::App* command = group.add_subcommand(
@@ -253,11 +279,26 @@ void add_campaign_run(CLI::App& group) {
                        "which may run several at the same time")
           ->type_name("INDEX")
           ->excludes(jobs);
+  CLI::Option* range =
+      command
+          ->add_option_function<std::string>(
+              "--cases",
+              [arguments](const std::string& text) {
+                arguments->range = campaign::parse_case_range(text);
+                if (!arguments->range) {
+                  throw CLI::ValidationError("--cases", "'" + text + "' is not as 20-29");
+                }
+              },
+              "Run those of these cases that have no record, counted from 0, and make no table: "
+              "likewise, for many short cases")
+          ->type_name("FIRST-LAST")
+          ->excludes(only);
   command
       ->add_option("--junit", arguments->junit,
                    "Write a test report in the XML of JUnit, with a test case for each case")
       ->type_name("FILE")
-      ->excludes(only);
+      ->excludes(only)
+      ->excludes(range);
   command
       ->add_option_function<std::string>(
           "--progress",
@@ -274,7 +315,10 @@ void add_campaign_status(CLI::App& group) {
       "status", "Say how many cases are done, and make the table of what is known");
   const auto arguments = std::make_shared<CampaignArguments>();
   add_campaign_options(*command, *arguments);
-  command->callback([arguments] { show_status(*arguments); });
+  command->callback([arguments] {
+    const CrashGuard guard;
+    print_status(CampaignInput(*arguments));
+  });
 }
 
 }  // namespace stride::cli
