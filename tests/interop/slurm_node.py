@@ -1,9 +1,11 @@
 """A Slurm cluster of one node, this machine, for tests: the daemons of Debian's packages run as the user who starts them,
 with ports on the loopback that are free and all files in one folder, and end with the object."""
 
+import ctypes
 import os
 import pathlib
 import shutil
+import signal
 import socket
 import subprocess
 import time
@@ -56,6 +58,11 @@ def free_ports(count):
     for each in sockets:
         each.close()
     return ports
+
+
+def end_with_parent():
+    """In a new process: also if the test is killed, no daemon stays."""
+    ctypes.CDLL(None).prctl(1, signal.SIGTERM)  # PR_SET_PDEATHSIG
 
 
 class SlurmNode:
@@ -132,7 +139,8 @@ class SlurmNode:
         log = self.folder / f"{program}.out.log"
         with open(log, "wb") as output:
             self._daemons.append(subprocess.Popen([shutil.which(program, path=SEARCHED), *arguments], env=self.environment,
-                                                  stdin=subprocess.DEVNULL, stdout=output, stderr=subprocess.STDOUT))
+                                                  stdin=subprocess.DEVNULL, stdout=output, stderr=subprocess.STDOUT,
+                                                  preexec_fn=end_with_parent))
 
     def _wait_for(self, condition, seconds):
         end = time.monotonic() + seconds

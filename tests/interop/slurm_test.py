@@ -7,6 +7,7 @@ import os
 import pathlib
 import re
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
@@ -139,19 +140,27 @@ def check_mistakes(node, campaign):
         require(not campaign.records("wrong"), "a case was run")
 
 
+def end_jobs(node, array, *options):
+    subprocess.run(["scancel", *options, array], env=node.environment, check=True)
+    node.wait_for(lambda: array not in node.ask("squeue", "--noheader", "--format=%F"), "jobs go on")
+
+
 def check_cancelled(node, campaign):
-    """A part of the cases is lost, and none is judged by the end of its job."""
-    printed = campaign.submit(node, 0, "cut", "--jobs", "2")
-    array = array_in(printed)
+    """A part of the cases is lost, and none is judged by the end of its job. A license keeps jobs from being too many."""
+    slow = ("--jobs", "2", "--licenses", "simulator:1")
+    array = array_in(campaign.submit(node, 0, "cut", *slow))
     node.wait_for(lambda: len(campaign.records("cut")) >= 5, "there are no records")
     require("are in the queue of Slurm still" in campaign.submit(node, 2, "cut"), "cases are submitted twice")
-    subprocess.run(["scancel", array], env=node.environment, check=True)
-    node.wait_for(lambda: array not in node.ask("squeue", "--noheader", "--format=%F"), "cancelled jobs go on")
+    end_jobs(node, array)
+    require(not list((campaign.folder / "cut").glob("running/*")), "cancelled jobs leave files")
+    before = len(campaign.records("cut"))
+    array = array_in(campaign.submit(node, 0, "cut", *slow, "--chunk", "100"))
+    node.wait_for(lambda: len(campaign.records("cut")) >= before + 5, "there are no further records")
+    end_jobs(node, array, "--signal=KILL", "--full")
     records = campaign.records("cut")
-    require(5 <= len(records) < len(campaign.table("local")) - 1, f"{len(records)} cases were run before jobs were cancelled")
+    require(10 <= len(records) < len(campaign.table("local")) - 1, f"{len(records)} cases were run before jobs were ended")
     outcomes = {json.loads(record.read_text(encoding="utf-8"))["outcome"] for record in records}
     require(outcomes <= {"passed", "failed"}, f"cases of cancelled jobs are {outcomes}")
-    require(not list((campaign.folder / "cut").glob("running/*")), "cancelled jobs leave files")
     status = campaign.stride(0, "status", "cut")
     require(f"{len(records)} of " in status, status)
     printed = campaign.submit(node, 1, "cut", "--wait", "--time", "10", "--chunk", "60")
@@ -170,6 +179,7 @@ def main(program, units, folder):
     if missing:
         print(f"SKIPPED: Slurm is not installed ({', '.join(missing)})")
         return 1 if os.environ.get("CI") == "true" else 77
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit(1))  # by way of what ends the daemons
     folder = pathlib.Path(folder)
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)

@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <charconv>
+#include <optional>
 #include <system_error>
 
 #include <fmt/format.h>
 
 #include "master/cli/cluster/called_program.h"
 #include "master/cli/cluster/slurm_script.h"
+#include "master/cli/cluster/slurm_time.h"
 #include "master/util/error.h"
 
 namespace stride::cli {
