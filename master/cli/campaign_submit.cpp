@@ -108,11 +108,10 @@ void refuse_queued(const Cluster& cluster, const fs::path& folder) {
     if (core::is_file(folder / (id + kScriptEnd))) ours.push_back(id);
   }
   if (ours.empty()) return;
-  core::fail_input(
-      {.where = {folder.string(), 0}},
-      fmt::format("cases of this campaign are in the queue of {} still, as job {}", cluster.name(),
-                  core::abridged(ours, 5)),
-      fmt::format("wait for their end, or cancel them: scancel {}", core::abridged(ours, 5)));
+  core::fail_input({.where = {folder.string(), 0}},
+                   fmt::format("cases of this campaign are in the queue of {} still, as job {}",
+                               cluster.name(), core::abridged(ours, 5)),
+                   "wait for their end, or cancel them first");
 }
 
 class Submission {
@@ -126,26 +125,30 @@ class Submission {
 
   void run() const {
     const campaign::Plan& plan = input_.plan();
-    if (!campaign::has_plan(plan, input_.folder())) campaign::check_plan(plan, input_.scenario());
+    const bool has_plan = campaign::has_plan(plan, input_.folder());
+    if (!has_plan && arguments_.is_dry) campaign::check_plan(plan, input_.scenario());
     if (survey_.missing == 0) {
-      return print_text("{}: all of {} cases are done, and nothing is submitted\n", name(),
-                        input_.plan().size());
+      print_text("{}: all of {} cases are done, and nothing is submitted\n", name(), plan.size());
+      if (arguments_.waits) require_all_there();
+      return;
     }
-    const JobArray array = divided();
+    const std::uint64_t length = chosen_length();
+    const JobArray array = array_of(arguments_, plan.campaign(), folder_,
+                                    campaign::chunks(survey_.is_missing, length));
     const std::string script = cluster_->script(array);
     if (arguments_.is_dry) return print_text("{}", script);
     input_.make_plan();
     recorders::make_results_folder(folder_);
     const recorders::ResultsLock lock(folder_);
     refuse_queued(*cluster_, folder_);
-    submit(array, script);
+    submit(script, array.ranges.size(), length);
     if (arguments_.waits) require_all_there();
   }
 
  private:
   std::string name() const { return input_.plan().campaign().file.stem().string(); }
 
-  JobArray divided() const {
+  std::uint64_t chosen_length() const {
     const std::string& time = arguments_.request.time;
     campaign::ChunkNeeds needs{.wall_time = survey_.wall_time,
                                .side_by_side = arguments_.request.processors};
@@ -154,29 +157,26 @@ class Submission {
       refuse_short_jobs(time, *needs.time_limit, input_.plan().campaign(), survey_.wall_time);
     }
     needs.most_chunks = cluster_->most_jobs();
-    const std::uint64_t length = length_of(arguments_, survey_, needs);
-    return array_of(arguments_, input_.plan().campaign(), folder_,
-                    campaign::chunks(survey_.is_missing, length));
+    return length_of(arguments_, survey_, needs);
   }
 
   /// The script is kept by the name that the cluster gives to the array.
-  void submit(const JobArray& array, const std::string& script) const {
+  void submit(const std::string& script, std::size_t jobs, std::uint64_t length) const {
     const fs::path fresh = folder_ / (std::string("submitted") + kScriptEnd);
     core::Replacement replacement(fresh);
     replacement.file().write(script);
     replacement.commit();
     cluster_->submit(fs::absolute(fresh), arguments_.waits, [&](const std::string& id) {
       fs::rename(fresh, folder_ / (id + kScriptEnd));
-      print_submitted(array, id);
+      print_submitted(id, jobs, length);
     });
   }
 
-  void print_submitted(const JobArray& array, const std::string& id) const {
-    const std::size_t jobs = array.ranges.size();
+  void print_submitted(const std::string& id, std::size_t jobs, std::uint64_t length) const {
     print_text("{}: {} of {} cases are missing, submitted to {} as job {}: {} with up to {}\n",
                name(), survey_.missing, input_.plan().size(), cluster_->name(), id,
                jobs == 1 ? "one job" : fmt::format("an array of {} jobs", jobs),
-               campaign::chunk_count(survey_.missing, jobs));
+               std::min(length, survey_.missing));
     print_text("\nScript and log files in {}: {}{} {}_*.log\n", folder_.string(), id, kScriptEnd,
                id);
     if (!arguments_.waits) {

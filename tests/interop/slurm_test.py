@@ -113,6 +113,7 @@ def check_array(node, campaign):
     logs = {file.name for file in kept.parent.glob("*.log")}
     require(logs == {f"{name}_{i}.log" for i in range(MOST_JOBS)}, f"log files {logs}")
     require("all of 40 cases are done" in campaign.submit(node, 0, "cluster"), "cases are submitted that are done")
+    require(" failures\n" in campaign.submit(node, 1, "cluster", "--wait"), "failures are not shown again")
     check_by_hand(node, campaign, kept)
 
 
@@ -164,7 +165,7 @@ def check_cancelled(node, campaign):
     status = campaign.stride(0, "status", "cut")
     require(f"{len(records)} of " in status, status)
     printed = campaign.submit(node, 1, "cut", "--wait", "--time", "10", "--chunk", "60")
-    require(array_in(printed) != array, printed)
+    require(array_in(printed) != array and " jobs with up to 60\n" in printed, printed)
     require(campaign.table("cut") == campaign.table("local"), "another table than that of a local run")
 
 
