@@ -9,7 +9,8 @@ packages_build=(
 )
 packages_test=(
   binutils catch2 chromium chromium-driver clang-format-14 fish fonts-dejavu-core gtkwave libbenchmark-dev
-  libpython3.11 libxml2-utils mandoc mold python3 python3-venv python3-pip unzip zip zsh
+  libpython3.11 libxml2-utils mandoc mold munge parallel python3 python3-venv python3-pip slurm-client slurmctld slurmd
+  unzip zip zsh
 )
 packages_fuzz=(clang-14 libclang-rt-14-dev)
 

@@ -14,6 +14,7 @@
 #include "master/cli/campaign_input.h"
 #include "master/cli/campaign_report.h"
 #include "master/cli/campaign_run.h"
+#include "master/cli/campaign_submit.h"
 #include "master/cli/commands.h"
 #include "master/cli/crash_guard.h"
 #include "master/cli/output.h"
@@ -119,7 +120,7 @@ void plan_campaign(const PlanArguments& arguments) {
   const campaign::Plan& plan = input.plan();
   campaign::check_plan(plan, input.scenario());
   if (arguments.only) {
-    input.require_case(*arguments.only);
+    input.require_case(*arguments.only, "--case");
     return print_case(plan, *arguments.only);
   }
   input.refuse_inputs({campaign::kPlanTable, campaign::kPlanDescription});
@@ -147,6 +148,7 @@ void add_campaign(CLI::App& app) {
       ->type_name("INDEX");
   command->callback([arguments] { plan_campaign(*arguments); });
   add_campaign_run(*group);
+  add_campaign_submit(*group);
   add_campaign_status(*group);
   add_campaign_report(*group);
 }

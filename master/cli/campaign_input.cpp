@@ -100,9 +100,9 @@ void CampaignInput::make_plan() const {
   }
 }
 
-void CampaignInput::require_case(std::uint64_t index) const {
+void CampaignInput::require_case(std::uint64_t index, const char* option) const {
   if (index < plan_.size()) return;
-  core::fail_input({}, fmt::format("--case {}: there are {} cases, the last one is {}", index,
+  core::fail_input({}, fmt::format("{} {}: there are {} cases, the last one is {}", option, index,
                                    plan_.size(), plan_.size() - 1));
 }
 

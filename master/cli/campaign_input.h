@@ -42,8 +42,8 @@ class CampaignInput {
   void require_plan() const;
   /// Checks and writes the plan, unless it is there. Throws core::Error (Input) if another one is.
   void make_plan() const;
-  /// Throws core::Error (Input) for an index that no case has.
-  void require_case(std::uint64_t index) const;
+  /// Throws core::Error (Input) for an index, given by this option, that no case has.
+  void require_case(std::uint64_t index, const char* option) const;
 
  private:
   explicit CampaignInput(const CampaignArguments& arguments, campaign::Campaign read);

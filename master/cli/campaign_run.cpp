@@ -15,6 +15,7 @@
 #include "master/campaign/campaign_junit.h"
 #include "master/campaign/campaign_page.h"
 #include "master/campaign/case_folder.h"
+#include "master/campaign/case_range.h"
 #include "master/campaign/case_table.h"
 #include "master/campaign/plan_folder.h"
 #include "master/cli/campaign_input.h"
@@ -36,14 +37,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kMostCaseJobs = 1024;
 constexpr std::size_t kShownFailures = 10;
 
 struct CampaignRunArguments {
   CampaignArguments campaign;
-  std::size_t jobs = 0;               ///< 0: as many as there are cores
-  std::optional<std::uint64_t> only;  ///< the case to be run
-  fs::path junit;                     ///< empty: none
+  std::size_t jobs = 0;                      ///< 0: as many as there are cores
+  std::optional<std::uint64_t> only;         ///< the case to be run
+  std::optional<campaign::CaseRange> range;  ///< the cases to be run; nothing: all
+  fs::path junit;                            ///< empty: none
   std::optional<ProgressStyle> progress;
   bool quiet = false;
 };
@@ -78,8 +79,10 @@ void print_summary(const CampaignInput& input, const campaign::CaseSummary& summ
              campaign::kCaseLines);
 }
 
+}  // namespace
+
 void require_all_passed(const CampaignInput& input, const campaign::CaseTotals& totals) {
-  if (MissingCases::is_interrupted()) {
+  if (MissingCases::is_interrupted() || totals.missing() > 0) {
     core::fail_run({},
                    fmt::format("the campaign was interrupted; {} of {} are done", totals.done(),
                                cases_text(totals.cases)),
@@ -90,10 +93,12 @@ void require_all_passed(const CampaignInput& input, const campaign::CaseTotals& 
                                  totals.failed == 1 ? "has" : "have"));
 }
 
+namespace {
+
 MissingCases::Options missing_options(const CampaignRunArguments& arguments,
                                       const CampaignInput& input) {
   const std::size_t cores = std::max<std::size_t>(std::thread::hardware_concurrency(), 1);
-  return {.range = {0, input.plan().size() - 1},
+  return {.range = arguments.range.value_or(campaign::CaseRange{0, input.plan().size() - 1}),
           .jobs = arguments.jobs != 0 ? arguments.jobs : cores,
           .progress = arguments.progress.value_or(arguments.quiet ? ProgressStyle::None
                                                                   : ProgressStyle::Auto)};
@@ -122,6 +127,21 @@ void run_missing(const CampaignRunArguments& arguments, const CampaignInput& inp
   if (!arguments.quiet) print_summary(input, summary);
   warn_of_failure([&] { write_page(arguments, input, cases); });
   require_all_passed(input, summary.totals);
+}
+
+/// Others may be at work in the folder, so it is not locked, and the table is not made.
+void run_range(const CampaignRunArguments& arguments, const CampaignInput& input) {
+  const campaign::CaseFolder cases(input.plan(), input.folder());
+  const campaign::CaseScratch scratch(cases);
+  const Interruption interruption;
+  MissingCases missing(input, cases, scratch, missing_options(arguments, input));
+  missing.run();
+  const campaign::CaseTotals& totals = missing.totals();
+  if (!arguments.quiet) {
+    print_text("cases {}: {} passed, {} failed, {} missing\n", to_text(*arguments.range),
+               totals.passed, totals.failed, totals.missing());
+  }
+  require_all_passed(input, totals);
 }
 
 std::optional<campaign::CaseResult> run_case(const CampaignInput& input,
@@ -153,7 +173,8 @@ void run_only(const CampaignRunArguments& arguments, const CampaignInput& input)
 void run_campaign(const CampaignRunArguments& arguments) {
   const CrashGuard guard;
   const CampaignInput input(arguments.campaign);
-  if (arguments.only) input.require_case(*arguments.only);
+  if (arguments.only) input.require_case(*arguments.only, "--case");
+  if (arguments.range) input.require_case(arguments.range->last, "--cases");
   using namespace campaign;
   input.refuse_inputs(
       {kPlanTable, kPlanDescription, kCaseTable, kCaseLines, kCampaignPage, kCases, kRunning});
@@ -163,20 +184,22 @@ void run_campaign(const CampaignRunArguments& arguments) {
   }
   input.make_plan();
   if (arguments.only) return run_only(arguments, input);
+  if (arguments.range) return run_range(arguments, input);
   run_missing(arguments, input);
 }
 
-void show_status(const CampaignArguments& arguments) {
-  const CrashGuard guard;
-  const CampaignInput input(arguments);
+}  // namespace
+
+campaign::CaseTotals print_status(const CampaignInput& input) {
   input.require_plan();
   input.refuse_inputs({campaign::kCaseTable, campaign::kCaseLines, campaign::kRunning});
   const campaign::CaseFolder cases(input.plan(), input.folder());
   const campaign::CaseScratch scratch(cases);
-  print_summary(input, write_case_tables(input.plan(), cases, scratch, kShownFailures));
+  const campaign::CaseSummary summary =
+      write_case_tables(input.plan(), cases, scratch, kShownFailures);
+  print_summary(input, summary);
+  return summary.totals;
 }
-
-}  // namespace
 
 void add_campaign_run(CLI::App& group) {
   CLI::App* command = group.add_subcommand(
@@ -196,11 +219,26 @@ void add_campaign_run(CLI::App& group) {
                        "which may run several at the same time")
           ->type_name("INDEX")
           ->excludes(jobs);
+  CLI::Option* range =
+      command
+          ->add_option_function<std::string>(
+              "--cases",
+              [arguments](const std::string& text) {
+                arguments->range = campaign::parse_case_range(text);
+                if (!arguments->range) {
+                  throw CLI::ValidationError("--cases", "'" + text + "' is not as 20-29");
+                }
+              },
+              "Run those of these cases that have no record, counted from 0, and make no table: "
+              "likewise, for many short cases")
+          ->type_name("FIRST-LAST")
+          ->excludes(only);
   command
       ->add_option("--junit", arguments->junit,
                    "Write a test report in the XML of JUnit, with a test case for each case")
       ->type_name("FILE")
-      ->excludes(only);
+      ->excludes(only)
+      ->excludes(range);
   command
       ->add_option_function<std::string>(
           "--progress",
@@ -217,7 +255,10 @@ void add_campaign_status(CLI::App& group) {
       "status", "Say how many cases are done, and make the table of what is known");
   const auto arguments = std::make_shared<CampaignArguments>();
   add_campaign_options(*command, *arguments);
-  command->callback([arguments] { show_status(*arguments); });
+  command->callback([arguments] {
+    const CrashGuard guard;
+    print_status(CampaignInput(*arguments));
+  });
 }
 
 }  // namespace stride::cli

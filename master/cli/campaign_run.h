@@ -1,12 +1,24 @@
-// stride campaign run and status.
+// stride campaign run and status, and what other commands print of a campaign.
 #ifndef STRIDE_MASTER_CLI_CAMPAIGN_RUN_H
 #define STRIDE_MASTER_CLI_CAMPAIGN_RUN_H
+
+#include "master/campaign/case_table.h"
 
 namespace CLI {
 class App;
 }
 
 namespace stride::cli {
+
+class CampaignInput;
+
+inline constexpr int kMostCaseJobs = 1024;
+
+/// Makes the table, and prints how many cases are done, and failures. Throws core::Error (Input)
+/// where there is no plan.
+campaign::CaseTotals print_status(const CampaignInput& input);
+/// Throws core::Error (Run) if a case has not passed, or the campaign was interrupted.
+void require_all_passed(const CampaignInput& input, const campaign::CaseTotals& totals);
 
 void add_campaign_run(CLI::App& group);
 void add_campaign_status(CLI::App& group);

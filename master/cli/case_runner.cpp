@@ -1,6 +1,8 @@
 #include "master/cli/case_runner.h"
 
 #include <algorithm>
+#include <csignal>
+#include <ctime>
 #include <exception>
 #include <string_view>
 #include <utility>
@@ -59,11 +61,21 @@ CaseResult crashed(const isolation::ChildOutcome& outcome) {
   return {.outcome = Outcome::Crashed, .reason = std::move(reason)};
 }
 
-/// A workload manager ends all processes of a job at once, those of hosted units as well, and what
-/// became of a case that had lost one would be its error.
-bool is_end_of_all(const CaseResult& result) {
-  const bool was_complete = result.outcome == Outcome::Passed || result.outcome == Outcome::Failed;
-  return !was_complete && Interruption::flag() != 0;
+/// Whoever ends a job of a cluster signals its processes one by one, and this one may be the last:
+/// what became of a case that had lost one of its processes would be taken for its own error.
+void await_end_of_job() {
+  constexpr timespec kPatience{.tv_sec = 0, .tv_nsec = 50'000'000};
+  if (Interruption::flag() == 0) ::nanosleep(&kPatience, nullptr);  // a signal ends it
+}
+
+/// What a signal from outside does; others are of the case's own making.
+bool was_killed_from_outside(const isolation::ChildOutcome& outcome) {
+  return outcome.end == End::Killed &&
+         (outcome.code == SIGKILL || outcome.code == SIGTERM || outcome.code == SIGHUP);
+}
+
+bool is_complete(const CaseResult& result) {
+  return result.outcome == Outcome::Passed || result.outcome == Outcome::Failed;
 }
 
 }  // namespace
@@ -80,10 +92,19 @@ CaseRunner::CaseRunner(const campaign::Plan& plan, const campaign::CampaignScena
     provenance_of(alternative.loaded, digests_);
 }
 
+bool CaseRunner::has_hosts() const {
+  return std::ranges::any_of(scenario_.loaded().hostings(),
+                             [](const auto& hosting) { return hosting.has_value(); });
+}
+
 std::string CaseRunner::run(std::uint64_t index) const {
   const EndOfCase end;
   bool was_interrupted = false;
   const CaseResult result = simulate(index, was_interrupted);
+  if (result.outcome == Outcome::Error && has_hosts()) {
+    await_end_of_job();
+    was_interrupted |= Interruption::flag() != 0;
+  }
   return was_interrupted ? "" : campaign::record_line(plan_, plan_.at(index), result);
 }
 
@@ -223,7 +244,8 @@ std::optional<CaseResult> CaseRunner::result_of(const CasePool::Ended& ended) co
 
 std::optional<CaseResult> CaseRunner::conclude(const CasePool::Ended& ended) const {
   std::optional<CaseResult> result = result_of(ended);
-  if (!result || is_end_of_all(*result)) {
+  if (was_killed_from_outside(ended.outcome)) await_end_of_job();
+  if (!result || (!is_complete(*result) && Interruption::flag() != 0)) {
     scratch_.drop_results(ended.index);
     return std::nullopt;
   }

@@ -41,6 +41,7 @@ class CaseRunner {
  private:
   scenario::ScenarioRequest request(std::uint64_t index) const;
   CaseResults results(std::uint64_t index) const;
+  bool has_hosts() const;
   campaign::CaseResult simulate(std::uint64_t index, bool& was_interrupted) const;
   std::string simulate_rest(std::uint64_t index, const campaign::SharedBeginning& shared,
                             CaseRun& run) const;

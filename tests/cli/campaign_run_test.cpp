@@ -172,6 +172,35 @@ TEST_CASE("cases of a campaign may run in any order and in processes side by sid
   CHECK_FALSE(fs::exists(space / "side/running"));
 }
 
+TEST_CASE("ranges of cases may run side by side, and leave out what is done") {
+  const CampaignRuns space(campaign("12", kKeepNone));
+  CHECK(space.campaign("all").exit_code == 1);
+  std::list<Process> processes;
+  for (const char* range : {"6-11", "0-5", "4-7"}) {
+    processes.emplace_back(
+        stride_command(CampaignRuns::arguments("side", {"--cases", range, "--jobs", "2"})),
+        space.scratch().path());
+  }
+  for (Process& process : processes) {
+    const Outcome outcome = process.wait();
+    INFO(outcome.err);
+    CHECK((outcome.exit_code == 0 || outcome.err.find("not passed") != std::string::npos));
+  }
+  CHECK(records_in(space / "side") == 12);
+  CHECK_FALSE(fs::exists(space / "side/cases.csv"));
+  CHECK(space.stride({"campaign", "status", "side"}).exit_code == 0);
+  CHECK(space.table("side") == space.table("all"));
+  CHECK_FALSE(fs::exists(space / "side/running"));
+
+  fs::remove(space / "side/cases/000/000003.json");
+  const auto before = fs::last_write_time(space / "side/cases/000/000004.json");
+  const Outcome again = space.stride(
+      {"campaign", "run", "c.xosc", "--out", "side", "--cases", "3-4", "--progress", "none"});
+  CHECK_THAT(again.out, Contains("cases 3-4: ") && Contains(", 0 missing"));
+  CHECK(records_in(space / "side") == 12);
+  CHECK(fs::last_write_time(space / "side/cases/000/000004.json") == before);
+}
+
 TEST_CASE("a campaign that is killed at any instant goes on where it was") {
   const CampaignRuns space(campaign("30", "<stride:Keep results='failed' every='7'/>"));
   CHECK(space.campaign("whole").exit_code == 1);
@@ -369,6 +398,31 @@ TEST_CASE("a campaign that is interrupted says how it goes on") {
   CHECK_THAT(status.out, Contains("c: 1 of 3 cases done, 1 passed, 0 failed, 2 missing"));
 }
 
+TEST_CASE("a case whose processes all end together has no outcome, whichever ends first") {
+  Parts parts = checked_filters();
+  parts.annotation += "<stride:Host components='second'/>";
+  const CampaignRuns space(campaign("30", kKeepNone), parts);
+  const Leftovers leftovers;
+  std::mt19937 random(1);
+  for (int i = 0; i < 12; ++i) {
+    const std::string out = "out" + std::to_string(i);
+    Process process(stride_command(CampaignRuns::arguments(out, {"--cases", "0-29"})),
+                    space.scratch().path());
+    while (process.is_running() && records_in(space / out) == 0) std::this_thread::sleep_for(5ms);
+    std::this_thread::sleep_for(std::chrono::milliseconds(random() % 40));
+    std::vector<pid_t> processes = leftovers.processes();
+    std::sort(processes.rbegin(), processes.rend());
+    for (const pid_t id : processes) ::kill(id, SIGTERM);
+    CHECK(process.wait().exit_code != 0);
+    CHECK(space.stride({"campaign", "status", out}).exit_code == 0);
+    for (std::size_t index = 0; index < 30; ++index) {
+      const std::string outcome = space.line(out, index)["outcome"];
+      INFO(space.line(out, index));
+      CHECK((outcome == "passed" || outcome == "failed" || outcome == "missing"));
+    }
+  }
+}
+
 TEST_CASE("a campaign whose cases pass is good, and status repeats the failures") {
   const CampaignRuns space(campaign("5"), two_filters());
   const Outcome good = space.stride({"campaign", "run", "c.xosc", "--progress", "json"});
@@ -392,6 +446,13 @@ TEST_CASE("what campaign run refuses") {
   REQUIRE(space.campaign("out").exit_code == 0);
   CHECK_THAT(input_error_of(space.campaign("out", {"--case", "5"})),
              Contains("--case 5: there are 5 cases, the last one is 4"));
+  CHECK_THAT(input_error_of(space.campaign("out", {"--cases", "3-5"})),
+             Contains("--cases 5: there are 5 cases, the last one is 4"));
+  for (const char* range : {"4-3", "a", "1-"}) {
+    const Outcome outcome = space.campaign("out", {"--cases", range});
+    CHECK(outcome.exit_code == 2);
+    CHECK_THAT(outcome.err, Contains("is not as 20-29"));
+  }
   CHECK_THAT(input_error_of(space.stride({"campaign", "status", "c.xosc"})),
              Contains("campaigns/c: there is no plan in this folder"));
   CHECK_THAT(input_error_of(space.stride({"campaign", "run", "out", "--out", "other"})),
