@@ -35,7 +35,8 @@ export class Histogram {
     const everyone = new Uint8Array(report.count).fill(1);
     this.all = countOutcomes(column, this.bins, report.cases.outcomes, everyone);
     this.most = Math.max(1, ...this.all.map(sum));
-    this.picture = svg("svg", { viewBox: `0 0 ${kWidth} ${kHeight}`, class: "histogram", role: "img" });
+    const viewBox = `0 0 ${kWidth} ${kHeight}`;
+    this.picture = svg("svg", { viewBox, preserveAspectRatio: "none", class: "histogram", role: "img" });
     const ends = column.isNumber
       ? [briefText(column.least), briefText(column.most)]
       : [column.categories[0], column.categories.at(-1)];
