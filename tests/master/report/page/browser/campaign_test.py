@@ -292,6 +292,23 @@ class CampaignTest(unittest.TestCase):
         self.assertEqual(browser.errors(), [])
         self.assertEqual(len(browser.all(".heat-map")), 0)
 
+    def test_very_many_texts_have_no_bars(self):
+        campaign = Campaign(150)
+        campaign.unit = [f"unit {i}" for i in range(150)]
+        browser = self.open(campaign)
+        self.assertEqual(browser.texts(".histogram-box h3"), ["tank.load", "pump.delay"])
+        self.assertIn("With too many different texts: pump.", browser.texts(".note"))
+
+    def test_where_no_results_were_kept_the_page_says_so(self):
+        campaign = Campaign()
+        campaign.linked = {}
+        data = campaign.data()
+        data["campaign"]["keep"] = "none"
+        data["cases"]["reached"] = page_data.pack("float64", [0.5] + [1] * (campaign.count - 1))
+        browser = self.open(campaign, data)
+        self.assertTrue(any(text.startswith("No results of cases were kept") for text in browser.texts(".note")))
+        self.assertIn("reached [s]", browser.texts(".cases thead th"))
+
     def test_of_too_many_cases_the_page_says_so(self):
         campaign = Campaign()
         data = campaign.data()

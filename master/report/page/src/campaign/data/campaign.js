@@ -34,8 +34,10 @@ export async function readCampaign(data) {
   const cases = await readCases(data.cases);
   const parameters = await Promise.all(data.parameters.map((entry) => readColumn(entry, "parameter")));
   const aggregates = await Promise.all(data.aggregates.map((entry) => readColumn(entry, "aggregate")));
+  const reached = new Column("reached [s]", "time", cases.reached);
   const times = [
     new Column("first failure [s]", "time", cases.failed_at),
+    ...(reached.varies ? [reached] : []),
     new Column("wall time [s]", "time", cases.wall_times),
   ];
   return {

@@ -1,5 +1,6 @@
 // A quantity of each case: a parameter, an aggregate, a time.
 import { briefText, numberText } from "../../data/number_text.js";
+import { decimalsOf } from "../../plot/ticks.js";
 
 /** Of numbers with no more different values than these each one is a bin. */
 const kFewValues = 12;
@@ -85,9 +86,12 @@ export class Column {
     return Math.min(1, Math.max(0, (value - bottom) / (top - bottom)));
   }
 
+  /** The number there, with no more digits than the axis can show. */
   valueAt(share) {
     const [bottom, top] = this.range;
-    return bottom + share * (top - bottom);
+    const value = bottom + share * (top - bottom);
+    const step = (top - bottom) / 1e4;
+    return step > 1e-20 ? Number(value.toFixed(decimalsOf(step))) : value;
   }
 
   /** With all digits. */

@@ -100,8 +100,15 @@ export class CaseTable {
       h("h2", {}, "Cases"),
       h("div.filter", {}, this.kind, this.text, this.count, h("span.pages", {}, this.back, this.further)),
       h("div.scroll", { tabIndex: 0, role: "region", "aria-label": "Table of cases" }, table),
+      this.#keepNote(),
       h("p.note", {}, "The commands are those for the folder ", h("code", {}, folder), ", as seen from this page."),
     );
+  }
+
+  #keepNote() {
+    const { cases, campaign } = this.report;
+    if (campaign.keep !== "none" || cases.links.some(Boolean)) return null;
+    return h("p.note", {}, "No results of cases were kept, so there are no reports; the command of a case makes them.");
   }
 
   #sortBy(values) {

@@ -26,7 +26,13 @@ function intervalPicture(middle, [low, high], least, most, isStrong) {
   const zero = svg("line", { x1: x(0), x2: x(0), y1: 2, y2: kHeight - 2, class: "interval-zero" });
   return svg(
     "svg",
-    { width: kWidth, height: kHeight, class: isStrong ? "interval clear" : "interval", "aria-hidden": "true" },
+    {
+      viewBox: `0 0 ${kWidth} ${kHeight}`,
+      width: kWidth,
+      height: kHeight,
+      class: isStrong ? "interval clear" : "interval",
+      "aria-hidden": "true",
+    },
     line(least, most, "interval-ground"),
     zero,
     line(low, high, "interval-span"),

@@ -5,6 +5,8 @@ import { countOutcomes } from "../data/counting.js";
 import { kOutcomes } from "../data/outcomes.js";
 
 const kBins = 24;
+/** Of texts. More bars than these cannot be told apart. */
+const kMostCategories = 100;
 const kWidth = 240;
 const kHeight = 84;
 /** From the bottom: what has not passed is seen best there. */
@@ -35,7 +37,8 @@ export class Histogram {
     const everyone = new Uint8Array(report.count).fill(1);
     this.all = countOutcomes(column, this.bins, report.cases.outcomes, everyone);
     this.most = Math.max(1, ...this.all.map(sum));
-    this.picture = svg("svg", { viewBox: `0 0 ${kWidth} ${kHeight}`, class: "histogram", role: "img" });
+    const viewBox = `0 0 ${kWidth} ${kHeight}`;
+    this.picture = svg("svg", { viewBox, preserveAspectRatio: "none", class: "histogram", role: "img" });
     const ends = column.isNumber
       ? [briefText(column.least), briefText(column.most)]
       : [column.categories[0], column.categories.at(-1)];
@@ -69,8 +72,10 @@ export class Histogram {
 }
 
 export function histogramSection(context) {
-  const columns = context.report.parameters.filter((column) => column.varies);
-  if (columns.length === 0) return null;
+  const varying = context.report.parameters.filter((column) => column.varies);
+  const columns = varying.filter((column) => column.isNumber || column.categories.length <= kMostCategories);
+  if (varying.length === 0) return null;
+  const others = varying.filter((column) => !columns.includes(column)).map(({ name }) => name);
   const histograms = columns.map((column) => new Histogram(context, column));
   context.selection.addEventListener("change", () => histograms.forEach((histogram) => histogram.draw()));
   return h(
@@ -78,5 +83,6 @@ export function histogramSection(context) {
     { "aria-label": "Histograms" },
     h("h2", {}, "Each parameter"),
     h("div.histograms", {}, ...histograms.map(({ box }) => box)),
+    others.length === 0 ? null : h("p.note", {}, `With too many different texts: ${others.join(", ")}.`),
   );
 }

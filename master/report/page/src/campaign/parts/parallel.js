@@ -58,7 +58,7 @@ export class Parallel {
         "details.by-values",
         {},
         h("summary", {}, "Select by values"),
-        h("div.fields", {}, ...this.brushes.map(({ fields }) => fields)),
+        h("div.fields", {}, ...this.brushes.map(({ fields }) => fields.box)),
       ),
     );
     selection.addEventListener("change", () => this.redraw());

@@ -14,6 +14,8 @@ const kTop = 10;
 const kRight = 12;
 const kShades = 32;
 const kFont = "11px system-ui, sans-serif";
+/** More points than these are dots. */
+const kMostMarks = 20_000;
 /** How near the pointer has to be to a point [px]. */
 const kReach = 10;
 /** A drag that is shorter is a click [px]. */
@@ -174,7 +176,12 @@ export class Scatter {
   #copy(pen, picture, isDrawn) {
     for (let i = 0; i < this.report.count; ++i) {
       if (!isDrawn(i) || !(this.xs[i] + this.ys[i] < Infinity)) continue;
-      const { canvas, size } = typeof picture === "function" ? picture(i) : picture;
+      const { canvas, size, paint } = typeof picture === "function" ? picture(i) : picture;
+      if (this.report.count > kMostMarks) {
+        pen.fillStyle = paint;
+        pen.fillRect(this.xs[i] - 1, this.ys[i] - 1, 2, 2);
+        continue;
+      }
       pen.drawImage(canvas, this.xs[i] - size / 2, this.ys[i] - size / 2, size, size);
     }
   }

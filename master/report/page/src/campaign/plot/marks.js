@@ -36,7 +36,7 @@ export function markPicture(mark, radius, paint) {
   pen.lineWidth = 1.4;
   if (isLine) pen.stroke();
   else pen.fill();
-  return { canvas, size };
+  return { canvas, size, paint };
 }
 
 /** A point on the scale of an aggregate, from 0 to 1. */

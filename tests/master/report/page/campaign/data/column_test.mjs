@@ -16,6 +16,12 @@ test("an axis is a little longer than the range of the numbers, and infinities a
   assert.deepEqual(new Column("a", "parameter", [NaN]).range, [0, 1]);
 });
 
+test("a place on an axis has no more digits than can be seen", () => {
+  assert.equal(new Column("a", "parameter", [0, 1 / 3]).valueAt(0.5), 0.16667);
+  assert.equal(new Column("a", "parameter", [1e9, 4e9]).valueAt(1 / 3), 1_970_000_000);
+  assert.equal(new Column("a", "parameter", [1e-30, 3e-30]).valueAt(0.5), 2e-30);
+});
+
 test("texts are in an order that counts", () => {
   const column = Column.ofTexts("a", "parameter", [0, 1, 2, 0], ["b10", "b9", "a"]);
   assert.deepEqual(column.categories, ["a", "b9", "b10"]);
