@@ -134,9 +134,12 @@ void write_checkpoint(const std::filesystem::path& file, const Checkpoint& check
 }
 
 Checkpoint read_checkpoint(const std::filesystem::path& file) {
-  const archive::UnpackedArchive archive(file, "a checkpoint: a zip archive");
   try {
+    const archive::UnpackedArchive archive(file, "a checkpoint: a zip archive");
     return read(file, archive.folder());
+  } catch (const core::Error& mistake) {
+    throw core::Error(mistake.kind(), mistake.context(), mistake.message(),
+                      "resume an earlier checkpoint, or let the run begin at its start");
   } catch (const nlohmann::json::exception& mistake) {
     fail(file, fmt::format("this is no checkpoint, or a damaged one: {}", mistake.what()));
   }

@@ -10,6 +10,7 @@
 
 #include "master/checkpoint/checkpoint_file.h"
 #include "master/cli/crash_guard.h"
+#include "master/cli/interruption.h"
 #include "master/cli/output.h"
 #include "master/recorders/results_folder.h"
 #include "master/recorders/run_json.h"
@@ -93,6 +94,7 @@ fs::path BranchRuns::folder(const Branch& branch) const {
 void BranchRuns::make_rest(const Branch& branch) {
   if (!checkpoint_.empty()) resume(branch);
   const EndOfBranch end;
+  const Interruption interruption;
   const CrashGuard guard([&](const std::string& error) { setup_.recorded.abandon(error); });
   setup_.results.folder = folder(branch);
   recorders::make_results_folder(setup_.results.folder);

@@ -1,6 +1,7 @@
 #include "master/cli/branches.h"
 
 #include <algorithm>
+#include <chrono>
 #include <stdexcept>
 #include <string_view>
 #include <thread>
@@ -19,6 +20,9 @@ namespace {
 using End = isolation::ChildOutcome::End;
 
 constexpr int kMostJobs = 1024;
+
+/// Of a branch, for the end of its results, where it is interrupted.
+constexpr std::chrono::seconds kGrace{5};
 
 BranchRequest parse_branch(const std::string& text) {
   const std::size_t colon = text.find(':');
@@ -83,7 +87,12 @@ void Branches::on_pause(Time now) {
       work_.rest(branches_[i]);
       return std::string();
     };
-    running_.push_back({i, isolation::Child(work, {.limit = {}, .interrupted = interrupted_})});
+    if (*interrupted_ != 0) {
+      failures_[i] = "it was interrupted before it began";
+      continue;
+    }
+    running_.push_back(
+        {i, isolation::Child(work, {.limit = {}, .interrupted = interrupted_, .grace = kGrace})});
   }
   while (!running_.empty()) collect(std::chrono::milliseconds(100));
   work_.conclude();

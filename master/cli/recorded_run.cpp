@@ -237,6 +237,7 @@ void RecordedRun::restore(const Resumption& resumption) {
     throw core::BadState("its state is of another time than it says");
   }
   if (!checks_.is_empty()) restore_state(from, "checks", checks_);
+  if (!setup_.display.quiet) summary_.begin_late(from.time);
   if (from.states.contains("summary") && !setup_.display.quiet) {
     restore_state(from, "summary", summary_);
   }

@@ -41,6 +41,10 @@ fs::path checkpoint_file(const fs::path& from) {
   if (from.empty()) {
     core::fail_input({}, "the name of the checkpoint is empty", "name a folder of results");
   }
+  if (!core::path_exists(from)) {
+    core::fail_input({.where = {from.string(), 0}}, "there is no such file or folder",
+                     "name a checkpoint, or a folder of results");
+  }
   if (!core::is_folder(from)) return fs::absolute(from);
   const std::vector<fs::path> found = checkpoints_in(from);
   if (!found.empty()) return fs::absolute(found.back());
@@ -222,6 +226,12 @@ void resume(ResumeArguments given) {
   require_later_checkpoints(changes.checkpoints, resumption->from.time);
   RunArguments arguments = arguments_of(*resumption);
   change(arguments, *resumption, changes);
+  if (!core::is_folder(resumption->results)) {
+    core::fail_input({.where = {resumption->file.string(), 0}},
+                     fmt::format("the results that it goes on with are not in '{}'",
+                                 resumption->results.string()),
+                     "put the checkpoint back into their folder 'checkpoints'");
+  }
   arguments.out = changes.out.empty() ? resumption->results : changes.out;
   refuse_checkpoints_folder(arguments.out, *resumption);
   const bool goes_elsewhere =

@@ -88,12 +88,34 @@ void Summary::on_communication_point(Time) {
   }
 }
 
-void Summary::persist(core::StateArchive& state) {
-  state.mark("summary");
-  state.fixed(ranges_, [&](Range& range) {
+void Summary::begin_late(Time time) {
+  since_ = time;
+  for (Range& range : ranges_) range.is_whole = false;
+}
+
+void Summary::persist_ranges(core::StateArchive& state) {
+  std::vector<Range> kept;
+  if (!state.is_reading()) kept = ranges_;
+  state.sequence(kept, [&](Range& range) {
+    state.value(range.id.component);
+    state.value(range.id.variable);
     state.value(range.least);
     state.value(range.most);
+    state.value(range.is_whole);
   });
+  if (!state.is_reading()) return;
+  for (const Range& range : kept) {
+    const auto found = std::ranges::find(ranges_, range.id, &Range::id);
+    if (found == ranges_.end()) continue;
+    found->least = range.least;
+    found->most = range.most;
+    found->is_whole = range.is_whole;
+  }
+}
+
+void Summary::persist(core::StateArchive& state) {
+  state.mark("summary");
+  persist_ranges(state);
   state.sequence(messages_, [&](Sent& sent) {
     state.value(sent.id.component);
     state.value(sent.id.variable);
@@ -150,12 +172,17 @@ std::string Summary::signal_table() const {
                {"most", Table::Align::Right},
                {"last", Table::Align::Right},
                {"unit"}});
+  bool are_whole = true;
   for (const Range& range : ranges_) {
-    table.add({system_.full_name(range.id), fmt::format("{:.5g}", range.least),
-               fmt::format("{:.5g}", range.most), fmt::format("{:.5g}", *range.value),
-               system_.variable(range.id).unit});
+    const bool is_known = range.least <= range.most;  // a point at least
+    table.add({system_.full_name(range.id) + (range.is_whole ? "" : " *"),
+               is_known ? fmt::format("{:.5g}", range.least) : "",
+               is_known ? fmt::format("{:.5g}", range.most) : "",
+               fmt::format("{:.5g}", *range.value), system_.variable(range.id).unit});
+    are_whole = are_whole && range.is_whole;
   }
   std::string text = table.text();
+  if (!are_whole) text += fmt::format("  * least and most since {} s\n", core::to_text(since_));
   if (other_signals_ > 0) text += fmt::format("  … and {} more\n", other_signals_);
   return text;
 }

@@ -25,7 +25,9 @@ class Summary : public core::Observer {
   bool wants_content() const override;
   void on_message(const core::Message& message) override;
   void on_communication_point(Time time) override;
-  /// At a communication point, behind on_start().
+  /// Of a run that is resumed, behind on_start(): what persist() does not know begins here.
+  void begin_late(Time time);
+  /// At a communication point, behind on_start(). Reads the ranges of those signals that are there.
   void persist(core::StateArchive& state);
 
   std::string text(const core::RunStatistics& statistics) const;
@@ -35,6 +37,7 @@ class Summary : public core::Observer {
     core::VariableId id;
     const double* value;
     double least, most;
+    bool is_whole = true;  ///< else since `since_`
   };
   struct Sent {
     core::VariableId id;
@@ -45,6 +48,7 @@ class Summary : public core::Observer {
 
   void note_receiver(core::VariableId receiver);
   std::string message_table() const;
+  void persist_ranges(core::StateArchive& state);
   std::string signal_table() const;
   std::string idle_line(const core::RunStatistics& statistics) const;
   std::string host_line(const core::RunStatistics& statistics) const;
@@ -54,6 +58,7 @@ class Summary : public core::Observer {
   std::vector<core::VariableId> signals_;
   std::size_t other_signals_ = 0;  ///< recorded numbers without a range
   std::vector<Range> ranges_;
+  Time since_{};
   std::vector<Sent> messages_;
   std::size_t message_count_ = 0;
 };

@@ -1,11 +1,14 @@
 // Several futures of one run.
+#include <csignal>
 #include <fstream>
+#include <thread>
 
 #include "tests/cli/course.h"
 #include "tests/cli/failures.h"
 
 using namespace stride::tests;
 using Catch::Matchers::Contains;
+using namespace std::chrono_literals;
 
 namespace {
 
@@ -152,6 +155,30 @@ TEST_CASE("whatever ends a branch, the table and its run.json say why, and the o
   CHECK(branch["outcome"] == "failed");
   CHECK_THAT(branch["error"].get<std::string>(), Contains(reason));
   CHECK(run_json(workspace)["outcome"] == "completed");
+}
+
+TEST_CASE("branches that are interrupted end with complete results") {
+  Parts parts = talkers_and_filters();
+  parts.experiment = "<ssd:DefaultExperiment stopTime=\"100000\"/>\n";
+  const BranchingWorkspace workspace(parts, kThree);
+  Process process(stride_command(Workspace::run_arguments(
+                      {"--quiet", "--no-trace", "--branch", "0.5:futures.xml", "--jobs", "2"})),
+                  workspace.scratch().path());
+  const auto size = [&] {
+    std::error_code none;
+    return fs::file_size(workspace / "out/branches/same/signals.csv", none) + (none ? 1 : 0);
+  };
+  while (process.is_running() && size() < 100'000) std::this_thread::sleep_for(5ms);
+  process.send(SIGTERM);
+  const Outcome outcome = process.wait();
+  INFO(outcome.err);
+  CHECK(outcome.exit_code == 1);
+  CHECK_THAT(outcome.err, Contains("interrupted"));
+  const auto run = nlohmann::json::parse(read(workspace / "out/branches/same/run.json"));
+  CHECK(run["outcome"] == "interrupted");
+  const std::string signals = read(workspace / "out/branches/same/signals.csv");
+  CHECK(signals.back() == '\n');
+  CHECK_FALSE(fs::exists(workspace / "out/branches/late"));
 }
 
 TEST_CASE("mistakes in a file of branches are errors before the run, with their lines") {

@@ -240,6 +240,33 @@ TEST_CASE("other signals are recorded from the checkpoint on") {
   CHECK(more.numbers("b.y").back() == cut.signals().numbers("b.y").back());
 }
 
+TEST_CASE("the table of a resumed run says since when it knows a signal") {
+  const Workspace cut(plain_parts());
+  const Arguments plain{"--progress", "none", "--set", "a.u=1", "--checkpoint", "0.5"};
+  const auto table_of = [](const std::string& out) {
+    const std::size_t begin = out.find("\nSignals\n");
+    return out.substr(begin, out.find("\nUnits\n") - begin);
+  };
+  const Outcome whole = cut.run(plain);
+  REQUIRE(whole.exit_code == 0);
+  const Outcome same = cut.stride({"resume", "out", "--progress", "none"});
+  INFO(same.err);
+  CHECK(table_of(same.out) == table_of(whole.out));
+  const Outcome more =
+      cut.stride({"resume", "out", "--progress", "none", "--signals", "*", "--out", "more"});
+  INFO(more.err);
+  CHECK(more.exit_code == 0);
+  CHECK_THAT(more.out, Contains("a.u *") && Contains("* least and most since 0.5 s"));
+
+  Arguments quiet = plain;
+  quiet.push_back("--quiet");
+  REQUIRE(cut.run(quiet).exit_code == 0);
+  const Outcome late = cut.stride({"resume", "out", "--progress", "none"});
+  INFO(late.err);
+  CHECK(late.exit_code == 0);
+  CHECK_THAT(late.out, Contains("a.y *") && Contains("* least and most since 0.5 s"));
+}
+
 TEST_CASE("what has changed since the checkpoint is named") {
   const Workspace cut(plain_parts());
   REQUIRE(cut.run({"--quiet", "--checkpoint", "0.5"}).exit_code == 0);
@@ -257,7 +284,7 @@ TEST_CASE("a folder without checkpoints, a file that is none and missing results
   REQUIRE(cut.run({"--quiet"}).exit_code == 0);
   CHECK_THAT(input_error_of(cut.stride({"resume", "out"})),
              Contains("no checkpoint in this folder of results") && Contains("--checkpoint-every"));
-  CHECK_THAT(input_error_of(cut.stride({"resume", "test.ssd"})), Contains("a checkpoint"));
+  CHECK_THAT(input_error_of(cut.stride({"resume", "test.ssd"})), Contains("is not a zip archive"));
   CHECK_THAT(input_error_of(cut.stride({"resume", "nothing.zip"})), Contains("nothing.zip"));
   REQUIRE(cut.run({"--quiet", "--checkpoint", "0.5"}).exit_code == 0);
   fs::remove(cut / "out/events.csv");
@@ -288,7 +315,8 @@ TEST_CASE("a run whose unit cannot go on leaves what is in another folder") {
   const Outcome first = cut.run({"--quiet", "--checkpoint", "0.5"});
   INFO(first.err);
   REQUIRE(first.exit_code == 0);
-  REQUIRE(cut.stride({"run", "minimal.fmu", "--quiet", "--out", "other", "--checkpoint", "0.5"})
+  REQUIRE(cut.stride({"run", "minimal.fmu", "--quiet", "--stop", "1", "--out", "other",
+                      "--checkpoint", "0.5"})
               .exit_code == 0);
   const std::string signals = read(cut / "other/signals.csv");
   const Outcome outcome = cut.stride({"resume", "out", "--quiet", "--out", "other"});

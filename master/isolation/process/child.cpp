@@ -141,8 +141,15 @@ class Child::Watch {
     if (printed_.size() > kPrintedKept) printed_.erase(0, printed_.size() - kPrintedKept);
   }
 
-  std::optional<End> reason_to_stop() const {
-    if (options_.interrupted != nullptr && *options_.interrupted != 0) return End::Interrupted;
+  std::optional<End> reason_to_stop() {
+    const bool is_interrupted = options_.interrupted != nullptr && *options_.interrupted != 0;
+    if (is_interrupted && !asked_to_end_ && options_.grace.count() > 0) {
+      asked_to_end_ = Clock::now();
+      ::kill(child_, SIGTERM);
+    }
+    if (is_interrupted && (!asked_to_end_ || Clock::now() - *asked_to_end_ > options_.grace)) {
+      return End::Interrupted;
+    }
     if (options_.limit && Clock::now() - begin_ > *options_.limit) return End::TimedOut;
     return std::nullopt;
   }
@@ -161,6 +168,7 @@ class Child::Watch {
   ChildOptions options_;
   Clock::time_point begin_;
   std::string text_, printed_;
+  std::optional<Clock::time_point> asked_to_end_;
   bool is_over_ = false;
   pid_t owner_ = ::getpid();  ///< another child must not end this one
 };

@@ -32,6 +32,8 @@ struct ChildOptions {
   std::optional<std::chrono::milliseconds> limit{};  ///< nothing = it may run for ever
   /// Looked at while the child runs; a signal handler sets it to end the child.
   const volatile std::sig_atomic_t* interrupted = nullptr;
+  /// So long it has then, behind a SIGTERM, to end by itself.
+  std::chrono::milliseconds grace{};
 };
 
 /// Work in a fork of this process, which goes on beside it. The child has its own process group,
