@@ -20,7 +20,7 @@ void check_cases(campaign::Campaign read, campaign::ValueKind::Type type) {
   for (const std::uint64_t index : {std::uint64_t{0}, plan.size() / 2, plan.size() - 1}) {
     const campaign::Case row = plan.at(index);
     ensure(plan.at(index).values == row.values, "a case stays the same");
-    plan.arguments(row);
+    plan.command(row);
     ensure(plan.hash(row).size() == 64, "a case has a hash");
   }
 }

@@ -3,6 +3,7 @@
 #include "master/scenario/branches.h"
 #include "master/util/archive/zip.h"
 #include "master/util/input_file.h"
+#include "master/util/sha256.h"
 #include "tests/fuzz/core_errors.h"
 #include "tests/fuzz/parser.h"
 #include "tests/fuzz/working_folder.h"
@@ -11,11 +12,14 @@ namespace stride::tests {
 namespace {
 
 checkpoint::Checkpoint small_checkpoint() {
-  checkpoint::Checkpoint made{
-      .provenance = {"0.1.0", {{{"run", "a.ssd"}, "/tmp"}}, {{"the scenario", "/tmp/a.ssd", "00"}}},
-      .time = Time(Duration(1'500'000'000'000)),
-      .results = "/tmp/results/a",
-      .interventions = 1};
+  checkpoint::Checkpoint made{.provenance = {.version = "0.1.0",
+                                             .date = "2026-01-01T00:00:00Z",
+                                             .host = "desk",
+                                             .commands = {{{"run", "a.ssd"}, "/tmp"}},
+                                             .sources = {{"the scenario", "/tmp/a.ssd", "00"}}},
+                              .time = Time(Duration(1'500'000'000'000)),
+                              .results = "/tmp/results/a",
+                              .interventions = 1};
   made.units["a"] = "serialised, 12 B";
   made.states["simulation"] = {std::byte{1}, std::byte{2}};
   made.states["unit/a"] = {std::byte{3}};
@@ -38,6 +42,7 @@ void read_description(const std::string& bytes) {
   const auto file = write_file("checkpoint.zip", "");
   archive::Contents contents;
   contents["checkpoint.json"].text = bytes;
+  contents["checkpoint.sha256"].text = core::sha256(bytes);
   contents["states/0"].text = "ab";
   archive::write_zip(file, contents);
   refusing_input("", [&] { checkpoint::read_checkpoint(file); });
@@ -56,7 +61,7 @@ const Registration kCheckpointParsers(
          .read = read_description,
          .seeds = {R"({"stride checkpoint": 1, "time": 1.5, "picoseconds": 1500000000000,
            "results": "/tmp", "interventions": 0,
-           "provenance": {"version": "0.1.0",
+           "provenance": {"version": "0.1.0", "date": "2026-01-01T00:00:00Z", "host": "desk",
              "commands": [{"words": ["run", "a.ssd"], "folder": "/tmp"}],
              "sources": [{"what": "the scenario", "path": "/tmp/a.ssd", "sha256": "00"}]},
            "units": [{"component": "a", "state": "serialised"}],
