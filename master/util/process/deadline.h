@@ -3,9 +3,8 @@
 #define STRIDE_MASTER_UTIL_PROCESS_DEADLINE_H
 
 #include <chrono>
+#include <memory>
 #include <optional>
-
-#include <time.h>
 
 namespace stride::core {
 
@@ -20,7 +19,8 @@ class Deadline {
   Deadline& operator=(const Deadline&) = delete;
 
  private:
-  std::optional<timer_t> timer_;
+  struct Timer;
+  std::unique_ptr<Timer> timer_;
 };
 
 }  // namespace stride::core
