@@ -225,6 +225,7 @@ class PageTest(unittest.TestCase):
 
     def test_marks_of_messages_tell_how_many_they_are(self):
         browser = self.open_run()
+        browser.wait_for("return document.querySelector('.message-lane .message')")
         lanes = browser.run("return [...document.querySelectorAll('.message-lane')].map((lane) => "
                             "[...lane.querySelectorAll('.message')].map((mark) => mark.textContent))")
         self.assertEqual(lanes, [["start+1", "a </script> & <b>"], ["start", "0102"]])
