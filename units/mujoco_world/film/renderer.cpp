@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstring>
+#include <mutex>
 #include <stdexcept>
 
 #include "units/mujoco_world/hooks.h"
@@ -54,6 +55,9 @@ mjvCamera choose_camera(const mjModel& model, const std::string& wanted) {
   return camera;
 }
 
+/// mjr_makeContext() reads the environment, in which make_off_screen() has settings for a while.
+std::mutex making;
+
 }  // namespace
 
 Renderer::Renderer(const mjModel& model, const View& view)
@@ -65,6 +69,7 @@ Renderer::Renderer(const mjModel& model, const View& view)
   mjv_defaultOption(&options_);
   mjv_defaultScene(&scene_);
   mjr_defaultContext(&context_);
+  const std::lock_guard lock(making);
   screen_ = make_off_screen();
   guarded([&] { screen_->with([&] { make(model); }); });
 }
