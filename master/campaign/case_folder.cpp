@@ -137,7 +137,7 @@ bool CaseScratch::has_room() const {
 }
 
 void CaseScratch::write(std::uint64_t index, const std::string& line) const {
-  const fs::path fresh = file("record.json");
+  const fs::path fresh = file(fmt::format("record_{}.json", index));  // forks write, too
   core::OutputFile record(fresh);
   record.write(line);
   record.write('\n');

@@ -67,6 +67,14 @@ std::uint64_t count_cases(const Campaign& campaign) {
   return count;
 }
 
+/// Limits are numbers of 64 bits with a point, of which those are all whole numbers.
+void check_whole_limits(const StochasticParameter& drawn, const Limits& limits) {
+  constexpr double kMost = 9007199254740992;  // 2^53
+  if (std::abs(limits.lower) < kMost && std::abs(limits.upper) < kMost) return;
+  core::fail_input({.where = drawn.where}, "whole numbers from 2^53 on cannot be drawn with limits",
+                   "use limits below that, or <stride:Seed> for a seed");
+}
+
 /// A number is drawn for what is one.
 void check_kind(const StochasticParameter& drawn, const Parameter& parameter,
                 const ValueKind& kind) {
@@ -78,8 +86,13 @@ void check_kind(const StochasticParameter& drawn, const Parameter& parameter,
                                  core::name_text(parameter.name)),
                      "list its values in a <ProbabilityDistributionSet>");
   }
+  if (kind.type != ValueKind::Type::Whole) return;
+  if (const auto* const histogram = std::get_if<Histogram>(&drawn.distribution)) {
+    for (const Histogram::Bin& bin : histogram->bins) check_whole_limits(drawn, bin.limits);
+  }
   const auto* const uniform = std::get_if<Uniform>(&drawn.distribution);
-  if (uniform == nullptr || kind.type != ValueKind::Type::Whole) return;
+  if (uniform == nullptr) return;
+  check_whole_limits(drawn, uniform->limits);
   const auto [lower, upper] = uniform->limits;
   if (std::ceil(lower) <= std::floor(upper)) return;
   core::fail_input(context, fmt::format("there is no whole number from {} to {} for '{}'", lower,

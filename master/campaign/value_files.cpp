@@ -9,18 +9,27 @@
 #include "master/ssp/parameters.h"
 #include "master/util/csv_reader.h"
 #include "master/util/message_text.h"
+#include "master/util/readable_text.h"
 
 namespace stride::campaign {
 namespace {
 
 constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
 
+/// A field that each file and each shell can have.
+std::string text_of(const core::CsvReader& reader, const core::CsvReader::Field& field) {
+  std::string text = field.value();
+  if (text.find('\0') != std::string::npos) reader.fail("a field has a byte of value 0");
+  if (!core::is_utf8(text)) reader.fail("a field has bytes that are no UTF-8");
+  return text;
+}
+
 /// The names in the first row, with a place for errors.
 std::vector<std::string> header_of(core::CsvReader& reader) {
   if (!reader.next()) reader.fail("the file has no row; the first one has the parameters' names");
   std::vector<std::string> names;
   for (const core::CsvReader::Field& field : reader.fields()) {
-    std::string name = field.value();
+    std::string name = text_of(reader, field);
     if (names.empty() && name.starts_with(kByteOrderMark)) name.erase(0, kByteOrderMark.size());
     if (name.empty()) reader.fail("a column has no name");
     if (std::ranges::find(names, name) != names.end()) {
@@ -62,7 +71,7 @@ void ValueFiles::add_csv(const std::filesystem::path& file) {
     ValueTable::Row row{std::vector<Text>(columns_.size()), where};
     for (std::size_t i = 0; i < fields.size(); ++i) {
       if (fields[i].text.empty() && !fields[i].is_quoted) continue;
-      row.values[places[i]] = fields[i].value();
+      row.values[places[i]] = text_of(reader, fields[i]);
     }
     table_.rows.push_back(std::move(row));
   }

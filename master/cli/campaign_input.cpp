@@ -1,8 +1,11 @@
 #include "master/cli/campaign_input.h"
 
 #include <chrono>
+#include <set>
+#include <string>
 #include <thread>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -13,6 +16,7 @@
 #include "master/campaign/plan_folder.h"
 #include "master/cli/output.h"
 #include "master/cli/output_paths.h"
+#include "master/recorders/results_folder.h"
 #include "master/util/error.h"
 #include "master/util/input_file.h"
 
@@ -20,6 +24,19 @@ namespace stride::cli {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// Also the campaign itself, if values are there.
+std::set<std::string> value_files(const campaign::Campaign& campaign) {
+  std::set<std::string> files;
+  const auto* const deterministic = std::get_if<campaign::Deterministic>(&campaign.variation);
+  if (deterministic == nullptr) return files;
+  for (const campaign::Factor& factor : deterministic->factors) {
+    const auto* const table = std::get_if<campaign::ValueTable>(&factor);
+    if (table == nullptr) continue;
+    for (const auto& row : table->rows) files.insert(row.where.file);
+  }
+  return files;
+}
 
 fs::path campaign_file(const CampaignArguments& arguments) {
   if (!core::is_folder(arguments.file)) return arguments.file;
@@ -68,6 +85,26 @@ CampaignInput::CampaignInput(const CampaignArguments& arguments, campaign::Campa
       plan_(std::move(read), scenario_.kinds(), scenario_.fingerprints()) {}
 
 std::string CampaignInput::word() const { return (is_default_folder_ ? file_ : folder_).string(); }
+
+void CampaignInput::refuse_output(const OutputPath& output) const {
+  using namespace campaign;
+  std::vector<KeptPath> kept = inputs_of(scenario_.loaded());
+  kept.push_back({plan_.campaign().file, "the campaign"});
+  for (const std::string& file : value_files(plan_.campaign())) {
+    kept.push_back({file, "a file of the campaign's values"});
+  }
+  for (const char* name : {kPlanTable, kPlanDescription, kCaseTable, kCaseLines}) {
+    kept.push_back({folder_ / name, fmt::format("{} of the campaign", name)});
+  }
+  refuse_kept_paths({&output, 1}, kept);
+  const fs::path file = recorders::resolved(output.file);
+  for (const char* name : {kCases, kRunning}) {
+    if (!recorders::is_below(file, recorders::resolved(folder_ / name))) continue;
+    core::fail_input(
+        {}, fmt::format("{}: this is in the folder '{}' of the campaign", output.option, name),
+        "choose a file elsewhere");
+  }
+}
 
 void CampaignInput::refuse_inputs(std::initializer_list<const char*> names) const {
   std::vector<KeptPath> kept = inputs_of(scenario_.loaded());

@@ -9,6 +9,7 @@
 #include "master/campaign/definition.h"
 #include "master/campaign/plan.h"
 #include "master/cli/crash_guard.h"
+#include "master/cli/output_paths.h"
 
 namespace CLI {
 class App;
@@ -36,6 +37,9 @@ class CampaignInput {
   /// The word that names the campaign to a further command.
   std::string word() const;
 
+  /// Throws core::Error (Input) if an output is one of the files that are read, or of the
+  /// campaign's own beside its page.
+  void refuse_output(const OutputPath& output) const;
   /// Throws core::Error (Input) if a file of these names in the folder is one that is read.
   void refuse_inputs(std::initializer_list<const char*> names) const;
   /// Throws core::Error (Input) where there is no plan yet, or another one.

@@ -25,18 +25,6 @@ struct CampaignReportArguments {
   bool open = false;
 };
 
-/// Of what the campaign consists of, and has left, nothing may be replaced but its page.
-void check_page(const CampaignInput& input, const fs::path& page) {
-  using namespace campaign;
-  std::vector<KeptPath> kept = inputs_of(input.scenario().loaded());
-  kept.push_back({input.plan().campaign().file, "the campaign"});
-  for (const char* name : {kPlanTable, kPlanDescription, kCaseTable, kCaseLines, kCases}) {
-    kept.push_back({input.folder() / name, fmt::format("{} of the campaign", name)});
-  }
-  const OutputPath output{"--page " + page.string(), page};
-  refuse_kept_paths({&output, 1}, kept);
-}
-
 void make_campaign_report(const CampaignReportArguments& arguments) {
   const CrashGuard guard;
   const CampaignInput input(arguments.campaign);
@@ -46,7 +34,7 @@ void make_campaign_report(const CampaignReportArguments& arguments) {
     input.refuse_inputs({campaign::kCampaignPage});
     page = input.folder() / campaign::kCampaignPage;
   } else {
-    check_page(input, page);
+    input.refuse_output({"--page " + page.string(), page});
   }
   write_campaign_report(page, input, campaign::CaseFolder(input.plan(), input.folder()));
   print_text("Page in {}\n", page.string());

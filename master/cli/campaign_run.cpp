@@ -179,8 +179,7 @@ void run_campaign(const CampaignRunArguments& arguments) {
   input.refuse_inputs(
       {kPlanTable, kPlanDescription, kCaseTable, kCaseLines, kCampaignPage, kCases, kRunning});
   if (!arguments.junit.empty()) {
-    const OutputPath output{"--junit " + arguments.junit.string(), arguments.junit};
-    refuse_kept_paths({&output, 1}, inputs_of(input.scenario().loaded()));
+    input.refuse_output({"--junit " + arguments.junit.string(), arguments.junit});
   }
   input.make_plan();
   if (arguments.only) return run_only(arguments, input);

@@ -173,6 +173,7 @@ std::string CaseRunner::run_together(const campaign::SharedBeginning& shared, st
                                      const isolation::ChildOptions& options) const {
   const EndOfCase end;
   const CrashGuard guard;
+  const auto began = std::chrono::steady_clock::now();
   std::optional<core::Deadline> deadline(options.limit);
   const std::uint64_t first = shared.cases.front();
   CaseResults results = this->results(first);
@@ -184,9 +185,17 @@ std::string CaseRunner::run_together(const campaign::SharedBeginning& shared, st
     Fork fork(shared.until, [&] {
       deadline.reset();
       if (!run.prepare_rest()) return;
-      CasePool pool(jobs, options);
+      // the beginning is a part of each
+      const auto beginning = std::chrono::steady_clock::now() - began;
+      isolation::ChildOptions rest = options;
+      if (rest.limit)
+        *rest.limit -= std::chrono::duration_cast<std::chrono::milliseconds>(beginning);
+      CasePool pool(jobs, rest);
       const auto collect = [&] {
-        if (const auto ended = pool.collect(std::chrono::milliseconds(100))) conclude(*ended);
+        auto ended = pool.collect(std::chrono::milliseconds(100));
+        if (!ended) return;
+        ended->wall_time += beginning;
+        conclude(*ended);
       };
       for (const std::uint64_t index : shared.cases) {
         while (pool.is_full()) collect();

@@ -31,6 +31,8 @@ void append_escaped(std::string& text, std::string_view character) {
 
 }  // namespace
 
+bool is_utf8(std::string_view text) { return utf8::is_valid(text.begin(), text.end()); }
+
 std::size_t character_count(std::string_view text) {
   return static_cast<std::size_t>(
       std::ranges::count_if(text, [](char byte) { return !is_within_character(byte); }));

@@ -16,6 +16,9 @@ constexpr bool is_within_character(char byte) {
   return (static_cast<unsigned char>(byte) & 0xC0U) == 0x80U;
 }
 
+/// Whether all of its bytes are those of characters of UTF-8.
+bool is_utf8(std::string_view text);
+
 /// The number of characters in a text of UTF-8.
 std::size_t character_count(std::string_view text);
 

@@ -459,6 +459,12 @@ TEST_CASE("what campaign run refuses") {
              Contains("out: this is the folder of a campaign, so --out cannot name another one"));
   CHECK_THAT(input_error_of(space.stride({"campaign", "run", "tmp"})),
              Contains("tmp: there is no plan in this folder"));
+  for (const char* const file : {"c.xosc", "test.ssd", "out/plan.csv", "out/campaign.json",
+                                 "out/cases.csv", "out/cases/000/000001.json"}) {
+    const std::string before = space.file(file);
+    CHECK_THAT(input_error_of(space.campaign("out", {"--junit", file})), Contains("--junit "));
+    CHECK(space.file(file) == before);
+  }
   space.scratch().write("c.xosc", campaign("6", kKeepNone));
   CHECK_THAT(input_error_of(space.campaign("out")),
              Contains("out: this folder belongs to another plan"));

@@ -293,6 +293,10 @@ TEST_CASE("mistakes in files with values are found with their lines") {
              Contains("a.csv:3: the row has 2 fields, the first one has 1"));
   CHECK_THAT(error("a.csv", "a.x\n1\n2"), Contains("the last line has no line feed"));
   CHECK_THAT(error("a.csv", "a.x\n"), Contains("names no value"));
+  CHECK_THAT(error("a.csv", std::string("a.x\na\0b\n", 8)),
+             Contains("a.csv:2: a field has a byte of value 0"));
+  CHECK_THAT(error("a.csv", "a.x\n\xfe\n"),
+             Contains("a.csv:2: a field has bytes that are no UTF-8"));
   CHECK_THAT(error("a.txt", "1"), Contains("is neither a .csv nor a .ssv"));
   CHECK_THAT(error("a.ssv",
                    "<ssv:ParameterSet xmlns:ssv='http://ssp-standard.org/SSP1/"

@@ -67,6 +67,16 @@ TEST_CASE("a case is the same whatever was asked before, by whatever plan object
   }
 }
 
+TEST_CASE("whole numbers that limits cannot tell apart are not drawn") {
+  const auto plan = [](const std::string& distribution) {
+    plan_of(campaign_text(stochastic(drawn("a.x", distribution))), KindType::Whole);
+  };
+  CHECK_THROWS_WITH(plan(uniform("9007199254740993", "9007199254740996")),
+                    Contains("from 2^53 on cannot be drawn"));
+  CHECK_THROWS_WITH(plan(uniform("-9223372036854775808", "0")), Contains("2^53"));
+  CHECK_NOTHROW(plan(uniform("-9007199254740991", "9007199254740991")));
+}
+
 TEST_CASE("more runs leave those that were there as they are, if they are independent") {
   const auto text = [](const char* runs) {
     return campaign_text(stochastic(drawn("a.x", uniform("0", "1")), runs),
