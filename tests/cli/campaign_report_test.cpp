@@ -1,7 +1,7 @@
 // stride campaign report, from outside.
 #include <cstdlib>
 
-#include "tests/cli/failures.h"
+#include "tests/cli/campaigns.h"
 #include "tests/master/report/support.h"
 
 using namespace stride::tests;
@@ -13,27 +13,11 @@ namespace {
 /// Draws of the input of the first of two filters, and a check that fails where it is too large.
 struct ReportedCampaign : Workspace {
   explicit ReportedCampaign(const std::string& runs, const std::string& keep = "failed")
-      : Workspace(parts()) {
-    scratch().write(
-        "c.xosc",
-        "<OpenSCENARIO><FileHeader revMajor='1' revMinor='1' date='2026-01-01T00:00:00' "
-        "description='' author=''/><ParameterValueDistribution>"
-        "<ScenarioFile filepath='test.ssd'/><Stochastic numberOfTestRuns='" +
-            runs +
-            "' randomSeed='1'><StochasticDistribution parameterName='first.u'>"
-            "<UniformDistribution><Range lowerLimit='0' upperLimit='2'/></UniformDistribution>"
-            "</StochasticDistribution></Stochastic></ParameterValueDistribution>"
-            "<stride:Campaign xmlns:stride='urn:org.stride:campaign:1'><stride:Keep results='" +
-            keep +
-            "'/><stride:Aggregate name='last' signal='second.y' function='final'/>"
-            "</stride:Campaign></OpenSCENARIO>");
-  }
-
-  static Parts parts() {
-    Parts parts = two_filters();
-    parts.annotation =
-        "<stride:Checks><stride:Always name='bounded' signal='first.y' max='1'/></stride:Checks>\n";
-    return parts;
+      : Workspace(checked_filters()) {
+    scratch().write("c.xosc",
+                    drawn_input(runs, "<stride:Keep results='" + keep +
+                                          "'/><stride:Aggregate name='last' signal='second.y' "
+                                          "function='final'/>"));
   }
 
   Outcome campaign(const Arguments& further) const {

@@ -11,8 +11,8 @@
 #include <sys/mount.h>
 
 #include "tests/build.h"
+#include "tests/cli/campaigns.h"
 #include "tests/cli/course.h"
-#include "tests/cli/failures.h"
 #include "tests/cli/leftovers.h"
 
 using namespace stride::tests;
@@ -22,47 +22,20 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// Draws of the input of the first of two filters; a check fails where it is too large.
 std::string campaign(const std::string& runs, const std::string& extension = "") {
-  return "<OpenSCENARIO><FileHeader revMajor='1' revMinor='1' date='2026-01-01T00:00:00' "
-         "description='' author=''/><ParameterValueDistribution>"
-         "<ScenarioFile filepath='test.ssd'/><Stochastic numberOfTestRuns='" +
-         runs +
-         "' randomSeed='1'><StochasticDistribution parameterName='first.u'>"
-         "<UniformDistribution><Range lowerLimit='0' upperLimit='2'/></UniformDistribution>"
-         "</StochasticDistribution></Stochastic></ParameterValueDistribution>"
-         "<stride:Campaign xmlns:stride='urn:org.stride:campaign:1'>"
-         "<stride:Aggregate name='last' signal='second.y' function='final'/>"
-         "<stride:Aggregate name='mean' signal='first.y' function='mean'/>" +
-         extension + "</stride:Campaign></OpenSCENARIO>";
+  return drawn_input(runs,
+                     "<stride:Aggregate name='last' signal='second.y' function='final'/>"
+                     "<stride:Aggregate name='mean' signal='first.y' function='mean'/>" +
+                         extension);
 }
 
 const char* const kKeepNone = "<stride:Keep results='none'/>";
 
 /// Cases of a unit that does one of these things at 0.5 s.
 std::string faults(std::initializer_list<const char*> names, const std::string& extension) {
-  std::string elements;
-  for (const char* name : names) elements += "<Element value='" + std::string(name) + "'/>";
-  return "<OpenSCENARIO><FileHeader revMajor='1' revMinor='1' date='2026-01-01T00:00:00' "
-         "description='' author=''/><ParameterValueDistribution>"
-         "<ScenarioFile filepath='test.ssd'/><Deterministic>"
-         "<DeterministicSingleParameterDistribution parameterName='c.call'><DistributionSet>"
-         "<Element value='step'/></DistributionSet></DeterministicSingleParameterDistribution>"
-         "<DeterministicSingleParameterDistribution parameterName='c.at'><DistributionSet>"
-         "<Element value='0.5'/></DistributionSet></DeterministicSingleParameterDistribution>"
-         "<DeterministicSingleParameterDistribution parameterName='c.fault'><DistributionSet>" +
-         elements +
-         "</DistributionSet></DeterministicSingleParameterDistribution></Deterministic>"
-         "</ParameterValueDistribution>"
-         "<stride:Campaign xmlns:stride='urn:org.stride:campaign:1'>" +
-         extension + "</stride:Campaign></OpenSCENARIO>";
-}
-
-Parts checked_filters() {
-  Parts parts = two_filters();
-  parts.annotation =
-      "<stride:Checks><stride:Always name='bounded' signal='first.y' max='1'/></stride:Checks>\n";
-  return parts;
+  return campaign_text(deterministic(value_set("c.call", {"step"}) + value_set("c.at", {"0.5"}) +
+                                     value_set("c.fault", names)),
+                       extension, "test.ssd");
 }
 
 /// Each row without its last field, the wall time.
@@ -285,29 +258,18 @@ TEST_CASE("a case that exhausts the memory is a row, and the others go on") {
 
 namespace {
 
-/// A set of values of one parameter.
-std::string values(const std::string& name, std::initializer_list<const char*> texts) {
-  std::string elements;
-  for (const char* text : texts) elements += "<Element value='" + std::string(text) + "'/>";
-  return "<DeterministicSingleParameterDistribution parameterName='" + name +
-         "'><DistributionSet>" + elements +
-         "</DistributionSet></DeterministicSingleParameterDistribution>";
-}
-
 /// Combinations of two start values with interventions at 0.5 s or later, of which some fail.
 std::string late_interventions(const std::string& extension) {
-  return "<OpenSCENARIO><FileHeader revMajor='1' revMinor='1' date='2026-01-01T00:00:00' "
-         "description='' author=''/><ParameterValueDistribution>"
-         "<ScenarioFile filepath='test.ssd'/><Deterministic>" +
-         values("first.u", {"0.25", "0.5"}) + values("wire.from", {"0.75", "0.5"}) +
-         values("wire.value", {"0", "0.5", "9"}) +
-         "</Deterministic></ParameterValueDistribution>"
-         "<stride:Campaign xmlns:stride='urn:org.stride:campaign:1'>"
-         "<stride:Aggregate name='last' signal='second.y' function='final'/>"
-         "<stride:Aggregate name='mean' signal='second.y' function='mean'/>"
-         "<stride:Intervention name='wire'><stride:Force variable='second.u' value='0' from='0.5'/>"
-         "</stride:Intervention>" +
-         extension + "</stride:Campaign></OpenSCENARIO>";
+  return campaign_text(
+      deterministic(value_set("first.u", {"0.25", "0.5"}) +
+                    value_set("wire.from", {"0.75", "0.5"}) +
+                    value_set("wire.value", {"0", "0.5", "9"})),
+      "<stride:Aggregate name='last' signal='second.y' function='final'/>"
+      "<stride:Aggregate name='mean' signal='second.y' function='mean'/>"
+      "<stride:Intervention name='wire'><stride:Force variable='second.u' value='0' from='0.5'/>"
+      "</stride:Intervention>" +
+          extension,
+      "test.ssd");
 }
 
 Parts checked_second() {
@@ -351,16 +313,14 @@ TEST_CASE("a beginning that fails, or a rest that does, is a row for each case")
   const std::string failed = fault == "sleep" ? "timed out" : "crashed";
   const auto rows = [&](const std::string& at) {
     const CampaignRuns space(
-        "<OpenSCENARIO><FileHeader revMajor='1' revMinor='1' date='2026-01-01T00:00:00' "
-        "description='' author=''/><ParameterValueDistribution>"
-        "<ScenarioFile filepath='test.ssd'/><Deterministic>" +
-            values("c.call", {"step"}) + values("c.fault", {fault.c_str()}) +
-            values("c.at", {at.c_str()}) + values("late.value", {"2", "0.75", "3"}) +
-            "</Deterministic></ParameterValueDistribution>"
-            "<stride:Campaign xmlns:stride='urn:org.stride:campaign:1'>"
+        campaign_text(
+            deterministic(value_set("c.call", {"step"}) + value_set("c.fault", {fault.c_str()}) +
+                          value_set("c.at", {at.c_str()}) +
+                          value_set("late.value", {"2", "0.75", "3"})),
             "<stride:Intervention name='late'><stride:Set variable='c.at' value='2' at='0.5'/>"
             "</stride:Intervention><stride:Limit wallTime='2'/>" +
-            kKeepNone + "</stride:Campaign></OpenSCENARIO>",
+                std::string(kKeepNone),
+            "test.ssd"),
         {component("c", "faulty.fmu"), ""});
     const Leftovers leftovers;
     const Outcome outcome = space.campaign("out", {"--jobs", "2"});

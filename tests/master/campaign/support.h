@@ -7,24 +7,10 @@
 #include "master/campaign/campaign_file.h"
 #include "master/campaign/plan.h"
 #include "tests/build.h"
+#include "tests/master/campaign/texts.h"
 #include "tests/master/ssp/support.h"
 
 namespace stride::tests {
-
-/// A campaign over "x.ssd", whose distributions begin in line 5.
-inline std::string campaign_text(const std::string& distributions,
-                                 const std::string& extension = "") {
-  return "<OpenSCENARIO>\n"
-         "<FileHeader revMajor='1' revMinor='3' date='2026-01-01T00:00:00' description='' "
-         "author=''/>\n"
-         "<ParameterValueDistribution>\n"
-         "<ScenarioFile filepath='x.ssd'/>\n" +
-         distributions + "\n</ParameterValueDistribution>\n" +
-         (extension.empty() ? ""
-                            : "<stride:Campaign xmlns:stride='urn:org.stride:campaign:1'>\n" +
-                                  extension + "\n</stride:Campaign>\n") +
-         "</OpenSCENARIO>\n";
-}
 
 inline campaign::Campaign read_text(const std::string& text) {
   const TemporaryFolder folder;
@@ -47,42 +33,6 @@ inline campaign::Plan plan_of(const std::string& text,
   Fingerprints fingerprints{"1.0", {{"x.ssd", "f"}}, {{"a", "u"}, {"s", "v"}}, {}};
   fingerprints.alternatives[{"device", "new"}] = "w";
   return Plan(std::move(read), std::move(kinds), std::move(fingerprints));
-}
-
-inline std::string deterministic(const std::string& inside) {
-  return "<Deterministic>\n" + inside + "\n</Deterministic>";
-}
-
-inline std::string stochastic(const std::string& inside, const std::string& runs = "4") {
-  return "<Stochastic numberOfTestRuns='" + runs + "' randomSeed='7'>\n" + inside +
-         "\n</Stochastic>";
-}
-
-/// A set of values for one parameter.
-inline std::string value_set(const std::string& parameter,
-                             std::initializer_list<const char*> values) {
-  std::string text = "<DeterministicSingleParameterDistribution parameterName='" + parameter +
-                     "'><DistributionSet>";
-  for (const char* value : values) text += "<Element value='" + std::string(value) + "'/>";
-  return text + "</DistributionSet></DeterministicSingleParameterDistribution>";
-}
-
-inline std::string value_range(const std::string& parameter, const std::string& lower,
-                               const std::string& step, const std::string& upper) {
-  return "<DeterministicSingleParameterDistribution parameterName='" + parameter +
-         "'><DistributionRange stepWidth='" + step + "'><Range lowerLimit='" + lower +
-         "' upperLimit='" + upper +
-         "'/></DistributionRange></DeterministicSingleParameterDistribution>";
-}
-
-inline std::string drawn(const std::string& parameter, const std::string& distribution) {
-  return "<StochasticDistribution parameterName='" + parameter + "'>" + distribution +
-         "</StochasticDistribution>";
-}
-
-inline std::string uniform(const std::string& lower, const std::string& upper) {
-  return "<UniformDistribution><Range lowerLimit='" + lower + "' upperLimit='" + upper +
-         "'/></UniformDistribution>";
 }
 
 /// A folder with "c.xosc", and "x.ssd": `a`, which has all types and echoes them, and two
