@@ -16,7 +16,6 @@
 #include "master/campaign/plan_folder.h"
 #include "master/cli/output.h"
 #include "master/cli/output_paths.h"
-#include "master/recorders/results_folder.h"
 #include "master/util/error.h"
 #include "master/util/input_file.h"
 
@@ -86,29 +85,27 @@ CampaignInput::CampaignInput(const CampaignArguments& arguments, campaign::Campa
 
 std::string CampaignInput::word() const { return (is_default_folder_ ? file_ : folder_).string(); }
 
+std::vector<KeptPath> CampaignInput::inputs() const {
+  std::vector<KeptPath> inputs = inputs_of(scenario_.loaded());
+  inputs.push_back({file_, "the campaign"});
+  for (const std::string& file : value_files(plan_.campaign())) {
+    inputs.push_back({file, "a file of the campaign's values"});
+  }
+  return inputs;
+}
+
 void CampaignInput::refuse_output(const OutputPath& output) const {
   using namespace campaign;
-  std::vector<KeptPath> kept = inputs_of(scenario_.loaded());
-  kept.push_back({plan_.campaign().file, "the campaign"});
-  for (const std::string& file : value_files(plan_.campaign())) {
-    kept.push_back({file, "a file of the campaign's values"});
-  }
+  std::vector<KeptPath> kept = inputs();
   for (const char* name : {kPlanTable, kPlanDescription, kCaseTable, kCaseLines}) {
     kept.push_back({folder_ / name, fmt::format("{} of the campaign", name)});
   }
   refuse_kept_paths({&output, 1}, kept);
-  const fs::path file = recorders::resolved(output.file);
-  for (const char* name : {kCases, kRunning}) {
-    if (!recorders::is_below(file, recorders::resolved(folder_ / name))) continue;
-    core::fail_input(
-        {}, fmt::format("{}: this is in the folder '{}' of the campaign", output.option, name),
-        "choose a file elsewhere");
-  }
+  refuse_folders(output, folder_, {kCases, kRunning}, "the campaign");
 }
 
 void CampaignInput::refuse_inputs(std::initializer_list<const char*> names) const {
-  std::vector<KeptPath> kept = inputs_of(scenario_.loaded());
-  kept.push_back({file_, "the campaign"});
+  const std::vector<KeptPath> kept = inputs();
   for (const char* name : names) {
     const OutputPath output{fmt::format("{} in the folder {}", name, folder_.string()),
                             folder_ / name};

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "master/campaign/campaign_scenario.h"
 #include "master/campaign/definition.h"
@@ -51,6 +52,8 @@ class CampaignInput {
 
  private:
   explicit CampaignInput(const CampaignArguments& arguments, campaign::Campaign read);
+
+  std::vector<KeptPath> inputs() const;
 
   const std::filesystem::path file_, folder_;
   const bool is_default_folder_;

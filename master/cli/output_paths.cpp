@@ -168,19 +168,24 @@ void refuse_shared_paths(std::span<const OutputPath> outputs) {
   }
 }
 
+void refuse_folders(const OutputPath& output, const fs::path& root,
+                    std::initializer_list<const char*> names, const char* owner) {
+  const fs::path file = recorders::resolved(output.file);
+  for (const char* const name : names) {
+    if (!recorders::is_below(file, recorders::resolved(root / name))) continue;
+    core::fail_input(
+        {}, fmt::format("{}: this is in the folder '{}' of {}", output.option, name, owner),
+        "choose a file elsewhere");
+  }
+}
+
 void refuse_result_folders(const fs::path& results, const OutputPath& output) {
   if (recorders::is_in_unit_folders(results, output.file)) {
     core::fail_input(
         {}, fmt::format("{}: the file is in the folder of the files of units", output.option),
         "choose a file elsewhere; units write to that folder");
   }
-  const fs::path file = recorders::resolved(output.file);
-  for (const char* const name : {kCheckpointsFolder, kBranchesFolder}) {
-    if (!recorders::is_below(file, recorders::resolved(results / name))) continue;
-    core::fail_input(
-        {}, fmt::format("{}: this is in the folder '{}' of the results", output.option, name),
-        "choose a file elsewhere");
-  }
+  refuse_folders(output, results, {kCheckpointsFolder, kBranchesFolder}, "the results");
 }
 
 }  // namespace stride::cli

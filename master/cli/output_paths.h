@@ -3,6 +3,7 @@
 #define STRIDE_MASTER_CLI_OUTPUT_PATHS_H
 
 #include <filesystem>
+#include <initializer_list>
 #include <memory>
 #include <span>
 #include <string>
@@ -61,6 +62,11 @@ void refuse_kept_paths(std::span<const OutputPath> outputs, std::span<const Kept
 
 /// Throws core::Error (Input) if two outputs are the same file.
 void refuse_shared_paths(std::span<const OutputPath> outputs);
+
+/// Throws core::Error (Input) if an output is in one of these folders in `root`, which belongs to
+/// `owner`: "the results".
+void refuse_folders(const OutputPath& output, const std::filesystem::path& root,
+                    std::initializer_list<const char*> names, const char* owner);
 
 /// Throws core::Error (Input) if an output is in a folder of `results`: that of the files of units,
 /// where a unit could put a link, which would be followed, and those of checkpoints and branches.
