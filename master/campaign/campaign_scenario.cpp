@@ -311,16 +311,15 @@ void CampaignScenario::load_alternatives(const Campaign& campaign) {
 }
 
 void CampaignScenario::take_fingerprints(const Campaign& campaign) {
-  ScenarioDigests digests;
-  fingerprints_.files = digests.files(loaded_.scenario());
+  fingerprints_.files = scenario_digests(loaded_.scenario(), digests_);
   const auto& components = loaded_.system().components();
   for (std::size_t i = 0; i < components.size(); ++i) {
-    fingerprints_.units[components[i].name] = digests.unit(loaded_, i);
+    fingerprints_.units[components[i].name] = unit_digest(loaded_, i, digests_);
   }
   for (const LoadedAlternative& alternative : alternatives_) {
     const Swap& swap = campaign.swaps[alternative.swap];
     fingerprints_.alternatives[{swap.name, alternative.name}] =
-        digests.unit(alternative.loaded, names_.component(swap.component).value());
+        unit_digest(alternative.loaded, names_.component(swap.component).value(), digests_);
   }
 }
 

@@ -12,6 +12,7 @@
 #include "master/campaign/value_kind.h"
 #include "master/model/connector_elements.h"
 #include "master/scenario/loaded_scenario.h"
+#include "master/util/file_digests.h"
 
 namespace stride::campaign {
 
@@ -43,6 +44,8 @@ class CampaignScenario {
   /// Of the columns of the campaign's plan.
   const std::vector<ValueKind>& kinds() const { return kinds_; }
   const Fingerprints& fingerprints() const { return fingerprints_; }
+  /// Of the files that the fingerprints are made of.
+  const core::FileDigests& digests() const { return digests_; }
 
  private:
   void check_names(const Campaign& campaign) const;
@@ -63,6 +66,7 @@ class CampaignScenario {
   std::vector<StartTarget> targets_;
   std::vector<ValueKind> kinds_;
   std::vector<LoadedAlternative> alternatives_;
+  core::FileDigests digests_;
   Fingerprints fingerprints_;
 };
 

@@ -8,22 +8,24 @@ namespace stride::campaign {
 
 namespace fs = std::filesystem;
 
-std::map<std::string, std::string> ScenarioDigests::files(const scenario::Scenario& scenario) {
-  std::map<std::string, std::string> digests;
+std::map<std::string, std::string> scenario_digests(const scenario::Scenario& scenario,
+                                                    core::FileDigests& digests) {
+  std::map<std::string, std::string> found;
   const fs::path around = fs::absolute(scenario.path).lexically_normal().parent_path();
   for (const fs::path& document : scenario.files->documents()) {
     if (!core::is_file(document)) continue;  // of an FMU alone, which is a unit
     const fs::path shown = fs::absolute(scenario.files->shown(document)).lexically_normal();
-    digests[shown.lexically_relative(around).generic_string()] = digests_.of(document);
+    found[shown.lexically_relative(around).generic_string()] = digests.of(document);
   }
-  return digests;
+  return found;
 }
 
-std::string ScenarioDigests::unit(const scenario::LoadedScenario& loaded, std::size_t component) {
+std::string unit_digest(const scenario::LoadedScenario& loaded, std::size_t component,
+                        core::FileDigests& digests) {
   const fs::path path = scenario::find_unit(loaded.scenario().sources[component], {});
   const fs::path& resources = loaded.fmus()[component]->resources();
-  if (path.extension() != ".so" || !core::is_folder(resources)) return digests_.of(path);
-  return core::sha256(digests_.of(path) + digests_.of(resources));
+  if (path.extension() != ".so" || !core::is_folder(resources)) return digests.of(path);
+  return core::sha256(digests.of(path) + digests.of(resources));
 }
 
 }  // namespace stride::campaign

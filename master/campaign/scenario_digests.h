@@ -11,18 +11,13 @@
 
 namespace stride::campaign {
 
-/// What decides the results of a scenario, by its content.
-class ScenarioDigests {
- public:
-  /// Of the system files and parameter sets, by their paths from the folder of the scenario.
-  std::map<std::string, std::string> files(const scenario::Scenario& scenario);
-  /// Of the unit of a component: an archive, a folder with all that is in it, or a library with its
-  /// resources.
-  std::string unit(const scenario::LoadedScenario& loaded, std::size_t component);
-
- private:
-  core::FileDigests digests_;
-};
+/// Of the system files and parameter sets, by their paths from the folder of the scenario.
+std::map<std::string, std::string> scenario_digests(const scenario::Scenario& scenario,
+                                                    core::FileDigests& digests);
+/// Of the unit of a component: an archive, a folder with all that is in it, or a library with its
+/// resources.
+std::string unit_digest(const scenario::LoadedScenario& loaded, std::size_t component,
+                        core::FileDigests& digests);
 
 }  // namespace stride::campaign
 

@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <chrono>
 #include <stdexcept>
-#include <string_view>
 #include <thread>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "master/cli/output.h"
 #include "master/cli/table.h"
 #include "master/util/error.h"
 #include "master/util/time_text.h"
@@ -38,16 +38,6 @@ BranchRequest parse_branch(const std::string& text) {
 }
 
 std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
-
-/// What a process prints ends with its error, if it has one to tell.
-std::optional<std::string> last_error(const std::string& printed) {
-  constexpr std::string_view kMark = "stride: error: ";
-  const std::size_t mark = printed.rfind(kMark);
-  if (mark == std::string::npos) return std::nullopt;
-  std::string text = printed.substr(mark + kMark.size());
-  while (!text.empty() && text.back() == '\n') text.pop_back();
-  return text;
-}
 
 }  // namespace
 
@@ -124,7 +114,7 @@ void Branches::note_end(std::size_t branch, const isolation::ChildOutcome& outco
       break;
     case End::Exited:
       if (outcome.code == 0 && are_programs_) break;
-      failure = last_error(outcome.printed);
+      failure = last_error_in(outcome.printed);
       if (failure) break;
       failure = work_.explain(
           branches_[branch],

@@ -34,31 +34,20 @@ struct EndOfCase {
   ~EndOfCase() { end_guarding(); }
 };
 
-constexpr std::string_view kMark = "stride: error: ";
-
 /// To the process that has started this one.
 void tell_of_crash(const std::string& error) {
-  const std::string line = fmt::format("\n{}{}\n", kMark, error);
+  const std::string line = fmt::format("\n{}{}\n", kErrorMark, error);
   (void)!::write(STDERR_FILENO, line.data(), line.size());
 }
 
-/// What tell_of_crash() has told; empty if nothing was.
-std::string crash_in(const std::string& printed) {
-  const std::size_t mark = printed.rfind(kMark);
-  if (mark == std::string::npos) return "";
-  std::string text = printed.substr(mark + kMark.size());
-  while (!text.empty() && text.back() == '\n') text.pop_back();
-  return text;
-}
-
 CaseResult crashed(const isolation::ChildOutcome& outcome) {
-  std::string reason = crash_in(outcome.printed);
-  if (reason.empty()) {
+  std::optional<std::string> reason = last_error_in(outcome.printed);
+  if (!reason) {
     reason = outcome.end == End::Killed
                  ? fmt::format("its process was killed by {}", isolation::signal_name(outcome.code))
                  : fmt::format("its process ended with the exit code {}", outcome.code);
   }
-  return {.outcome = Outcome::Crashed, .reason = std::move(reason)};
+  return {.outcome = Outcome::Crashed, .reason = std::move(*reason)};
 }
 
 /// Whoever ends a job of a cluster signals its processes one by one, and this one may be the last:
@@ -82,7 +71,7 @@ bool is_complete(const CaseResult& result) {
 
 CaseRunner::CaseRunner(const campaign::Plan& plan, const campaign::CampaignScenario& scenario,
                        const campaign::CaseScratch& scratch)
-    : plan_(plan), scenario_(scenario), scratch_(scratch) {
+    : plan_(plan), scenario_(scenario), scratch_(scratch), digests_(scenario.digests()) {
   ssp::Files& files = *scenario.loaded().scenario().files;
   for (const fs::path& document : std::set(files.documents())) {
     if (core::is_file(document)) files.read_ahead(document);

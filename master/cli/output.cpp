@@ -97,9 +97,18 @@ bool put(std::FILE* stream, std::string_view text) {
 
 bool print_error(std::string_view text) {
   const std::string line =
-      core::terminal_text(fmt::format("stride: error: {}\n", core::message_text(text)));
+      core::terminal_text(fmt::format("{}{}\n", kErrorMark, core::message_text(text)));
   return is_error_file_own() &&
          ::write(STDERR_FILENO, line.data(), line.size()) == static_cast<ssize_t>(line.size());
+}
+
+std::optional<std::string> last_error_in(const std::string& printed) {
+  const std::size_t mark = printed.rfind(kErrorMark);
+  if (mark == std::string::npos) return std::nullopt;
+  std::string text = printed.substr(mark + kErrorMark.size());
+  while (!text.empty() && text.back() == '\n') text.pop_back();
+  if (text.empty()) return std::nullopt;
+  return text;
 }
 
 std::string in_words(const std::exception& error) {

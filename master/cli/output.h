@@ -4,6 +4,7 @@
 
 #include <cstdio>
 #include <exception>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -23,10 +24,15 @@ void print_text(fmt::format_string<Values...> format, Values&&... values) {
   put(stdout, fmt::format(format, std::forward<Values>(values)...));
 }
 
-/// "stride: error: TEXT", with core::message_text() of the text, to where the standard error stream
-/// was at the beginning, also of a process whose streams are damaged. Returns whether it could be
-/// written: code of a unit may have put another file there, which stays as it is.
+/// What an error begins with.
+inline constexpr std::string_view kErrorMark = "stride: error: ";
+
+/// kErrorMark and the text, with core::message_text() of the text, to where the standard error
+/// stream was at the beginning, also of a process whose streams are damaged. Returns whether it
+/// could be written: code of a unit may have put another file there, which stays as it is.
 bool print_error(std::string_view text);
+/// The last error in what a process has printed, which ends with it; nothing if there is none.
+std::optional<std::string> last_error_in(const std::string& printed);
 
 /// Its text; for exceptions of the standard library, whose own text is for programmers, another
 /// one.
