@@ -16,7 +16,8 @@ constexpr std::size_t kMostTogether = 1000;
 }  // namespace
 
 isolation::ChildOptions case_options(const campaign::Campaign& campaign) {
-  isolation::ChildOptions options{.limit = {}, .interrupted = &Interruption::flag()};
+  isolation::ChildOptions options{
+      .limit = {}, .interrupted = &Interruption::flag(), .grace = {}, .has_keeper = true};
   if (campaign.wall_time_limit) {
     options.limit = std::chrono::milliseconds(std::llround(*campaign.wall_time_limit * 1000));
   }

@@ -241,6 +241,42 @@ TEST_CASE("whatever a case does is a row, and the others go on") {
   CHECK(space.left_behind().empty());
 }
 
+TEST_CASE("what a case does to its parent, or leaves behind, is no matter of other cases") {
+  const Leftovers leftovers;
+  const CampaignRuns space(
+      faults({"limit parent", "kill parent", "daemon", "become daemon", "be traced and crash", ""},
+             "<stride:Keep results='failed'/>"),
+      {component("c", "faulty.fmu"), ""});
+  const Outcome outcome = space.campaign("out");
+  INFO(outcome.err);
+  CHECK(outcome.exit_code == 1);
+  space.check_row(0, "passed", "");
+  space.check_row(1, "crashed", "its process was killed by SIGKILL");
+  space.check_row(2, "passed", "");
+  space.check_row(3, "crashed", "its process ended with the exit code 0");
+  space.check_row(4, "crashed", "unit 'c'");
+  space.check_row(5, "passed", "");
+  CHECK(leftovers.after_a_while().empty());
+}
+
+TEST_CASE("likewise from a common beginning on") {
+  const Leftovers leftovers;
+  const CampaignRuns space(
+      campaign_text(deterministic(value_set("c.call", {"step"}) + value_set("c.at", {"0.5"}) +
+                                  value_set("c.fault", {"limit parent", "kill parent", "daemon"}) +
+                                  value_set("late.value", {"0.25", "0.75"})),
+                    "<stride:Intervention name='late'><stride:Set variable='other.u' value='0' "
+                    "at='0.25'/></stride:Intervention><stride:Keep results='failed'/>",
+                    "test.ssd"),
+      {component("c", "faulty.fmu") + component("other", "minimal.fmu"), ""});
+  const Outcome outcome = space.campaign("out");
+  INFO(outcome.err);
+  CHECK(outcome.exit_code == 1);
+  for (const int passed : {0, 1, 4, 5}) space.check_row(passed, "passed", "");
+  for (const int crashed : {2, 3}) space.check_row(crashed, "crashed", "SIGKILL");
+  CHECK(leftovers.after_a_while().empty());
+}
+
 TEST_CASE("a case that exhausts the memory is a row, and the others go on") {
   if (kSanitized) return;  // AddressSanitizer needs memory of its own without end
   const CampaignRuns space(faults({"allocate", ""}, "<stride:Keep results='failed'/>"),

@@ -15,6 +15,7 @@
 #include <unistd.h>
 
 #include "master/isolation/process/descriptor.h"
+#include "master/isolation/process/keeper.h"
 #include "master/isolation/process/surroundings.h"
 #include "master/util/outliving_memory.h"
 #include "master/util/process/own_exit.h"
@@ -28,6 +29,9 @@ using End = ChildOutcome::End;
 constexpr std::size_t kPrintedKept = 4096;
 /// How often a child is looked at whose pipes another process may hold open.
 constexpr std::chrono::milliseconds kGlance{20};
+/// How long a keeper may take to end what it keeps.
+constexpr std::chrono::seconds kKeeperPatience{2};
+constexpr useconds_t kKeeperGlance = 200;
 
 /// What precedes the child's text.
 constexpr char kAnswer = 'A';
@@ -50,11 +54,13 @@ void end_at_once(int status, void*) {
   ::_exit(is_own || status != 0 ? status : 1);
 }
 
-[[noreturn]] void be_child(const std::function<std::string()>& work, int answer) {
+[[noreturn]] void be_child(const std::function<std::string()>& work, pid_t parent, bool has_keeper,
+                           int answer, int output) {
   ::on_exit(end_at_once, nullptr);
   char kind = kAnswer;
   std::string text;
   try {
+    settle(has_keeper ? go_on_kept(parent) : parent, output);
     text = work();
   } catch (const std::exception& error) {
     kind = kException;
@@ -98,7 +104,7 @@ class Child::Watch {
         options_(options),
         begin_(Clock::now()) {}
   ~Watch() {
-    if (!is_over_ && owner_ == ::getpid()) reap(child_);
+    if (!is_over_ && owner_ == ::getpid()) finish();
   }
   Watch(const Watch&) = delete;
   Watch& operator=(const Watch&) = delete;
@@ -115,7 +121,7 @@ class Child::Watch {
       const Watch* const self = this;
       await_any({&self, 1}, std::min(rest, kGlance));
     }
-    const int status = reap(child_);
+    const int status = finish();
     is_over_ = true;
     read();
     ChildOutcome outcome = cut_off ? ChildOutcome{*cut_off, 0, {}, {}} : judge(status);
@@ -154,6 +160,16 @@ class Child::Watch {
     return std::nullopt;
   }
 
+  int finish() const {
+    if (options_.has_keeper) {
+      ::kill(child_, SIGTERM);
+      ::kill(child_, SIGCONT);
+      const auto enough = Clock::now() + kKeeperPatience;
+      while (!has_ended(child_) && Clock::now() < enough) ::usleep(kKeeperGlance);
+    }
+    return reap(child_);
+  }
+
   ChildOutcome judge(int status) {
     if (WIFSIGNALED(status)) return {End::Killed, WTERMSIG(status), {}, {}};
     if (WEXITSTATUS(status) != 0 || text_.empty()) {
@@ -181,8 +197,7 @@ Child::Child(const std::function<std::string()>& work, const ChildOptions& optio
   const pid_t child = ::fork();
   if (child < 0) fail("fork");
   if (child == 0) {
-    settle(parent, output.write.number());
-    be_child(work, answer.write.number());
+    be_child(work, parent, options.has_keeper, answer.write.number(), output.write.number());
   }
   ::setpgid(child, child);  // in both processes, in whichever order
   answer.write.close();

@@ -34,6 +34,10 @@ struct ChildOptions {
   const volatile std::sig_atomic_t* interrupted = nullptr;
   /// So long it has then, behind a SIGTERM, to end by itself.
   std::chrono::milliseconds grace{};
+  /// There is a process between this one and the work, whose parent it is: what the work does to
+  /// its parent does not reach this process, and no process of its own outlives it, a daemon
+  /// neither. Then there is no grace.
+  bool has_keeper = false;
 };
 
 /// Work in a fork of this process, which goes on beside it. The child has its own process group,

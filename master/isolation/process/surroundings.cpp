@@ -31,8 +31,8 @@ void redirect_standard_files(int output) {
   ::dup2(output, STDERR_FILENO);
 }
 
-void end_with(pid_t parent) {
-  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+void end_with(pid_t parent, int signal) {
+  ::prctl(PR_SET_PDEATHSIG, signal);
   if (::getppid() != parent) ::_exit(1);
 }
 

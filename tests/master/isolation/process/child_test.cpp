@@ -8,6 +8,8 @@
 #include <thread>
 
 #include <catch2/catch.hpp>
+#include <sys/ptrace.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -24,6 +26,22 @@ bool has_child_left() { return ::waitpid(-1, nullptr, WNOHANG) != -1; }
 
 void wait_for_ever() {
   for (;;) std::this_thread::sleep_for(1s);
+}
+
+/// Whoever adopts it may take a while to bury it: whether the process goes on running for five
+/// seconds.
+bool goes_on(pid_t process) {
+  const auto lives = [&] {
+    char state = 'X';
+    const std::string path = "/proc/" + std::to_string(process) + "/stat";
+    if (std::FILE* const file = std::fopen(path.c_str(), "r")) {
+      if (std::fscanf(file, "%*d (%*[^)]) %c", &state) != 1) state = 'X';
+      std::fclose(file);
+    }
+    return state != 'X' && state != 'Z';
+  };
+  for (int i = 0; i < 500 && lives(); ++i) std::this_thread::sleep_for(10ms);
+  return lives();
 }
 
 }  // namespace
@@ -98,18 +116,7 @@ TEST_CASE("a child that takes too long is ended, and with it its own children") 
   CHECK(outcome.end == End::TimedOut);
   REQUIRE(*grandchild != 0);
   CHECK_FALSE(has_child_left());
-  // whoever adopts the grandchild may take a while to bury it
-  const auto lives = [&] {
-    char state = 'X';
-    const std::string path = "/proc/" + std::to_string(*grandchild) + "/stat";
-    if (std::FILE* const file = std::fopen(path.c_str(), "r")) {
-      if (std::fscanf(file, "%*d (%*[^)]) %c", &state) != 1) state = 'X';
-      std::fclose(file);
-    }
-    return state != 'X' && state != 'Z';
-  };
-  for (int i = 0; i < 500 && lives(); ++i) std::this_thread::sleep_for(10ms);
-  CHECK_FALSE(lives());
+  CHECK_FALSE(goes_on(*grandchild));
 }
 
 TEST_CASE("a child ends when the user wants it") {
@@ -182,4 +189,143 @@ TEST_CASE("a child that is not waited for is killed") {
     });
   }
   CHECK_FALSE(has_child_left());
+}
+
+namespace {
+
+/// Leaves its session and its parent, as a service does.
+void start_daemon(std::atomic<pid_t>& number) {
+  if (::fork() == 0) {
+    ::setsid();
+    if (::fork() == 0) {
+      number = ::getpid();
+      wait_for_ever();
+    }
+    ::_exit(0);
+  }
+  while (number == 0) std::this_thread::sleep_for(1ms);
+}
+
+constexpr ChildOptions kKept{.limit = {}, .interrupted = nullptr, .grace = {}, .has_keeper = true};
+
+}  // namespace
+
+TEST_CASE("a child with a keeper ends as one without") {
+  CHECK(run_in_child([] { return std::string("yes"); }, kKept).text == "yes");
+  const ChildOutcome thrown =
+      run_in_child([]() -> std::string { throw std::runtime_error("no"); }, kKept);
+  CHECK(thrown.end == End::Threw);
+  CHECK(thrown.text == "no");
+  for (const int signal : {SIGSEGV, SIGABRT, SIGKILL, SIGTERM}) {
+    const ChildOutcome outcome = run_in_child(
+        [&] {
+          std::raise(signal);
+          return std::string();
+        },
+        kKept);
+    CHECK(outcome.end == End::Killed);
+    CHECK(outcome.code == signal);
+  }
+  const ChildOutcome outcome = run_in_child(
+      []() -> std::string {
+        std::puts("printed");
+        std::fflush(stdout);
+        ::_exit(3);
+      },
+      kKept);
+  CHECK(outcome.end == End::Exited);
+  CHECK(outcome.code == 3);
+  CHECK(outcome.printed == "printed\n");
+  CHECK_FALSE(has_child_left());
+}
+
+TEST_CASE("what a child does to its parent reaches its keeper at most") {
+  const pid_t self = ::getpid();
+  for (const int signal : {SIGKILL, SIGTERM, SIGSTOP}) {
+    CAPTURE(signal);
+    ChildOptions options = kKept;
+    options.limit = 500ms;
+    const ChildOutcome outcome = run_in_child(
+        [&] {
+          if (::getppid() == self) return std::string("no keeper");
+          ::kill(::getppid(), signal);
+          wait_for_ever();
+          return std::string();
+        },
+        options);
+    CHECK(outcome.end == (signal == SIGSTOP ? End::TimedOut : End::Killed));
+    if (signal != SIGSTOP) CHECK(outcome.code == signal);
+  }
+  CHECK_FALSE(has_child_left());
+}
+
+TEST_CASE("a child with a keeper cannot limit the process that has started both") {
+  rlimit before{};
+  ::getrlimit(RLIMIT_CPU, &before);
+  const ChildOutcome outcome = run_in_child(
+      [] {
+        const rlimit none{0, 0};
+        return std::to_string(::prlimit(::getppid(), RLIMIT_CPU, &none, nullptr));
+      },
+      kKept);
+  CHECK(outcome.text == "0");
+  rlimit after{};
+  ::getrlimit(RLIMIT_CPU, &after);
+  CHECK(after.rlim_max == before.rlim_max);
+}
+
+TEST_CASE("no daemon outlives the keeper of the child that has started it") {
+  const Shared<std::atomic<pid_t>> daemon;
+  const auto run = [&](const std::function<void()>& end, ChildOptions options) {
+    *daemon = 0;
+    return run_in_child(
+        [&] {
+          start_daemon(*daemon);
+          end();
+          return std::string();
+        },
+        options);
+  };
+  CHECK(run([] {}, kKept).end == End::Answered);
+  CHECK_FALSE(goes_on(*daemon));
+  CHECK(run([] { std::raise(SIGKILL); }, kKept).end == End::Killed);
+  CHECK_FALSE(goes_on(*daemon));
+  ChildOptions limited = kKept;
+  limited.limit = 300ms;
+  CHECK(run(wait_for_ever, limited).end == End::TimedOut);
+  CHECK_FALSE(goes_on(*daemon));
+  CHECK(run([] {}, {}).end == End::Answered);
+  CHECK(::kill(*daemon, 0) == 0);
+  ::kill(*daemon, SIGKILL);
+}
+
+TEST_CASE("no daemon of a kept child outlives the process that has started both") {
+  const Shared<std::atomic<pid_t>> daemon;
+  const pid_t parent = ::fork();
+  if (parent == 0) {
+    run_in_child(
+        [&] {
+          start_daemon(*daemon);
+          wait_for_ever();
+          return std::string();
+        },
+        kKept);
+    ::_exit(0);
+  }
+  while (*daemon == 0) std::this_thread::sleep_for(1ms);
+  ::kill(parent, SIGKILL);
+  ::waitpid(parent, nullptr, 0);
+  CHECK_FALSE(goes_on(*daemon));
+}
+
+TEST_CASE("a child with a keeper that asks to be debugged ends all the same") {
+  const ChildOutcome outcome = run_in_child(
+      [] {
+        ::ptrace(PTRACE_TRACEME, 0, nullptr, nullptr);
+        std::raise(SIGSEGV);
+        return std::string();
+      },
+      kKept);
+  CHECK(outcome.end == End::Killed);
+  CHECK(outcome.code == SIGSEGV);
 }
