@@ -2,6 +2,9 @@
 #include <cstdlib>
 
 #include <dlfcn.h>
+#include <link.h>
+
+#include "master/util/process/loaded_object.h"
 
 namespace stride::cli {
 namespace {
@@ -11,13 +14,10 @@ using ExitFunction = void(int, void*);
 /// Until the process ends: unlike atexit(), on_exit() does not belong to a library, which calls
 /// what it has registered when it is unloaded.
 void keep_library_of(ExitFunction* function) {
-  Dl_info place{}, own{};
-  if (::dladdr(reinterpret_cast<const void*>(function), &place) == 0 ||
-      ::dladdr(reinterpret_cast<const void*>(&keep_library_of), &own) == 0 ||
-      place.dli_fbase == own.dli_fbase) {
-    return;
-  }
-  ::dlopen(place.dli_fname, RTLD_LAZY | RTLD_NOLOAD | RTLD_NODELETE);  // as one more user of it
+  const link_map* const place = core::loaded_object_at(reinterpret_cast<const void*>(function));
+  const auto* const self = reinterpret_cast<const void*>(&keep_library_of);
+  if (place == nullptr || place == core::loaded_object_at(self)) return;
+  ::dlopen(place->l_name, RTLD_LAZY | RTLD_NOLOAD | RTLD_NODELETE);  // as one more user of it
 }
 
 }  // namespace

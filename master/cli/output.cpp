@@ -9,7 +9,6 @@
 #include <string>
 #include <system_error>
 
-#include <dlfcn.h>
 #include <spdlog/pattern_formatter.h>
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
@@ -19,6 +18,7 @@
 #include "master/cli/memory_limits.h"
 #include "master/util/file_identity.h"
 #include "master/util/message_text.h"
+#include "master/util/process/loaded_object.h"
 #include "master/util/readable_text.h"
 
 namespace stride::cli {
@@ -36,12 +36,6 @@ void give_buffer() {
   std::setvbuf(stdout, output_buffer, mode, sizeof output_buffer);
 }
 
-/// Of the file that contains the code or the variable at this address; null if it is in none.
-const void* library_at(const void* address) {
-  Dl_info info{};
-  return ::dladdr(address, &info) != 0 ? info.dli_fbase : nullptr;
-}
-
 /// A standard stream of C++, as it is at the beginning.
 template <class Stream>
 class OwnStream {
@@ -52,7 +46,7 @@ class OwnStream {
   void restore() const {
     stream_.exceptions(std::ios::goodbit);
     stream_.tie(tie_);
-    if (library_at(stream_.rdbuf()) == library_at(buffer_)) {
+    if (core::loaded_object_at(stream_.rdbuf()) == core::loaded_object_at(buffer_)) {
       stream_.clear();
     } else {
       stream_.rdbuf(buffer_);

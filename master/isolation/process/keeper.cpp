@@ -8,6 +8,7 @@
 
 #include "master/isolation/process/children.h"
 #include "master/isolation/process/descriptor.h"
+#include "master/isolation/process/sibling.h"
 #include "master/isolation/process/surroundings.h"
 #include "master/util/outliving_memory.h"
 
@@ -52,7 +53,7 @@ int await_end(pid_t kept, const sigset_t& watched) {
 
 void end_all_that_is_left() {
   int ignored = 0;
-  while (kill_children_of(::getpid())) {
+  while (has_children() && kill_children_of(::getpid())) {
     if (::waitpid(-1, &ignored, 0) < 0) return;
   }
 }

@@ -8,12 +8,12 @@
 #include <thread>
 #include <vector>
 
-#include <dlfcn.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include "master/util/error.h"
 #include "master/util/input_file.h"
+#include "master/util/process/loaded_object.h"
 
 namespace stride::core {
 namespace {
@@ -50,10 +50,8 @@ std::string words_for(const std::set<pid_t>& threads) {
 }
 
 bool is_of_program(const void* function) {
-  Dl_info place{}, own{};
-  return ::dladdr(function, &place) != 0 &&
-         ::dladdr(reinterpret_cast<const void*>(&is_of_program), &own) != 0 &&
-         place.dli_fbase == own.dli_fbase;
+  return loaded_object_at(function) ==
+         loaded_object_at(reinterpret_cast<const void*>(&is_of_program));
 }
 
 bool calls_function(const struct sigaction& action) {

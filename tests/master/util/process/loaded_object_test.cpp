@@ -1,0 +1,37 @@
+#include "master/util/process/loaded_object.h"
+
+#include <cstdlib>
+#include <iostream>
+#include <string>
+
+#include <catch2/catch.hpp>
+#include <dlfcn.h>
+#include <link.h>
+
+using stride::core::loaded_object_at;
+
+namespace {
+
+int variable = 1;
+
+const void* address_of(void (*function)()) { return reinterpret_cast<const void*>(function); }
+
+}  // namespace
+
+TEST_CASE("code and variables of one file have one object") {
+  const link_map* const own = loaded_object_at(&variable);
+  REQUIRE(own != nullptr);
+  CHECK(loaded_object_at(address_of([] {})) == own);
+  const link_map* const c_library = loaded_object_at(::dlsym(RTLD_DEFAULT, "qsort"));
+  REQUIRE(c_library != nullptr);
+  CHECK(c_library != own);
+  CHECK(loaded_object_at(stderr) == c_library);
+  CHECK(std::string(c_library->l_name).find("libc.so") != std::string::npos);
+  CHECK(loaded_object_at(std::cout.rdbuf()) != own);
+}
+
+TEST_CASE("what is in no file has no object") {
+  const int local = 0;
+  CHECK(loaded_object_at(&local) == nullptr);
+  CHECK(loaded_object_at(nullptr) == nullptr);
+}
