@@ -110,6 +110,28 @@ Json checks_json(const CaseColumns& columns) {
   return checks;
 }
 
+Json hosts_json(const CaseColumns& columns) {
+  Json hosts = Json::array();
+  for (const auto& [name, cases] : columns.cases_on) {
+    hosts.push_back({{"name", name}, {"cases", cases}});
+  }
+  return hosts;
+}
+
+/// What the cases were made from.
+Json sources_json(const Fingerprints& fingerprints) {
+  Json sources = Json::array();
+  const auto add = [&](const std::string& what, const std::string& digest) {
+    sources.push_back({{"what", what}, {"sha256", digest}});
+  };
+  for (const auto& [file, digest] : fingerprints.files) add(file, digest);
+  for (const auto& [unit, digest] : fingerprints.units) add("unit " + unit, digest);
+  for (const auto& [names, digest] : fingerprints.alternatives) {
+    add(fmt::format("unit {} of {}", names.second, names.first), digest);
+  }
+  return sources;
+}
+
 /// Writes the members of the data one after the other.
 class PageWriter {
  public:
@@ -123,6 +145,9 @@ class PageWriter {
     member("campaign", json_text(campaign_json(plan_)));
     member("outcomes", json_text(outcomes_json(columns_)));
     member("wall_time", json_text(columns_.wall_time));
+    member("began", json_text(Json{columns_.first_began, columns_.last_began}));
+    member("hosts", json_text(hosts_json(columns_)));
+    member("sources", json_text(sources_json(plan_.fingerprints())));
     member("checks", json_text(checks_json(columns_)));
     write_parameters();
     write_aggregates();
@@ -182,6 +207,8 @@ class PageWriter {
     member("reasons", report::text_blob(columns_.reasons));
     member("links", report::text_blob(links));
     member("commands", report::text_blob(commands()));
+    member("began", report::text_blob(columns_.began));
+    member("hosts", report::text_blob(columns_.hosts));
     file_.write('}');
   }
 

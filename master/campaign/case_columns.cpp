@@ -68,6 +68,15 @@ double first_failure(const CaseResult& result) {
   return first;
 }
 
+void add_to_all(const CaseResult& result, CaseColumns& columns) {
+  columns.wall_time += result.wall_time;
+  std::string& first = columns.first_began;
+  if (first.empty() || result.began < first) first = result.began;
+  columns.last_began = std::max(columns.last_began, result.began);
+  ++columns.cases_on[result.host];
+  count_checks(result, columns.checks);
+}
+
 void add_values(const Case& row, CaseColumns& columns) {
   for (std::size_t i = 0; i < columns.parameters.size(); ++i) {
     columns.parameters[i].texts.push_back(row.values[i].value_or(kScenarioValue));
@@ -88,6 +97,8 @@ void add_result(const CaseResult* result, CaseColumns& columns) {
   columns.failed_at.push_back(first_failure(known));
   columns.has_results.push_back(known.has_results ? 1 : 0);
   columns.reasons.push_back(known.reason);
+  columns.began.push_back(known.began);
+  columns.hosts.push_back(known.host);
 }
 
 /// If all of its values are numbers; names of units never are.
@@ -118,8 +129,7 @@ CaseColumns read_case_columns(const Plan& plan, const CaseFolder& cases, std::ui
     const CaseResult* const result = record ? &record->result : nullptr;
     ++columns.counts[result != nullptr ? static_cast<std::size_t>(result->outcome) : kMissing];
     if (result != nullptr) {
-      columns.wall_time += result->wall_time;
-      count_checks(*result, columns.checks);
+      add_to_all(*result, columns);
     }
     if (!choice.takes(i)) continue;
     columns.indices.push_back(static_cast<std::int32_t>(i));

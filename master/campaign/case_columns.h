@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -42,11 +43,14 @@ struct CaseColumns {
   std::vector<double> failed_at;                ///< the first instant of a failure [s]
   std::vector<std::uint8_t> has_results;
   std::vector<std::string> reasons;
+  std::vector<std::string> began, hosts;  ///< as records have them
 
   // of all cases
   std::array<std::uint64_t, kOutcomeKinds> counts{};  ///< by outcomes
   std::vector<CheckCounts> checks;                    ///< in the order in which they appear
   double wall_time = 0;                               ///< the sum [s]
+  std::string first_began, last_began;                ///< empty: none has
+  std::map<std::string, std::uint64_t> cases_on;      ///< by hosts
 
   std::size_t size() const { return indices.size(); }
 };

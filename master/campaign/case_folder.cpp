@@ -2,7 +2,6 @@
 
 #include <cerrno>
 #include <chrono>
-#include <climits>
 #include <fstream>
 #include <system_error>
 #include <thread>
@@ -17,6 +16,7 @@
 #include "master/recorders/results_folder.h"
 #include "master/util/error.h"
 #include "master/util/file_identity.h"
+#include "master/util/host_name.h"
 #include "master/util/output_file.h"
 
 namespace stride::campaign {
@@ -26,11 +26,6 @@ namespace fs = std::filesystem;
 
 /// Digits of a name that are its place in its folder.
 constexpr std::size_t kPlaces = 3;
-
-std::string host_name() {
-  char name[HOST_NAME_MAX + 1] = {};
-  return ::gethostname(name, HOST_NAME_MAX) == 0 ? name : "localhost";
-}
 
 core::Descriptor opened(const fs::path& folder) {
   return core::Descriptor(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
@@ -90,7 +85,7 @@ std::optional<CaseFolder::Record> CaseFolder::read(std::uint64_t index) const {
 CaseScratch::CaseScratch(const CaseFolder& folder) : cases_(folder) {
   recorders::make_results_folder(cases_.path());
   const fs::path running = fs::absolute(cases_.path()) / kRunning;
-  const std::string host = host_name();
+  const std::string host = core::host_name();
   remove_leftovers(running, host);
   folder_ = running / fmt::format("{}.{}", host, ::getpid());
   constexpr int kAttempts = 1000;

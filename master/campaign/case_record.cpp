@@ -93,6 +93,8 @@ CaseResult result_of(const Plan& plan, const Json& json) {
   result.reached = number_of(json.at("reached"));
   result.has_results = json.at("results");
   result.wall_time = json.at("wall_time");
+  result.began = json.at("began");
+  result.host = json.at("host");
   return result;
 }
 
@@ -142,6 +144,8 @@ std::string record_line(const Plan& plan, const Case& row, const CaseResult& res
   json["results"] = result.has_results;
   json["hash"] = plan.hash(row);
   json["wall_time"] = result.wall_time;
+  json["began"] = result.began;
+  json["host"] = result.host;
   return json_line(json);
 }
 

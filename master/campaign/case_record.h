@@ -37,7 +37,7 @@ struct CaseVerdict {
 
 const char* verdict_name(std::optional<bool> passed);
 
-/// All but how long it took is a function of the plan and the index.
+/// All but how long it took, when and where, is a function of the plan and the index.
 struct CaseResult {
   Outcome outcome = Outcome::Passed;
   std::string reason{};  ///< empty for one that passed
@@ -46,12 +46,15 @@ struct CaseResult {
   std::optional<double> reached{};                  ///< simulated time [s]; empty: not known
   bool has_results = false;                         ///< whether all results are kept
   double wall_time = 0;                             ///< [s]
+  std::string began{};                              ///< in UTC: "2026-11-25T23:59:59Z"
+  std::string host{};                               ///< where
   bool operator==(const CaseResult&) const = default;
 };
 
 std::vector<CaseVerdict> case_verdicts(const std::vector<core::Verdict>& verdicts);
 
-/// A line of JSON, without its end: the case, and what became of it. The wall time stands last.
+/// A line of JSON, without its end: the case, and what became of it. The wall time, when and where
+/// stand last.
 std::string record_line(const Plan& plan, const Case& row, const CaseResult& result);
 /// Likewise of a case that has no record.
 std::string missing_line(const Plan& plan, const Case& row);

@@ -47,7 +47,7 @@ class TableWriter {
     for (const Aggregate& aggregate : plan_.campaign().aggregates) {
       put(csv_field("aggregate:" + aggregate.name));
     }
-    put("reached"), put("hash"), put("wall_time");
+    put("reached"), put("hash"), put("wall_time"), put("began"), put("host");
     file_.write('\n');
   }
 
@@ -67,6 +67,8 @@ class TableWriter {
     put(number_text(known.reached));
     put(plan_.hash(row));
     put(result != nullptr ? number_text(known.wall_time) : "");
+    put(known.began);
+    put(csv_field(known.host));
     file_.write('\n');
   }
 

@@ -8,7 +8,7 @@ namespace stride::cli {
 void CasePool::start(std::uint64_t index, const std::function<std::string()>& work,
                      const isolation::ChildOptions& options) {
   const auto begin = Clock::now();
-  running_.push_back({index, begin, isolation::Child(work, options)});
+  running_.push_back({index, begin, std::time(nullptr), isolation::Child(work, options)});
 }
 
 std::optional<CasePool::Ended> CasePool::collect(std::chrono::milliseconds patience) {
@@ -28,7 +28,7 @@ std::optional<CasePool::Ended> CasePool::take_ended() {
   for (auto running = running_.begin(); running != running_.end(); ++running) {
     auto outcome = running->child.wait({});
     if (!outcome) continue;
-    Ended ended{running->index, std::move(*outcome), Clock::now() - running->begin};
+    Ended ended{running->index, std::move(*outcome), Clock::now() - running->begin, running->began};
     running_.erase(running);
     return ended;
   }

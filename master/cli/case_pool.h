@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <ctime>
 #include <functional>
 #include <list>
 #include <optional>
@@ -20,6 +21,7 @@ class CasePool {
     std::uint64_t index = 0;
     isolation::ChildOutcome outcome;
     std::chrono::duration<double> wall_time{};  ///< of the process
+    std::time_t began = 0;                      ///< when it did
   };
 
   /// `options` are those of each process.
@@ -46,6 +48,7 @@ class CasePool {
   struct Running {
     std::uint64_t index;
     Clock::time_point begin;
+    std::time_t began;
     isolation::Child child;
   };
 

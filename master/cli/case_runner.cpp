@@ -19,6 +19,7 @@
 #include "master/cli/provenance.h"
 #include "master/cli/report_page.h"
 #include "master/util/error.h"
+#include "master/util/host_name.h"
 #include "master/util/input_file.h"
 #include "master/util/process/deadline.h"
 
@@ -254,6 +255,8 @@ std::optional<CaseResult> CaseRunner::conclude(const CasePool::Ended& ended) con
         "make room, and run the campaign again");
   }
   result->wall_time = ended.wall_time.count();
+  result->began = utc_text(ended.began);
+  result->host = core::host_name();
   result->reason = with_lasting_paths(ended.index, std::move(result->reason));
   const bool is_wanted =
       plan_.campaign().keep.are_kept_anyway(ended.index) || result->outcome != Outcome::Passed;

@@ -8,30 +8,25 @@
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <sys/utsname.h>
 
 #include "master/cli/command_line.h"
 #include "master/cli/output_paths.h"
 #include "master/util/error.h"
+#include "master/util/host_name.h"
 #include "master/util/input_file.h"
 
 namespace stride::cli {
-namespace {
 
-/// In UTC.
-std::string now() { return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr))); }
-
-std::string host() {
-  struct utsname names {};
-  return ::uname(&names) == 0 ? names.nodename : "";
+std::string utc_text(std::time_t time) {
+  return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(time));
 }
-
-}  // namespace
 
 recorders::Provenance provenance_of(const scenario::LoadedScenario& loaded,
                                     core::FileDigests& digests) {
-  recorders::Provenance made{
-      .version = STRIDE_VERSION, .date = now(), .host = host(), .commands = {command_line()}};
+  recorders::Provenance made{.version = STRIDE_VERSION,
+                             .date = utc_text(std::time(nullptr)),
+                             .host = core::host_name(),
+                             .commands = {command_line()}};
   const auto add = [&](const std::string& what, const std::filesystem::path& path) {
     recorders::Source source = recorders::make_source(what, path, digests);
     if (std::ranges::find(made.sources, source) == made.sources.end()) {

@@ -2,7 +2,9 @@
 #ifndef STRIDE_MASTER_CLI_PROVENANCE_H
 #define STRIDE_MASTER_CLI_PROVENANCE_H
 
+#include <ctime>
 #include <filesystem>
+#include <string>
 
 #include "master/recorders/provenance.h"
 #include "master/scenario/loaded_scenario.h"
@@ -10,6 +12,9 @@
 #include "master/util/state_archive.h"
 
 namespace stride::cli {
+
+/// "2026-11-25T23:59:59Z"
+std::string utc_text(std::time_t time);
 
 /// Of a run that this command line has loaded, and which begins now. Reads the files whose digests
 /// are not known yet. Throws core::Error (Input).

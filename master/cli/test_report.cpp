@@ -1,7 +1,6 @@
 #include "master/cli/test_report.h"
 
 #include <cerrno>
-#include <climits>
 #include <utility>
 
 #include <fmt/format.h>
@@ -9,16 +8,12 @@
 
 #include "master/scenario/scenario.h"
 #include "master/util/error.h"
+#include "master/util/host_name.h"
 #include "master/util/replacement.h"
 #include "master/util/time_text.h"
 
 namespace stride::cli {
 namespace {
-
-std::string host_name() {
-  char name[HOST_NAME_MAX + 1] = {};
-  return ::gethostname(name, HOST_NAME_MAX) == 0 ? name : "localhost";
-}
 
 /// What is no regular file is written at the end only, when it is too late for such an error.
 void check_writable(const std::filesystem::path& file) {
@@ -44,7 +39,7 @@ TestReport::TestReport(std::filesystem::path file, const std::filesystem::path& 
   std::error_code ignored;  // without the folder the file cannot be made, which is an error then
   std::filesystem::create_directories(file_.parent_path(), ignored);
   report_.suite = scenario::stem(scenario);
-  report_.host = host_name();
+  report_.host = core::host_name();
   report_.began = std::chrono::system_clock::now();
   report_.properties = {{"scenario", scenario.string()}, {"stride", STRIDE_VERSION}};
   report_.error = "the run has not ended";

@@ -83,9 +83,9 @@ class Campaign:
                            environment=node.environment)
 
     def table(self, out):
-        """Without wall times."""
+        """Without the wall times, when and where."""
         with open(self.folder / out / "cases.csv", encoding="utf-8", newline="") as file:
-            return [row[:-1] for row in csv.reader(file)]
+            return [row[:-3] for row in csv.reader(file)]
 
     def records(self, out):
         return sorted((self.folder / out / "cases").rglob("*.json"))

@@ -43,13 +43,16 @@ struct PageOfRecords : Records {
 
 TEST_CASE("the page of a campaign has what became of each case, and what repeats it") {
   const PageOfRecords records;
-  records.write(0, {.aggregates = {0.5}, .wall_time = 1});
+  records.write(
+      0, {.aggregates = {0.5}, .wall_time = 1, .began = "2026-11-25T23:59:59Z", .host = "a"});
   records.write(2, {.outcome = Outcome::Failed,
                     .reason = "low: </script>\nmore",
                     .verdicts = {{"low", "Never", false, "", 0.5}},
                     .aggregates = {0.25},
                     .has_results = true,
-                    .wall_time = 2});
+                    .wall_time = 2,
+                    .began = "2026-11-26T00:00:01Z",
+                    .host = "b"});
   records.touch("out/cases/000/000002/report.html");
   const json page = records.page();
   CHECK(page["stride"] == "1.0");
@@ -59,6 +62,12 @@ TEST_CASE("the page of a campaign has what became of each case, and what repeats
   CHECK(page["outcomes"][1] == json{{"name", "failed"}, {"cases", 1}});
   CHECK(page["outcomes"][5] == json{{"name", "missing"}, {"cases", 2}});
   CHECK(page["wall_time"] == 3);
+  CHECK(page["began"] == json{"2026-11-25T23:59:59Z", "2026-11-26T00:00:01Z"});
+  CHECK(page["hosts"] == json::parse(R"([{"name": "a", "cases": 1}, {"name": "b", "cases": 1}])"));
+  const Fingerprints& made_from = records.plan.fingerprints();
+  REQUIRE(page["sources"].size() == made_from.files.size() + made_from.units.size());
+  CHECK(page["sources"][0] == json{{"what", "x.ssd"}, {"sha256", made_from.files.at("x.ssd")}});
+  CHECK(page["sources"].back()["what"] == "unit " + made_from.units.rbegin()->first);
   CHECK(page["checks"][0]["failed"] == 1);
   const json& cases = page["cases"];
   CHECK(unpacked<std::int32_t>(cases["indices"]) == std::vector<std::int32_t>{0, 1, 2, 3});
@@ -68,6 +77,8 @@ TEST_CASE("the page of a campaign has what became of each case, and what repeats
         std::vector<std::string>{"", "", "low: </script>\nmore", ""});
   CHECK(joined_texts(cases["links"]) ==
         std::vector<std::string>{"", "", "cases/000/000002/report.html", ""});
+  CHECK(joined_texts(cases["hosts"]) == std::vector<std::string>{"a", "", "b", ""});
+  CHECK(joined_texts(cases["began"])[2] == "2026-11-26T00:00:01Z");
   CHECK(joined_texts(cases["commands"])[2] == records.plan.command(records.plan.at(2)));
   CHECK(page["parameters"][0]["name"] == "b.u");
   CHECK(unpacked<double>(page["parameters"][0]["values"])[2] ==

@@ -24,7 +24,9 @@ const CaseResult kFailed{.outcome = Outcome::Failed,
                          .aggregates = {0.1},
                          .reached = 1,
                          .has_results = true,
-                         .wall_time = 0.25};
+                         .wall_time = 0.25,
+                         .began = "2026-11-25T23:59:59Z",
+                         .host = "a,b"};
 
 }  // namespace
 
@@ -96,10 +98,11 @@ TEST_CASE("the tables have a row for each case, with or without a record") {
   };
   CHECK(content(records.folder / "out/cases.csv") ==
         "case,b.u,seed,outcome,reason,check:low,verdict:low,\"aggregate:a, \"\"b\"\"\",reached,"
-        "hash,wall_time\n" +
-            row(0, "passed,,,,nan,1", ",0") + row(1, "missing,,,,,", ",") +
-            row(2, "failed,\"low: at 0.5 s, \"\"y\"\"\",failed,passed,0.1,1", ",0.25") +
-            row(3, "missing,,,,,", ","));
+        "hash,wall_time,began,host\n" +
+            row(0, "passed,,,,nan,1", ",0,,") + row(1, "missing,,,,,", ",,,") +
+            row(2, "failed,\"low: at 0.5 s, \"\"y\"\"\",failed,passed,0.1,1",
+                ",0.25,2026-11-25T23:59:59Z,\"a,b\"") +
+            row(3, "missing,,,,,", ",,,"));
   const std::string lines = content(records.folder / "out/cases.jsonl");
   CHECK(std::count(lines.begin(), lines.end(), '\n') == 4);
   CHECK_THAT(lines, Contains("\"outcome\":\"missing\""));

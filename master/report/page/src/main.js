@@ -7,6 +7,7 @@ import { costs } from "./parts/costs.js";
 import { diagramSection } from "./parts/diagram.js";
 import { header } from "./parts/header.js";
 import { helpDialog } from "./parts/help.js";
+import { provenance } from "./parts/made_from.js";
 import { MessageTable } from "./parts/message_table.js";
 import { Theme } from "./parts/theme.js";
 import { Tip } from "./parts/tip.js";
@@ -56,6 +57,7 @@ function build(report) {
     report.messages.length > 0 ? new MessageTable(context).box : null,
     costs(report.run),
     diagramSection(context),
+    provenance(report.run),
     tip.box,
     help,
   ];

@@ -10,6 +10,7 @@ import { decisiveSection } from "./parts/decisive.js";
 import { header } from "./parts/header.js";
 import { HeatMap, mappable } from "./parts/heat_map.js";
 import { histogramSection } from "./parts/histograms.js";
+import { origin } from "./parts/origin.js";
 import { Parallel } from "./parts/parallel.js";
 import { Scatter } from "./parts/scatter.js";
 import { SelectionBar } from "./parts/selection_bar.js";
@@ -54,6 +55,7 @@ function build(report) {
     histogramSection(context),
     parallel.columns.length > 1 ? parallel.box : null,
     table.box,
+    origin(report),
     tip.box,
   ];
   document.getElementById("report").replaceChildren(...parts.filter(Boolean));

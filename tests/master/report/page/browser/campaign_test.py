@@ -46,6 +46,9 @@ class Campaign:
         both = {"cases": 30, "failed": 6, "confidence": [0.1, 0.37]}
         data = {
             "format": 1, "stride": "test", "wall_time": 12.5, "working_folder": "../..",
+            "began": ["2026-11-25T23:59:59Z", "2026-11-26T00:10:00Z"],
+            "hosts": [{"name": "left", "cases": 1}, {"name": "right", "cases": self.count - 1}],
+            "sources": [{"what": "tank.ssd", "sha256": "0123456789abcdef"}, {"what": "unit tank", "sha256": "f" * 64}],
             "campaign": {"name": "tank <1>", "file": "tank.xosc", "scenario": "tank.ssd", "sampling": "sobol",
                          "random_seed": 7, "keep": "failed", "cases": self.count},
             "outcomes": [{"name": name, "cases": self.outcomes.count(i)} for i, name in enumerate(OUTCOMES)],
@@ -67,7 +70,9 @@ class Campaign:
                     "" if outcome == PASSED else f"low: {load} <i>\nmore"
                     for outcome, load in zip(self.outcomes, self.load)),
                 "links": page_data.pack_texts(self.linked.get(i, "") for i in range(self.count)),
-                "commands": page_data.pack_texts(f"stride run tank.ssd --set tank.load={load}" for load in self.load)},
+                "commands": page_data.pack_texts(f"stride run tank.ssd --set tank.load={load}" for load in self.load),
+                "began": page_data.pack_texts(["2026-11-25T23:59:59Z"] * self.count),
+                "hosts": page_data.pack_texts(["left <b>"] * self.count)},
             "correlations": [{"parameter": 1, "failure": unclear, "aggregates": [unclear]},
                              {"parameter": 0, "failure": correlation, "aggregates": [correlation]}],
             "shares": [{"parameter": 2, "count": 2, "values": [{"value": "old", **both}, {"value": "new <b>", **both}]}],
@@ -105,6 +110,16 @@ class CampaignTest(unittest.TestCase):
                          "select.value = [...select.options].find((o) => o.text === text).value;"
                          "select.dispatchEvent(new Event('change'))", select, text)
         self.browser.settle()
+
+    def test_when_where_and_from_what_the_cases_were_made(self):
+        browser = self.open(Campaign())
+        browser.one(".made-from summary").click()
+        text = browser.one(".made-from").text
+        self.assertIn("1 case on left, 59 cases on right, which began from 2026-11-25T23:59:59Z to", text)
+        self.assertIn("0123456789ab", text)
+        self.assertIn("unit tank", text)
+        titles = {cell.get_attribute("title") for cell in browser.all(".cases .command")}
+        self.assertEqual({"ran at 2026-11-25T23:59:59Z on left <b>"}, titles)
 
     def write(self, label, text):
         field = self.browser.one(f"input[aria-label='{label}']")

@@ -323,6 +323,21 @@ class PageTest(unittest.TestCase):
                            "[...row.cells].map((cell) => cell.textContent))")
         self.assertEqual(rows[0], ["tank", "", "0.610", "0.010", "0.500", "0.100", "12", "10", "1", "2", "0", "2.5"])
 
+    def test_what_a_run_was_made_from(self):
+        run = Run()
+        run.run["provenance"] = {
+            "version": "1.2", "date": "2026-11-25T23:59:59Z", "host": "left <b>",
+            "commands": [{"text": "stride run 'a tank.ssd'", "words": [], "folder": "/home/a"},
+                         {"text": "stride run 'a tank.ssd' --resume", "words": [], "folder": "/home/b"}],
+            "sources": [{"what": "the scenario", "path": "a tank.ssd", "sha256": "0123456789abcdef"}]}
+        browser = self.open_run(run)
+        browser.one(".made-from summary").click()
+        text = browser.one(".made-from").text
+        for words in ["stride 1.2 began it at 2026-11-25T23:59:59Z on left <b> by", "stride run 'a tank.ssd' in /home/a",
+                      "and then stride run 'a tank.ssd' --resume in /home/b", "the scenario", "0123456789ab"]:
+            self.assertIn(words, text)
+        self.assertEqual(self.open_run().all(".made-from"), [])
+
     def test_what_units_did_is_in_words_too(self):
         browser = self.open_run()
         self.assertEqual(browser.texts(".lane-summary"), ["idle 2.5 s, 1 rejection", "idle 2 s"])

@@ -20,7 +20,7 @@ async function readColumn({ name, values }, role) {
 
 async function readCases(cases) {
   const arrays = ["indices", "outcomes", "wall_times", "reached", "failed_at"];
-  const texts = ["reasons", "links", "commands"];
+  const texts = ["reasons", "links", "commands", "began", "hosts"];
   const read = [...arrays.map((name) => unpack(cases[name])), ...texts.map((name) => unpackTexts(cases[name]))];
   const found = await Promise.all(read);
   return Object.fromEntries([...arrays, ...texts].map((name, i) => [name, found[i]]));

@@ -30,6 +30,12 @@ function copyButton(command, code) {
   return button;
 }
 
+/** When and where the case ran; empty if it has not. */
+export function ranText({ began, hosts }, row) {
+  const where = hosts[row] === "" ? "" : ` on ${hosts[row]}`;
+  return began[row] === "" ? "" : `ran at ${began[row]}${where}`;
+}
+
 /** To the page of a case, or to its other results; nothing where none are kept. */
 function resultsLink(link) {
   if (link === "") return null;
@@ -168,7 +174,7 @@ export class CaseTable {
       h("td.actions", {}, resultsLink(cases.links[row]), copyButton(cases.commands[row], code)),
       ...this.columns.slice(2).map(value),
       h("td.reason", { title: cases.reasons[row] }, cases.reasons[row].split("\n")[0]),
-      h("td.command", {}, code),
+      h("td.command", { title: ranText(cases, row) }, code),
     );
   }
 }
