@@ -145,7 +145,8 @@ void add_campaign(CLI::App& app) {
   command
       ->add_option("--case", arguments->only,
                    "Print the command that runs this case, counted from 0, and write nothing")
-      ->type_name("INDEX");
+      ->type_name("INDEX")
+      ->check(CLI::Range(std::uint64_t{0}, campaign::Plan::kMostCases - 1));
   command->callback([arguments] { plan_campaign(*arguments); });
   add_campaign_run(*group);
   add_campaign_submit(*group);

@@ -217,6 +217,7 @@ void add_campaign_run(CLI::App& group) {
                        "Run this case only, counted from 0, and make no table: for other runners, "
                        "which may run several at the same time")
           ->type_name("INDEX")
+          ->check(CLI::Range(std::uint64_t{0}, campaign::Plan::kMostCases - 1))
           ->excludes(jobs);
   CLI::Option* range =
       command

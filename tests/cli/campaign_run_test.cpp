@@ -445,6 +445,13 @@ TEST_CASE("what campaign run refuses") {
              Contains("--case 5: there are 5 cases, the last one is 4"));
   CHECK_THAT(input_error_of(space.campaign("out", {"--cases", "3-5"})),
              Contains("--cases 5: there are 5 cases, the last one is 4"));
+  for (const char* index : {"-1", "1e3", "99999999999999999999"}) {
+    for (const char* verb : {"run", "plan"}) {
+      const Outcome outcome = space.stride({"campaign", verb, "c.xosc", "--case", index});
+      CHECK(outcome.exit_code == 2);
+      CHECK_THAT(outcome.err, Contains("--case: Value " + std::string(index) + " not in range"));
+    }
+  }
   for (const char* range : {"4-3", "a", "1-"}) {
     const Outcome outcome = space.campaign("out", {"--cases", range});
     CHECK(outcome.exit_code == 2);

@@ -41,7 +41,11 @@ std::string file_word(const std::string& path) {
   return name;
 }
 
-/// "mem=4G", "--mem=4G" and "-C fast", as they stand in the script.
+bool is_quoted(const std::string& text) {
+  return text.size() > 1 && text.front() == '"' && text.back() == '"';
+}
+
+/// "mem=4G", "--mem=4G" and "-C fast", as they stand in the script. A value behind "=" is one word.
 std::string further_option(const std::string& text) {
   refuse_line_ends(text);
   const std::size_t begin = text.find_first_not_of('-');
@@ -53,7 +57,10 @@ std::string further_option(const std::string& text) {
                      "see --jobs, --chunk and --wait; --dry-run prints the script, which can be "
                      "changed and submitted by hand");
   }
-  return (name.size() == 1 ? "-" : "--") + option;
+  const std::string dashes = name.size() == 1 ? "-" : "--";
+  if (name.size() == option.size() || option[name.size()] != '=') return dashes + option;
+  const std::string value = option.substr(name.size() + 1);
+  return fmt::format("{}{}={}", dashes, name, is_quoted(value) ? value : directive_word(value));
 }
 
 std::string directives(const JobArray& array) {

@@ -54,19 +54,21 @@ TEST_CASE("a script of Slurm has what is asked for, in quotation marks where it 
   made.working_folder = "/a \"b\" 50%";
   made.log_folder = "/a \"b\" 50%/slurm";
   made.environment = {"STRIDE_UNITS=/u=1:/an engineer's"};
-  made.request = {.partition = "short",
-                  .time = "1-12",
-                  .licenses = "matlab:2",
-                  .account = "we",
-                  .further = {"mem=4G", "--exclusive", "C fast"},
-                  .processors = 8};
+  made.request = {
+      .partition = "short",
+      .time = "1-12",
+      .licenses = "matlab:2",
+      .account = "we",
+      .further = {"mem=4G", "--exclusive", "C fast", "comment=a b", "--reservation=\"x y\""},
+      .processors = 8};
   const std::string text = slurm_script(made);
   for (const char* line :
        {"#SBATCH --chdir=\"/a \\\"b\\\" 50%\"",
         "#SBATCH --output=\"/a \\\"b\\\" 50%%/slurm/%A_%a.log\"", "#SBATCH --cpus-per-task=8",
         "#SBATCH --partition=short", "#SBATCH --time=1-12", "#SBATCH --licenses=matlab:2",
         "#SBATCH --account=we", "#SBATCH --mem=4G", "#SBATCH --exclusive", "#SBATCH -C fast",
-        "cd '/a \"b\" 50%' || exit", "export STRIDE_UNITS='/u=1:/an engineer'\\''s'"}) {
+        "#SBATCH --comment=\"a b\"", "#SBATCH --reservation=\"x y\"", "cd '/a \"b\" 50%' || exit",
+        "export STRIDE_UNITS='/u=1:/an engineer'\\''s'"}) {
     CHECK_THAT(text, Contains("\n" + std::string(line) + "\n"));
   }
 }
