@@ -45,7 +45,7 @@ export class Histogram {
     this.box = h(
       "figure.histogram-box",
       {},
-      h("figcaption", {}, h("h3", {}, column.name), h("span.there", {}, casesText(this.most))),
+      h("figcaption", {}, h("h3", { title: column.name }, h("bdi", {}, column.name)), h("span.there", {}, casesText(this.most))),
       this.picture,
       h("div.ends", {}, ...ends.map((text) => h("span", {}, text))),
     );

@@ -2,7 +2,7 @@
 import { h, sizedContext } from "../../dom.js";
 import { color } from "../../plot/colors.js";
 import { kOutcomes } from "../data/outcomes.js";
-import { axisTicks, axisTitle, fitted } from "../plot/axis.js";
+import { axisTicks, axisTitle, fitted, fittedName } from "../plot/axis.js";
 import { Brush } from "./brush.js";
 
 const kHeight = 340;
@@ -159,7 +159,7 @@ export class Parallel {
       pen.fillStyle = color("--text");
       pen.textAlign = "center";
       pen.fillText(
-        fitted(pen, axisTitle(column), Math.min(room, 2 * kSide - 6)),
+        fittedName(pen, axisTitle(column), Math.min(room, 2 * kSide - 6)),
         x,
         14 + (i % 2 && room < 130 ? 14 : 0),
       );

@@ -3,7 +3,7 @@ import { briefText } from "../../data/number_text.js";
 import { h, sizedContext } from "../../dom.js";
 import { color } from "../../plot/colors.js";
 import { kDrawingOrder, kOutcomes } from "../data/outcomes.js";
-import { axisTicks, axisTitle, fitted } from "../plot/axis.js";
+import { axisTicks, axisTitle, fitted, fittedName } from "../plot/axis.js";
 import { markPicture, rampColor } from "../plot/marks.js";
 import { columnChoice } from "./choice.js";
 
@@ -133,11 +133,11 @@ export class Scatter {
     }
     pen.fillStyle = color("--text");
     pen.textAlign = "center";
-    pen.fillText(fitted(pen, axisTitle(this.x), right - kLeft), (kLeft + right) / 2, kHeight - 10);
+    pen.fillText(fittedName(pen, axisTitle(this.x), right - kLeft), (kLeft + right) / 2, kHeight - 10);
     pen.save();
     pen.translate(9, (kTop + bottom) / 2);
     pen.rotate(-Math.PI / 2);
-    pen.fillText(fitted(pen, axisTitle(this.y), bottom - kTop), 0, 0);
+    pen.fillText(fittedName(pen, axisTitle(this.y), bottom - kTop), 0, 0);
     pen.restore();
   }
 

@@ -34,3 +34,11 @@ export function fitted(pen, text, width) {
   while (end > 1 && pen.measureText(`${text.slice(0, end)}…`).width > width) --end;
   return `${text.slice(0, end)}…`;
 }
+
+/** The same of its end: "…offset.wrist_1". Names of one component differ there. */
+export function fittedName(pen, name, width) {
+  if (pen.measureText(name).width <= width) return name;
+  let begin = 1;
+  while (begin < name.length - 1 && pen.measureText(`…${name.slice(begin)}`).width > width) ++begin;
+  return `…${name.slice(begin)}`;
+}
