@@ -46,7 +46,7 @@ TEST_CASE("the page of a campaign has what became of each case, and what repeats
   records.write(0, {.aggregates = {0.5}, .wall_time = 1});
   records.write(2, {.outcome = Outcome::Failed,
                     .reason = "low: </script>\nmore",
-                    .verdicts = {{"low", "Never", false, "", 0.5}},
+                    .verdicts = {{"low", "Never", false, "", 0.5, CaseMargin{-0.5, "V", 1}}},
                     .aggregates = {0.25},
                     .has_results = true,
                     .wall_time = 2});
@@ -74,6 +74,8 @@ TEST_CASE("the page of a campaign has what became of each case, and what repeats
         std::stod(*records.plan.at(2).values[0]));
   CHECK(page["aggregates"][0]["name"] == "a, \"b\"");
   CHECK(unpacked<double>(page["aggregates"][0]["values"])[0] == 0.5);
+  CHECK((page["margins"][0]["name"] == "low" && page["margins"][0]["unit"] == "V"));
+  CHECK(unpacked<double>(page["margins"][0]["values"])[2] == -0.5);
   CHECK(page["correlations"][0]["failure"]["count"] == 2);
 }
 
