@@ -1,5 +1,7 @@
 #include "master/algorithm/verdict.h"
 
+#include <fmt/format.h>
+
 #include "master/util/time_text.h"
 
 namespace stride::core {
@@ -12,6 +14,14 @@ ValueBlock read(const UnitDescription& description, std::size_t variable, Unit& 
 }
 
 }  // namespace
+
+std::string to_text(const Margin& margin) {
+  return fmt::format("{}{}{}", margin.value, margin.unit.empty() ? "" : " ", margin.unit);
+}
+
+std::string brief_text(const Margin& margin) {
+  return fmt::format("{:.4g}{}{}", margin.value, margin.unit.empty() ? "" : " ", margin.unit);
+}
 
 std::string reason(const Verdict& verdict) {
   if (!verdict.time) return verdict.text;

@@ -24,15 +24,40 @@ struct SignalValue {
   std::string unit;  ///< of measure
 };
 
+/// How far a run was from the other verdict.
+struct Margin {
+  double value = 0;    ///< 0 or more if passed, 0 or less if failed; may be infinite, is never NaN
+  std::string unit{};  ///< of measure; "s" of times, "messages" of counts
+  Time at{};           ///< where the run was so near to the other verdict, or so far behind it
+};
+
+/// "0.25 V": the shortest text that reads back the same, and one of a few digits.
+std::string to_text(const Margin& margin);
+std::string brief_text(const Margin& margin);
+
+/// What a check demands of a signal, for display.
+struct SignalLimits {
+  struct Limit {
+    std::string name;  ///< "min", "max", "above", "below", "equals", "tolerance"
+    ValueBlock value;  ///< of one element
+  };
+  std::string signal;          ///< one element of it, by its full name
+  std::optional<Time> from{};  ///< included, as `to` is; empty: from the start
+  std::optional<Time> to{};    ///< empty: to the end
+  std::vector<Limit> limits{};
+};
+
 /// The verdict of a unit, or of a check of the scenario, on a run.
 struct Verdict {
-  std::string name;                   ///< of the component or of the check
-  std::optional<bool> passed;         ///< empty: undecided
-  std::string text{};                 ///< the reason, for display; may be empty
-  std::string kind{};                 ///< of a check; empty: a unit's verdict
-  Location where{};                   ///< of a check
-  std::optional<Time> time{};         ///< of the first failure, as far as it has an instant
-  std::vector<SignalValue> values{};  ///< at that time
+  std::string name;                      ///< of the component or of the check
+  std::optional<bool> passed;            ///< empty: undecided
+  std::string text{};                    ///< the reason, for display; may be empty
+  std::string kind{};                    ///< of a check; empty: a unit's verdict
+  Location where{};                      ///< of a check
+  std::optional<Time> time{};            ///< of the first failure, as far as it has an instant
+  std::vector<SignalValue> values{};     ///< at that time
+  std::optional<Margin> margin{};        ///< of a check that is decided
+  std::optional<SignalLimits> limits{};  ///< of a check of a signal
 };
 
 /// "at 12.3 s: 1.79 V, expected >= 1.8 V", as far as there is a time and a text.

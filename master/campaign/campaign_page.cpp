@@ -151,6 +151,7 @@ class PageWriter {
     member("checks", json_text(checks_json(columns_)));
     write_parameters();
     write_aggregates();
+    write_margins();
     write_cases(links);
     const CaseAnalysis analysis = analyse(columns_);
     member("correlations", json_text(correlations_json(analysis)));
@@ -193,6 +194,17 @@ class PageWriter {
                               json_text(aggregate.signal), name(aggregate.function)));
       file_.write(report::blob(std::span(columns_.aggregates[i])));
       file_.write('}');
+    }
+    file_.write(']');
+  }
+
+  void write_margins() {
+    member("margins", "[");
+    for (std::size_t i = 0; i < columns_.margins.size(); ++i) {
+      const MarginColumn& column = columns_.margins[i];
+      file_.write(fmt::format(R"({}{{"name":{},"unit":{},"values":{}}})", i == 0 ? "" : ",",
+                              json_text(column.name), json_text(column.unit),
+                              report::blob(std::span(column.values))));
     }
     file_.write(']');
   }

@@ -77,6 +77,21 @@ void add_to_all(const CaseResult& result, CaseColumns& columns) {
   count_checks(result, columns.checks);
 }
 
+/// Of the last case that was taken; a check that appears late has none before.
+void add_margins(const CaseResult& result, CaseColumns& columns) {
+  const std::size_t count = columns.size();
+  for (const CaseVerdict& verdict : result.verdicts) {
+    if (!verdict.margin) continue;
+    auto found = std::ranges::find(columns.margins, verdict.name, &MarginColumn::name);
+    if (found == columns.margins.end()) {
+      found = columns.margins.insert(found, {verdict.name, verdict.margin->unit, {}});
+    }
+    found->values.resize(count, kUnknown);
+    found->values.back() = verdict.margin->value;
+  }
+  for (MarginColumn& column : columns.margins) column.values.resize(count, kUnknown);
+}
+
 void add_values(const Case& row, CaseColumns& columns) {
   for (std::size_t i = 0; i < columns.parameters.size(); ++i) {
     columns.parameters[i].texts.push_back(row.values[i].value_or(kScenarioValue));
@@ -92,6 +107,7 @@ void add_result(const CaseResult* result, CaseColumns& columns) {
     columns.aggregates[i].push_back(
         i < known.aggregates.size() ? known.aggregates[i].value_or(kUnknown) : kUnknown);
   }
+  add_margins(known, columns);
   columns.reached.push_back(known.reached.value_or(kUnknown));
   columns.wall_times.push_back(is_known ? known.wall_time : kUnknown);
   columns.failed_at.push_back(first_failure(known));

@@ -33,12 +33,20 @@ struct CheckCounts {
   std::uint64_t passed = 0, failed = 0, undecided = 0;
 };
 
+/// The margins of a check.
+struct MarginColumn {
+  std::string name;  ///< of the check
+  std::string unit;
+  std::vector<double> values;  ///< NaN where it is undecided or not known
+};
+
 /// Vectors have an element for each case that was taken; what is not known is NaN.
 struct CaseColumns {
   std::vector<std::int32_t> indices;   ///< ascending
   std::vector<std::uint8_t> outcomes;  ///< an Outcome, or kMissing
   std::vector<ParameterColumn> parameters;
   std::vector<std::vector<double>> aggregates;  ///< of Campaign::aggregates
+  std::vector<MarginColumn> margins;            ///< in the order in which they appear
   std::vector<double> reached, wall_times;      ///< [s]
   std::vector<double> failed_at;                ///< the first instant of a failure [s]
   std::vector<std::uint8_t> has_results;

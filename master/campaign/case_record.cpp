@@ -31,6 +31,16 @@ std::optional<double> number_of(const Json& json) {
   return text == "inf" ? kInfinity : -kInfinity;
 }
 
+Json margin_json(const std::optional<CaseMargin>& margin) {
+  if (!margin) return {};
+  return {{"value", number_json(margin->value)}, {"unit", margin->unit}, {"at", margin->at}};
+}
+
+std::optional<CaseMargin> margin_of(const Json& json) {
+  if (json.is_null()) return std::nullopt;
+  return CaseMargin{number_of(json.at("value")).value(), json.at("unit"), json.at("at")};
+}
+
 /// What is known of a case beforehand.
 Json case_json(const Plan& plan, const Case& row) {
   Json values = Json::object();
@@ -47,7 +57,8 @@ Json verdicts_json(const std::vector<CaseVerdict>& verdicts) {
                     {"kind", verdict.kind},
                     {"verdict", verdict_name(verdict.passed)},
                     {"text", verdict.text},
-                    {"time", number_json(verdict.time)}});
+                    {"time", number_json(verdict.time)},
+                    {"margin", margin_json(verdict.margin)}});
   }
   return json;
 }
@@ -85,7 +96,7 @@ CaseResult result_of(const Plan& plan, const Json& json) {
   for (const Json& verdict : json.at("checks")) {
     result.verdicts.push_back({verdict.at("name"), verdict.at("kind"),
                                passed_of(verdict.at("verdict")), verdict.at("text"),
-                               number_of(verdict.at("time"))});
+                               number_of(verdict.at("time")), margin_of(verdict.at("margin"))});
   }
   for (const Aggregate& aggregate : plan.campaign().aggregates) {
     result.aggregates.push_back(number_of(json.at("aggregates").at(aggregate.name)));
@@ -130,6 +141,8 @@ std::vector<CaseVerdict> case_verdicts(const std::vector<core::Verdict>& verdict
     added.passed = verdict.passed;
     added.text = verdict.text;
     if (verdict.time) added.time = to_seconds(*verdict.time);
+    if (!verdict.margin) continue;
+    added.margin = {verdict.margin->value, verdict.margin->unit, to_seconds(verdict.margin->at)};
   }
   return made;
 }

@@ -25,13 +25,22 @@ enum class Outcome {
 /// As records and tables have it: "timed out".
 const char* name(Outcome outcome);
 
+/// core::Margin
+struct CaseMargin {
+  double value = 0;
+  std::string unit;
+  double at = 0;  ///< [s]
+  bool operator==(const CaseMargin&) const = default;
+};
+
 /// A verdict of a check or, where `kind` is empty, of a unit.
 struct CaseVerdict {
   std::string name;
   std::string kind;
   std::optional<bool> passed;  ///< empty: undecided
   std::string text;
-  std::optional<double> time;  ///< of the first failure [s]
+  std::optional<double> time;          ///< of the first failure [s]
+  std::optional<CaseMargin> margin{};  ///< of a check that is decided
   bool operator==(const CaseVerdict&) const = default;
 };
 

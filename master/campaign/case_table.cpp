@@ -16,7 +16,8 @@ namespace {
 
 using recorders::csv_field;
 
-/// A verdict's column: units and checks may have one name.
+/// A verdict's column, and that of its margin if it is a check's: units and checks may have one
+/// name.
 struct CheckColumn {
   std::string name;
   bool is_of_unit = false;
@@ -43,6 +44,7 @@ class TableWriter {
     put("seed"), put("outcome"), put("reason");
     for (const CheckColumn& check : checks_) {
       put(csv_field((check.is_of_unit ? "verdict:" : "check:") + check.name));
+      if (!check.is_of_unit) put(csv_field("margin:" + check.name));
     }
     for (const Aggregate& aggregate : plan_.campaign().aggregates) {
       put(csv_field("aggregate:" + aggregate.name));
@@ -60,7 +62,7 @@ class TableWriter {
     put(std::to_string(row.seed));
     put(result != nullptr ? name(known.outcome) : "missing");
     put(csv_field(first_line(known.reason)));
-    for (const CheckColumn& check : checks_) put(verdict_in(known, check));
+    for (const CheckColumn& check : checks_) put_verdict(known, check);
     for (std::size_t i = 0; i < plan_.campaign().aggregates.size(); ++i) {
       put(i < known.aggregates.size() ? number_text(known.aggregates[i]) : "");
     }
@@ -78,9 +80,12 @@ class TableWriter {
     file_.write(field);
   }
 
-  static std::string verdict_in(const CaseResult& result, const CheckColumn& check) {
+  void put_verdict(const CaseResult& result, const CheckColumn& check) {
     const auto found = std::ranges::find(result.verdicts, check, column_of);
-    return found == result.verdicts.end() ? "" : verdict_name(found->passed);
+    const bool is_known = found != result.verdicts.end();
+    put(is_known ? verdict_name(found->passed) : "");
+    if (check.is_of_unit) return;
+    put(is_known && found->margin ? number_text(found->margin->value) : "");
   }
 
   const Plan& plan_;

@@ -51,13 +51,8 @@ class Check {
   Time end(const Ending& ending) const { return window().to.value_or(ending.reached); }
 
   core::Verdict make(std::optional<bool> passed, std::string text) const {
-    return {definition_.name,
-            passed,
-            std::move(text),
-            checks::name(definition_.kind),
-            definition_.where,
-            {},
-            {}};
+    return {definition_.name, passed, std::move(text), checks::name(definition_.kind),
+            definition_.where};
   }
   core::Verdict failed(Time time, std::string text) const {
     core::Verdict verdict = make(false, std::move(text));

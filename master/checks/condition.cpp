@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <type_traits>
 
@@ -14,38 +15,46 @@ using core::ValueBlock;
 using core::ValueType;
 
 bool has_order(ValueType type) {
-  return type != ValueType::Boolean && type != ValueType::Enumeration &&
+  return type != ValueType::Boolean && type != ValueType::Clock && type != ValueType::Enumeration &&
          type != ValueType::String && type != ValueType::Binary;
 }
 
-/// Calls compare(value, bound) with the element and the only one of `bound`, of the same type.
-template <class Compare>
-bool compare(const ValueBlock& block, std::size_t element, const ValueBlock& bound,
-             Compare&& compare) {
-  return core::visit(block, [&](auto values) {
-    using T = std::remove_const_t<typename decltype(values)::element_type>;
-    const T* limit = nullptr;
-    if constexpr (std::is_same_v<T, std::string>) {
-      limit = bound.strings().data();
-    } else if constexpr (std::is_same_v<T, core::Binary>) {
-      limit = bound.binaries().data();
-    } else {
-      limit = bound.numbers<T>().data();
-    }
-    return static_cast<bool>(compare(values[element], *limit));
-  });
+/// The only element.
+template <class T>
+const T& only(const ValueBlock& block) {
+  if constexpr (std::is_same_v<T, std::string>) {
+    return block.strings()[0];
+  } else if constexpr (std::is_same_v<T, core::Binary>) {
+    return block.binaries()[0];
+  } else {
+    return block.numbers<T>()[0];
+  }
+}
+
+/// a - b, whose sign is exact: the difference of integers is taken as a whole number.
+template <class T>
+double difference(T a, T b) {
+  if constexpr (std::is_integral_v<T>) {
+    const auto distance = [](T more, T less) {
+      return static_cast<double>(static_cast<std::uint64_t>(more) -
+                                 static_cast<std::uint64_t>(less));
+    };
+    return a >= b ? distance(a, b) : -distance(b, a);
+  } else {
+    return static_cast<double>(a) - static_cast<double>(b);
+  }
 }
 
 }  // namespace
 
 Condition::Condition(const core::Variable& variable, const ConditionText& text)
-    : variable_(variable) {
+    : variable_(variable), has_order_(has_order(variable.type)) {
   variable_.dimensions.clear();
   variable_.size = 1;
   read_bounds(text);
   read_expected(text);
   if (!text_.empty()) return;
-  throw std::invalid_argument(has_order(variable_.type)
+  throw std::invalid_argument(has_order_
                                   ? "it compares with nothing; expected min, max, above, below or "
                                     "equals"
                                   : "it compares with nothing; expected equals");
@@ -56,7 +65,7 @@ void Condition::read_bounds(const ConditionText& text) {
   max_ = parse("max", text.max);
   above_ = parse("above", text.above);
   below_ = parse("below", text.below);
-  if ((min_ || max_ || above_ || below_) && !has_order(variable_.type)) {
+  if ((min_ || max_ || above_ || below_) && !has_order_) {
     throw std::invalid_argument(
         fmt::format("a {} has no order; expected equals", core::name(variable_.type)));
   }
@@ -83,13 +92,12 @@ void Condition::read_expected(const ConditionText& text) {
     throw std::invalid_argument(fmt::format("a tolerance is for real numbers; the signal is a {}",
                                             core::name(variable_.type)));
   }
-  const Bound tolerance = parse("tolerance", text.tolerance);
-  tolerance_ = core::real(*tolerance, 0);
-  if (*tolerance_ < 0) {
+  tolerance_ = parse("tolerance", text.tolerance);
+  if (core::real(*tolerance_, 0) < 0) {
     throw std::invalid_argument(
         fmt::format("tolerance: '{}' is not a number of at least 0", *text.tolerance));
   }
-  text_ += " ± " + value_text(*tolerance, 0);
+  text_ += " ± " + value_text(*tolerance_, 0);
 }
 
 Condition::Bound Condition::parse(const char* attribute,
@@ -107,8 +115,10 @@ Condition::Bound Condition::parse(const char* attribute,
 void Condition::check_order(const char* low_name, const Bound& low, const char* high_name,
                             const Bound& high, bool may_be_equal) const {
   if (!low || !high) return;
-  const bool fits = compare(*low, 0, *high, [&](const auto& a, const auto& b) {
-    return a < b || (may_be_equal && a == b);
+  const bool fits = core::visit(*low, [&](auto values) {
+    using T = std::remove_const_t<typename decltype(values)::element_type>;
+    const T& other = only<T>(*high);
+    return values[0] < other || (may_be_equal && values[0] == other);
   });
   if (fits) return;
   throw std::invalid_argument(fmt::format("no value fits {} {} and {} {}", low_name,
@@ -121,23 +131,47 @@ void Condition::describe(const char* sign, const Bound& bound) {
   text_ += fmt::format("{}{} {}", text_.empty() ? "" : " and ", sign, value_text(*bound, 0));
 }
 
-Truth Condition::holds(const ValueBlock& block, std::size_t element) const {
-  if (core::is_real(block.type()) && std::isnan(core::real(block, element))) {
-    return Truth::NotANumber;
+template <class T>
+Judgement Condition::judge_number(T value) const {
+  Judgement judged{Truth::True, std::numeric_limits<double>::infinity()};
+  if constexpr (std::is_floating_point_v<T>) {
+    if (std::isnan(value)) return {Truth::NotANumber, -judged.robustness};
   }
-  const auto keeps = [&](const Bound& bound, auto&& keep) {
-    return !bound || compare(block, element, *bound, keep);
+  const auto add = [&](bool holds, double distance) {
+    if (!holds) judged.truth = Truth::False;
+    judged.robustness = std::min(judged.robustness, distance);
   };
-  if (tolerance_) {
-    const double distance = std::abs(core::real(block, element) - core::real(*equals_, 0));
-    return distance <= *tolerance_ ? Truth::True : Truth::False;
-  }
-  const bool holds = keeps(min_, [](const auto& a, const auto& b) { return a >= b; }) &&
-                     keeps(max_, [](const auto& a, const auto& b) { return a <= b; }) &&
-                     keeps(above_, [](const auto& a, const auto& b) { return a > b; }) &&
-                     keeps(below_, [](const auto& a, const auto& b) { return a < b; }) &&
-                     keeps(equals_, [](const auto& a, const auto& b) { return a == b; });
-  return holds ? Truth::True : Truth::False;
+  const auto limit = [](const Bound& bound) { return only<T>(*bound); };
+  if (min_) add(value >= limit(min_), difference(value, limit(min_)));
+  if (max_) add(value <= limit(max_), difference(limit(max_), value));
+  if (above_) add(value > limit(above_), difference(value, limit(above_)));
+  if (below_) add(value < limit(below_), difference(limit(below_), value));
+  if (!equals_) return judged;
+  const double distance = std::abs(difference(value, limit(equals_)));
+  const double tolerance = tolerance_ ? static_cast<double>(limit(tolerance_)) : 0;
+  add(tolerance_ ? distance <= tolerance : value == limit(equals_), tolerance - distance);
+  return judged;
+}
+
+Judgement Condition::judge(const ValueBlock& block, std::size_t element) const {
+  return core::visit(block, [&](auto values) {
+    using T = std::remove_const_t<typename decltype(values)::element_type>;
+    if constexpr (std::is_arithmetic_v<T> && !std::is_same_v<T, bool>) {
+      if (has_order_) return judge_number<T>(values[element]);
+    }
+    const bool holds = values[element] == only<T>(*equals_);
+    return holds ? Judgement{Truth::True, 1} : Judgement{Truth::False, -1};
+  });
+}
+
+std::vector<core::SignalLimits::Limit> Condition::limits() const {
+  std::vector<core::SignalLimits::Limit> limits;
+  const auto add = [&](const char* name, const Bound& bound) {
+    if (bound) limits.push_back({name, *bound});
+  };
+  add("min", min_), add("max", max_), add("above", above_), add("below", below_);
+  add("equals", equals_), add("tolerance", tolerance_);
+  return limits;
 }
 
 std::string Condition::value_text(const ValueBlock& block, std::size_t element) const {

@@ -6,7 +6,9 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "master/algorithm/verdict.h"
 #include "master/model/description.h"
 #include "master/model/values.h"
 
@@ -14,6 +16,15 @@ namespace stride::checks {
 
 /// NotANumber: the value is NaN, which neither holds nor fails to hold.
 enum class Truth : std::uint8_t { False, True, NotANumber };
+
+/// How a value stands to a condition.
+struct Judgement {
+  Truth truth = Truth::True;
+  /// How far the value is within what the condition allows, or, if negative, outside of it, in the
+  /// variable's unit of measure; at a limit 0, whether the limit is allowed or not. Of what has no
+  /// order 1 where the condition holds, else -1. NaN is infinitely far outside. Never NaN itself.
+  double robustness = 0;
+};
 
 /// As a person writes it: bounds that all have to be kept, or the value that is expected.
 struct ConditionText {
@@ -34,7 +45,12 @@ class Condition {
   Condition(const core::Variable& variable, const ConditionText& text);
 
   /// Of the element of a block of the variable's type. Does not allocate.
-  Truth holds(const core::ValueBlock& block, std::size_t element) const;
+  Judgement judge(const core::ValueBlock& block, std::size_t element) const;
+  Truth holds(const core::ValueBlock& block, std::size_t element) const {
+    return judge(block, element).truth;
+  }
+  /// By the names of their attributes.
+  std::vector<core::SignalLimits::Limit> limits() const;
   /// ">= 1.8 V and <= 5 V", "= true"
   const std::string& text() const { return text_; }
   /// A human-readable value: "1.79 V", "charging", "'on'", "no bytes".
@@ -49,10 +65,12 @@ class Condition {
   void check_order(const char* low_name, const Bound& low, const char* high_name, const Bound& high,
                    bool may_be_equal) const;
   void describe(const char* sign, const Bound& bound);
+  template <class T>
+  Judgement judge_number(T value) const;
 
   core::Variable variable_;  ///< scalar
-  Bound min_, max_, above_, below_, equals_;
-  std::optional<double> tolerance_;
+  Bound min_, max_, above_, below_, equals_, tolerance_;
+  bool has_order_ = true;
   std::string text_;
 };
 

@@ -1,6 +1,7 @@
 #include "master/checks/message_checks.h"
 
 #include <algorithm>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -11,6 +12,11 @@ namespace {
 
 std::string requests(std::uint64_t count) {
   return count == 1 ? "1 request" : fmt::format("{} requests", count);
+}
+
+/// a - b
+double surplus(std::uint64_t a, std::uint64_t b) {
+  return a >= b ? static_cast<double>(a - b) : -static_cast<double>(b - a);
 }
 
 }  // namespace
@@ -36,6 +42,8 @@ void AnswerCheck::on_point(Time time) {
 void AnswerCheck::expire_before(Time time) {
   while (!open_.empty() && deadline(open_.front()) < time) {
     if (!unanswered_) unanswered_ = open_.front();
+    // of repeated requests the first one is the latest
+    if (!demand_.repeats || late_.empty()) late_.push_back(open_.front());
     open_.erase(open_.begin());
   }
 }
@@ -47,22 +55,55 @@ void AnswerCheck::add_request(Time time) {
 }
 
 void AnswerCheck::add_reply(Time time) {
+  if (demand_.repeats || open_.empty()) add_late_reply(time);
   if (open_.empty()) return;
   ++answered_;
   slowest_ = std::max(slowest_, time - open_.front());
+  extend_margin(deadline(open_.front()) - time, time);
   open_.erase(open_.begin());
+}
+
+void AnswerCheck::add_late_reply(Time time) {
+  if (late_.empty()) return;
+  extend_margin(deadline(late_.front()) - time, time);
+  late_.pop_front();
+}
+
+void AnswerCheck::extend_margin(Duration margin, Time time) {
+  if (margin >= margin_) return;
+  margin_ = margin;
+  margin_at_ = time;
 }
 
 void AnswerCheck::persist(core::StateArchive& state) {
   state.values(open_);
+  state.sequence(late_, [&](Time& request) { state.value(request); });
   state.value(requests_);
   state.value(answered_);
   state.value(slowest_);
   state.value(unanswered_);
   state.value(last_);
+  state.value(margin_);
+  state.value(margin_at_);
 }
 
 core::Verdict AnswerCheck::verdict(const Ending& ending) const {
+  core::Verdict verdict = judged(ending);
+  if (verdict.passed) verdict.margin = margin(ending);
+  return verdict;
+}
+
+/// A request that was never answered is late by what the run has shown of it.
+core::Margin AnswerCheck::margin(const Ending& ending) const {
+  if (!late_.empty()) {
+    // a run that fails amid its events may have seen a later instant than it has reached
+    const Duration shown = std::min(deadline(late_.front()) - ending.reached, Duration{});
+    if (shown < margin_) return {to_seconds(shown), "s", ending.reached};
+  }
+  return {to_seconds(margin_), "s", margin_at_};
+}
+
+core::Verdict AnswerCheck::judged(const Ending& ending) const {
   if (unanswered_) return unanswered_verdict();
   if (!open_.empty()) {
     return make(std::nullopt, fmt::format("the request at {} s was still open where the run ended, "
@@ -98,6 +139,19 @@ void CountCheck::persist(core::StateArchive& state) {
 }
 
 core::Verdict CountCheck::verdict(const Ending& ending) const {
+  core::Verdict verdict = judged(ending);
+  if (verdict.passed) verdict.margin = margin(ending);
+  return verdict;
+}
+
+core::Margin CountCheck::margin(const Ending& ending) const {
+  double least = std::numeric_limits<double>::infinity();
+  if (demand_.max) least = surplus(*demand_.max, count_);
+  if (demand_.min) least = std::min(least, surplus(count_, *demand_.min));
+  return {least, "messages", std::min(end(ending), ending.reached)};
+}
+
+core::Verdict CountCheck::judged(const Ending& ending) const {
   if (exceeded_at_) {
     return failed(*exceeded_at_, fmt::format("message number {}; expected {} at most",
                                              *demand_.max + 1, *demand_.max));

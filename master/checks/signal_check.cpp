@@ -21,35 +21,52 @@ void SignalCheck::attach(const core::Signal& signal) {
   kept_ = core::ValueBlock(block_->type(), 1);
 }
 
+SignalCheck::Point SignalCheck::present(Time time) const {
+  const Judgement judgement = demand_.condition.judge(*block_, at_);
+  const bool is_opposite = definition().kind == Kind::Never && judgement.truth != Truth::NotANumber;
+  // no negative zero
+  return {judgement.truth, is_opposite ? 0 - judgement.robustness : judgement.robustness, time};
+}
+
 void SignalCheck::on_point(Time time) {
-  if (decided_at_ || after_) return;
+  if (after_) return;
   last_ = time;
-  const Truth truth = demand_.condition.holds(*block_, at_);
+  const Point point = present(time);
   if (!window().has_begun(time)) {
-    before_ = truth;
+    before_ = point;
   } else if (window().is_past(time)) {
-    after_ = truth;
+    after_ = point;
   } else {
     ++points_;
-    judge(time, truth);
+    extend_margin(point);
+    if (!decided_at_) judge(point);
   }
 }
 
-void SignalCheck::judge(Time time, Truth truth) {
+void SignalCheck::judge(const Point& point) {
   switch (definition().kind) {
     case Kind::Eventually:
-      keep(truth);
-      if (is_good(truth)) decided_at_ = time;
+      keep(point.truth);
+      if (is_good(point.truth)) decided_at_ = point.time;
       break;
     case Kind::Final:
-      keep(truth);
+      keep(point.truth);
       break;
     default:
       extend_range();
-      if (is_good(truth)) break;
-      keep(truth);
-      decided_at_ = time;
+      if (is_good(point.truth)) break;
+      keep(point.truth);
+      decided_at_ = point.time;
   }
+}
+
+/// The first one of several that are the same.
+void SignalCheck::extend_margin(const Point& point) {
+  const Kind kind = definition().kind;
+  const bool is_decisive = !decisive_ || kind == Kind::Final ||
+                           (kind == Kind::Eventually ? point.robustness > decisive_->robustness
+                                                     : point.robustness < decisive_->robustness);
+  if (is_decisive) decisive_ = point;
 }
 
 void SignalCheck::keep(Truth truth) {
@@ -68,15 +85,18 @@ void SignalCheck::extend_range() {
 }
 
 void SignalCheck::persist(core::StateArchive& state) {
-  const auto persist_truth = [&](std::optional<Truth>& truth) {
-    bool is_known = truth.has_value();
+  const auto persist_point = [&](std::optional<Point>& point) {
+    bool is_known = point.has_value();
     state.value(is_known);
-    if (!is_known) return truth.reset();
-    if (!truth) truth = Truth::False;
-    state.value(*truth, Truth::NotANumber);
+    if (!is_known) return point.reset();
+    if (!point) point.emplace();
+    state.value(point->truth, Truth::NotANumber);
+    state.value(point->robustness);
+    state.value(point->time);
   };
-  persist_truth(before_);
-  persist_truth(after_);
+  persist_point(before_);
+  persist_point(after_);
+  persist_point(decisive_);
   state.value(points_);
   state.value(decided_at_);
   state.value(last_);
@@ -87,6 +107,23 @@ void SignalCheck::persist(core::StateArchive& state) {
 }
 
 core::Verdict SignalCheck::verdict(const Ending& ending) const {
+  core::Verdict verdict = judged(ending);
+  if (verdict.passed) verdict.margin = margin();
+  verdict.limits = {demand_.signal, window().from, window().to, demand_.condition.limits()};
+  return verdict;
+}
+
+/// Of a verdict that is there: at a communication point of the interval, or else at one of those
+/// beside it, which both are as they should be.
+core::Margin SignalCheck::margin() const {
+  const Point& point =
+      decisive_ ? *decisive_ : std::min(*before_, *after_, [](const Point& a, const Point& b) {
+        return a.robustness < b.robustness;
+      });
+  return {point.robustness, demand_.unit, point.time};
+}
+
+core::Verdict SignalCheck::judged(const Ending& ending) const {
   switch (definition().kind) {
     case Kind::Final:
       if (!ending.is_complete || points_ == 0) return cut_short(ending);
@@ -128,7 +165,7 @@ core::Verdict SignalCheck::lasting_verdict() const {
 
 /// No communication point in the interval: what held on both sides of it held there, too.
 core::Verdict SignalCheck::unseen_verdict() const {
-  const bool is_known = before_ && after_ && is_good(*before_) && is_good(*after_);
+  const bool is_known = before_ && after_ && is_good(before_->truth) && is_good(after_->truth);
   return make(is_known ? std::optional(true) : std::nullopt,
               is_known ? "at the communication points before and after the interval"
                        : "there was no communication point in the interval");

@@ -12,7 +12,8 @@
 namespace stride::checks {
 
 /// Always, Never, Eventually, Final: a signal's values at the communication points. NaN never is as
-/// it should be.
+/// it should be. Its margin is the robustness of signal temporal logic over these points, so a
+/// check that is decided goes on to the end of its interval.
 class SignalCheck final : public Check {
  public:
   /// What it demands is a SignalDemand.
@@ -28,12 +29,23 @@ class SignalCheck final : public Check {
   core::Verdict verdict(const Ending& ending) const override;
 
  private:
-  void judge(Time time, Truth truth);
+  /// A communication point.
+  struct Point {
+    Truth truth = Truth::False;
+    double robustness = 0;  ///< that of the condition, or with Never of its opposite
+    Time time{};
+  };
+
+  Point present(Time time) const;
+  void judge(const Point& point);
   /// Keeps the present value.
   void keep(Truth truth);
   void extend_range();
+  void extend_margin(const Point& point);
   bool is_good(Truth truth) const { return truth == good_; }
 
+  core::Verdict judged(const Ending& ending) const;
+  core::Margin margin() const;
   core::Verdict bad(Time time) const;
   core::Verdict lasting_verdict() const;
   core::Verdict eventual_verdict(const Ending& ending) const;
@@ -45,9 +57,10 @@ class SignalCheck final : public Check {
   const core::ValueBlock* block_ = nullptr;
   std::size_t at_ = 0;
 
-  std::optional<Truth> before_;     ///< at the last point before the interval
-  std::optional<Truth> after_;      ///< at the first point behind it
-  std::uint64_t points_ = 0;        ///< in it
+  std::optional<Point> before_;    ///< the last one before the interval
+  std::optional<Point> after_;     ///< the first one behind it
+  std::optional<Point> decisive_;  ///< that with the least margin; of Eventually: with the greatest
+  std::uint64_t points_ = 0;       ///< in the interval
   std::optional<Time> decided_at_;  ///< a failure, or what is eventually so
   std::optional<Time> last_;        ///< the last point that was seen
   core::ValueBlock kept_;

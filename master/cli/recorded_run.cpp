@@ -83,12 +83,16 @@ std::string verdict_table(std::span<const core::Verdict> verdicts) {
   if (verdicts.empty()) return "";
   const bool has_times = std::ranges::any_of(
       verdicts, [](const core::Verdict& verdict) { return verdict.time.has_value(); });
+  const bool has_margins = std::ranges::any_of(
+      verdicts, [](const core::Verdict& verdict) { return verdict.margin.has_value(); });
   std::vector<Table::Column> columns{{"by"}, {"verdict"}};
+  if (has_margins) columns.push_back({"margin", Table::Align::Right});
   if (has_times) columns.push_back({"first failure [s]", Table::Align::Right});
   columns.push_back({"because"});
   Table table(columns);
   for (const core::Verdict& verdict : verdicts) {
     std::vector<std::string> row{verdict.name, word(verdict.passed)};
+    if (has_margins) row.push_back(verdict.margin ? core::brief_text(*verdict.margin) : "");
     if (has_times) row.push_back(verdict.time ? core::to_text(*verdict.time) : "");
     row.push_back(verdict.text);
     table.add(std::move(row));

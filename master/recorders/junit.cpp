@@ -68,14 +68,21 @@ class JunitWriter {
     xml_.attribute("hostname", report_.host);
   }
 
+  /// Margins are the suite's, since the strictest schemas know no properties of a test case.
   void write_properties() {
     xml_.open("properties");
-    for (const auto& [name, value] : report_.properties) {
-      xml_.open("property");
-      xml_.attribute("name", name);
-      xml_.attribute("value", first_line(value));
-      xml_.close();
+    for (const auto& [name, value] : report_.properties) write_property(name, value);
+    for (const core::Verdict& verdict : report_.verdicts) {
+      if (!verdict.margin) continue;
+      write_property("margin: " + first_line(verdict.name), core::to_text(*verdict.margin));
     }
+    xml_.close();
+  }
+
+  void write_property(const std::string& name, const std::string& value) {
+    xml_.open("property");
+    xml_.attribute("name", name);
+    xml_.attribute("value", first_line(value));
     xml_.close();
   }
 

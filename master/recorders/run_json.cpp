@@ -3,6 +3,7 @@
 #include <cmath>
 #include <type_traits>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "master/recorders/signal_text.h"
@@ -175,6 +176,27 @@ Json value_entry(const core::ValueBlock& value) {
   });
 }
 
+/// JSON has no infinities: they are texts, as those of signals are.
+Json number_entry(double number) {
+  return std::isfinite(number) ? Json(number) : Json(fmt::format("{}", number));
+}
+
+Json time_entry(std::optional<Time> time) { return time ? Json(to_seconds(*time)) : Json(); }
+
+Json margin_entry(const std::optional<core::Margin>& margin) {
+  if (!margin) return {};
+  return {{"value", number_entry(margin->value)},
+          {"unit", margin->unit},
+          {"at", to_seconds(margin->at)}};
+}
+
+Json limits_entry(const core::SignalLimits& limits) {
+  Json entry = {
+      {"signal", limits.signal}, {"from", time_entry(limits.from)}, {"to", time_entry(limits.to)}};
+  for (const auto& [name, value] : limits.limits) entry[name] = value_entry(value);
+  return entry;
+}
+
 Json passed_entry(std::optional<bool> passed) { return passed ? Json(*passed) : Json(); }
 
 Json check_entry(const core::Verdict& check) {
@@ -182,13 +204,15 @@ Json check_entry(const core::Verdict& check) {
                 {"kind", check.kind},
                 {"passed", passed_entry(check.passed)},
                 {"text", check.text},
-                {"time", check.time ? Json(to_seconds(*check.time)) : Json()},
+                {"time", time_entry(check.time)},
+                {"margin", margin_entry(check.margin)},
                 {"line", check.where.line},
                 {"values", Json::array()}};
   for (const core::SignalValue& value : check.values) {
     entry["values"].push_back(
         {{"signal", value.signal}, {"value", value_entry(value.value)}, {"unit", value.unit}});
   }
+  if (check.limits) entry["limits"] = limits_entry(*check.limits);
   return entry;
 }
 

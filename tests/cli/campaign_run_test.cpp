@@ -106,9 +106,9 @@ TEST_CASE("a table has a row for each case, whatever the number of jobs") {
   CHECK_THAT(outcome.err, Contains("of 20 cases have not passed"));
   const std::string table = space.table("one");
   CHECK(std::count(table.begin(), table.end(), '\n') == 21);
-  CHECK(
-      table.substr(0, table.find('\n')) ==
-      "case,first.u,seed,outcome,reason,check:bounded,aggregate:last,aggregate:mean,reached,hash");
+  CHECK(table.substr(0, table.find('\n')) ==
+        "case,first.u,seed,outcome,reason,check:bounded,margin:bounded,aggregate:last,aggregate:"
+        "mean,reached,hash");
   CHECK_THAT(table, Contains(",passed,,passed,") && Contains(",failed,bounded: at "));
   CHECK(space.campaign("three", {"--jobs", "3"}).exit_code == 1);
   CHECK(space.table("three") == table);

@@ -57,6 +57,9 @@ TEST_CASE("checks that pass are in the table of verdicts and in run.json") {
                               Contains("ticker.tick.number count = 7 ") &&
                               Contains("7 requests answered, after 0 s at most"));
   CHECK_THAT(outcome.out, !Contains("first failure"));
+  CHECK_THAT(outcome.out, Contains("  verdict      margin  because") &&
+                              Contains("  passed            0  it was between 0 and"));
+  CHECK_THAT(outcome.out, Contains(" 0 messages  7 messages") && Contains(" 0 s  7 requests"));
   const json checks = checks_of(workspace);
   REQUIRE(checks.size() == 5);
   for (const json& check : checks) CHECK(check["passed"] == true);
@@ -64,7 +67,14 @@ TEST_CASE("checks that pass are in the table of verdicts and in run.json") {
   CHECK(checks[0]["kind"] == "always");
   CHECK(checks[0]["time"].is_null());
   CHECK(checks[0]["values"].empty());
+  CHECK(checks[0]["margin"] == json::parse(R"({"value": 0, "unit": "", "at": 0})"));
+  CHECK(checks[0]["limits"] ==
+        json::parse(R"({"signal": "filter.y", "from": null, "to": null, "min": 0, "max": 1})"));
   CHECK(checks[1]["text"] == "7 messages");
+  CHECK(checks[1]["margin"] == json::parse(R"({"value": 0, "unit": "messages", "at": 1})"));
+  CHECK_FALSE(checks[1].contains("limits"));
+  CHECK(checks[2]["margin"]["unit"] == "s");
+  CHECK(checks[4]["limits"]["to"] == 0.25);
   CHECK(checks[4]["kind"] == "eventually");
 }
 
@@ -85,6 +95,9 @@ TEST_CASE("a check that fails: the first instant and the value there, and the ex
   CHECK(check["passed"] == false);
   CHECK(check["time"] == 0.07);
   CHECK(check["line"].get<int>() > 10);
+  const auto last = signals.row(signals.size() - 1);
+  CHECK(check["margin"]["value"] == 0.5 - std::stod(last[signals.column("filter.y")]));
+  CHECK(check["margin"]["at"] == 1);
   CHECK(check["values"] ==
         json::parse(R"([{"signal": "filter.y", "unit": "", "value": )" + value + "}]"));
   CHECK(run_json(workspace)["outcome"] == "completed");
@@ -133,6 +146,7 @@ TEST_CASE("a run that --stop cuts short leaves open what it did not come to") {
   CHECK(count(outcome.out, "  undecided  ") == 6);
   CHECK_THAT(outcome.out, Contains("the run ended at 0.06 s, before this was decided"));
   CHECK(checks_of(workspace)[0]["passed"].is_null());
+  CHECK(checks_of(workspace)[0]["margin"].is_null());
   CHECK(run(workspace, {"--stop", "0.3"}).exit_code == 1);
   const json checks = checks_of(workspace);
   CHECK((checks[0]["passed"].is_null() && checks[4]["passed"] == true));
@@ -185,7 +199,9 @@ TEST_CASE("--junit: a test case for the run, each unit's verdict and each check"
                          Contains("<testcase name=\"judge\" classname=\"test.units\"") &&
                          Contains("<testcase name=\"low\" classname=\"test.checks\"") &&
                          Contains("<failure message=\"at 0.07 s: ") && Contains("filter.y = 0.5") &&
-                         Contains("<property name=\"outcome\" value=\"completed\"/>"));
+                         Contains("<property name=\"outcome\" value=\"completed\"/>") &&
+                         Contains("<property name=\"margin: bounded\" value=\"0\"/>") &&
+                         Contains("<property name=\"margin: low\" value=\"-0.49"));
 }
 
 TEST_CASE("--junit: where there was no run, the report says why") {

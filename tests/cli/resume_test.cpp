@@ -101,6 +101,38 @@ TEST_CASE("a run goes on with extrapolated inputs, sequential steps and error co
       {"0.1", "0.5"});
 }
 
+TEST_CASE("a run goes on with its checks to the same verdicts and margins") {
+  const std::string checks =
+      "<stride:Checks>"
+      "<stride:Always name='low' signal='ticker.level' max='2.5' from='0.1'/>"
+      "<stride:Eventually name='high' signal='ticker.level' min='3'/>"
+      "<stride:Count name='ticks' event='ticker.tick.number' min='3' max='10'/>"
+      "<stride:Answer name='heard' request='ticker.tick.number' reply='listener.message.number' "
+      "within='0.01'/>"
+      "<stride:Answer name='late' request='ticker.tick.number' reply='listener.message.number' "
+      "within='0' repeats='true' from='0.2'/></stride:Checks>";
+  const Workspace whole(ticking_parts(checks));
+  const Workspace cut(ticking_parts(checks));
+  const Arguments options{"--quiet", "--set", "ticker.period=0.1", "--delay",
+                          "listener.message.clock=0.02@0.5..0.6"};
+  CHECK(whole.run(options).exit_code == 1);
+  Arguments arguments = options;
+  for (const char* instant : {"0", "0.15", "0.51", "0.8", "1"}) {
+    arguments.insert(arguments.end(), {"--checkpoint", instant});
+  }
+  CHECK(cut.run(arguments).exit_code == 1);
+  const auto expected = run_json(whole)["checks"];
+  REQUIRE(expected.size() == 5);
+  for (const auto& check : expected) CHECK(check["margin"].is_object());
+  CHECK(expected[3]["margin"]["value"] == -0.01);
+  REQUIRE(checkpoints(cut).size() == 5);
+  for (const fs::path& file : checkpoints(cut)) {
+    CAPTURE(file.string());
+    CHECK(cut.stride({"resume", file.string(), "--quiet"}).exit_code == 1);
+    CHECK(run_json(cut)["checks"] == expected);
+  }
+}
+
 TEST_CASE("a run with units in processes of their own goes on") {
   check_resumption(ticking_parts(), {"--quiet", "--isolate"}, {"0.2", "0.5"});
   check_resumption(plain_parts(), {"--quiet", "--set", "a.u=1", "--isolate=b"}, {"0.5"});

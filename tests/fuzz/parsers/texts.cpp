@@ -69,7 +69,8 @@ void read_condition(const std::string& bytes) {
   refusing<std::invalid_argument>("", [&] {
     const checks::Condition condition(variable, text);
     const core::ValueBlock block(variable.type, 1);
-    condition.holds(block, 0);
+    const auto [truth, robustness] = condition.judge(block, 0);
+    ensure(truth == checks::Truth::True ? robustness >= 0 : robustness <= 0, "its sign is right");
     ensure(!condition.text().empty() && !condition.value_text(block, 0).empty(), "it has words");
   });
 }

@@ -1,6 +1,7 @@
 #include "master/algorithm/verdict.h"
 
 #include <csignal>
+#include <limits>
 
 #include <catch2/catch.hpp>
 
@@ -34,6 +35,13 @@ void make_good_at(ScriptedUnit& unit, Time time) {
 }
 
 }  // namespace
+
+TEST_CASE("margins as texts: all digits, and few") {
+  CHECK(to_text(Margin{0.1234567, "V", {}}) == "0.1234567 V");
+  CHECK(brief_text(Margin{0.1234567, "V", {}}) == "0.1235 V");
+  CHECK(brief_text(Margin{-3580, "", {}}) == "-3580");
+  CHECK(to_text(Margin{-std::numeric_limits<double>::infinity(), "s", {}}) == "-inf s");
+}
 
 TEST_CASE("verdicts are the units' outputs at the end of the run, in their order") {
   ScriptedSystem fixture;

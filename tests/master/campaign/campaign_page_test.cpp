@@ -47,7 +47,7 @@ TEST_CASE("the page of a campaign has what became of each case, and what repeats
       0, {.aggregates = {0.5}, .wall_time = 1, .began = "2026-11-25T23:59:59Z", .host = "a"});
   records.write(2, {.outcome = Outcome::Failed,
                     .reason = "low: </script>\nmore",
-                    .verdicts = {{"low", "Never", false, "", 0.5}},
+                    .verdicts = {{"low", "Never", false, "", 0.5, CaseMargin{-0.5, "V", 1}}},
                     .aggregates = {0.25},
                     .has_results = true,
                     .wall_time = 2,
@@ -85,6 +85,8 @@ TEST_CASE("the page of a campaign has what became of each case, and what repeats
         std::stod(*records.plan.at(2).values[0]));
   CHECK(page["aggregates"][0]["name"] == "a, \"b\"");
   CHECK(unpacked<double>(page["aggregates"][0]["values"])[0] == 0.5);
+  CHECK((page["margins"][0]["name"] == "low" && page["margins"][0]["unit"] == "V"));
+  CHECK(unpacked<double>(page["margins"][0]["values"])[2] == -0.5);
   CHECK(page["correlations"][0]["failure"]["count"] == 2);
 }
 

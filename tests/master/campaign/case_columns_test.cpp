@@ -17,9 +17,9 @@ TEST_CASE("records become columns, whether they are there or not") {
   records.write(0, {.aggregates = {0.5}, .reached = 1, .wall_time = 0.25});
   records.write(2, {.outcome = Outcome::Failed,
                     .reason = "low: no",
-                    .verdicts = {{"low", "Never", false, "no", 0.75},
+                    .verdicts = {{"low", "Never", false, "no", 0.75, CaseMargin{-0.5, "V", 0.75}},
                                  {"low", "", false, "no", 0.5},
-                                 {"up", "Always", true, "", {}},
+                                 {"up", "Always", true, "", {}, CaseMargin{2, "", 1}},
                                  {"end", "Always", {}, "", {}}},
                     .aggregates = {std::nullopt},
                     .has_results = true,
@@ -35,6 +35,11 @@ TEST_CASE("records become columns, whether they are there or not") {
   CHECK(columns.parameters[1].texts == std::vector<std::string>{"true", "false", "true", "false"});
   CHECK(columns.aggregates.at(0).at(0) == 0.5);
   CHECK(std::isnan(columns.aggregates.at(0).at(2)));
+  REQUIRE(columns.margins.size() == 2);
+  CHECK((columns.margins[0].name == "low" && columns.margins[0].unit == "V"));
+  CHECK((columns.margins[1].name == "up" && columns.margins[1].values.size() == 4));
+  CHECK((columns.margins[0].values[2] == -0.5 && columns.margins[1].values[2] == 2));
+  CHECK((std::isnan(columns.margins[0].values[0]) && std::isnan(columns.margins[0].values[3])));
   CHECK(columns.failed_at[2] == 0.5);
   CHECK(std::isnan(columns.failed_at[0]));
   CHECK(columns.has_results == std::vector<std::uint8_t>{0, 0, 1, 0});

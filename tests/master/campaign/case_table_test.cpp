@@ -18,23 +18,28 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const CaseResult kFailed{.outcome = Outcome::Failed,
-                         .reason = "low: at 0.5 s, \"y\"\nand more",
-                         .verdicts = {{"low", "Never", false, "y", 0.5}, {"low", "", true, "", {}}},
-                         .aggregates = {0.1},
-                         .reached = 1,
-                         .has_results = true,
-                         .wall_time = 0.25,
-                         .began = "2026-11-25T23:59:59Z",
-                         .host = "a,b"};
+const CaseResult kFailed{
+    .outcome = Outcome::Failed,
+    .reason = "low: at 0.5 s, \"y\"\nand more",
+    .verdicts = {{"low", "Never", false, "y", 0.5, CaseMargin{-0.5, "V", 0.75}},
+                 {"low", "", true, "", {}},
+                 {"open", "Count", std::nullopt, "", {}}},
+    .aggregates = {0.1},
+    .reached = 1,
+    .has_results = true,
+    .wall_time = 0.25,
+    .began = "2026-11-25T23:59:59Z",
+    .host = "a,b"};
 
 }  // namespace
 
 TEST_CASE("a record is read as it was written") {
   const Records records;
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
   const CaseResult odd{.outcome = Outcome::TimedOut,
                        .reason = "a \xff",
-                       .aggregates = {-std::numeric_limits<double>::infinity()}};
+                       .verdicts = {{"nan", "Never", false, "", {}, CaseMargin{-kInfinity, "", 0}}},
+                       .aggregates = {-kInfinity}};
   for (const CaseResult& result : {kFailed, CaseResult{.aggregates = {std::nullopt}}}) {
     const std::string line = record_line(records.plan, records.plan.at(1), result);
     CHECK(line.find('\n') == std::string::npos);
@@ -44,6 +49,7 @@ TEST_CASE("a record is read as it was written") {
   }
   const std::string line = record_line(records.plan, records.plan.at(0), odd);
   CHECK(parse_record(records.plan, 0, line)->aggregates == odd.aggregates);
+  CHECK(parse_record(records.plan, 0, line)->verdicts == odd.verdicts);
 }
 
 TEST_CASE("records are in folders of a thousand, as a whole or not at all") {
@@ -97,12 +103,13 @@ TEST_CASE("the tables have a row for each case, with or without a record") {
            "," + outcome + "," + records.plan.hash(planned) + rest + "\n";
   };
   CHECK(content(records.folder / "out/cases.csv") ==
-        "case,b.u,seed,outcome,reason,check:low,verdict:low,\"aggregate:a, \"\"b\"\"\",reached,"
+        "case,b.u,seed,outcome,reason,check:low,margin:low,verdict:low,check:open,margin:open,"
+        "\"aggregate:a, \"\"b\"\"\",reached,"
         "hash,wall_time,began,host\n" +
-            row(0, "passed,,,,nan,1", ",0,,") + row(1, "missing,,,,,", ",,,") +
-            row(2, "failed,\"low: at 0.5 s, \"\"y\"\"\",failed,passed,0.1,1",
+            row(0, "passed,,,,,,,nan,1", ",0,,") + row(1, "missing,,,,,,,,", ",,,") +
+            row(2, "failed,\"low: at 0.5 s, \"\"y\"\"\",failed,-0.5,passed,undecided,,0.1,1",
                 ",0.25,2026-11-25T23:59:59Z,\"a,b\"") +
-            row(3, "missing,,,,,", ",,,"));
+            row(3, "missing,,,,,,,,", ",,,"));
   const std::string lines = content(records.folder / "out/cases.jsonl");
   CHECK(std::count(lines.begin(), lines.end(), '\n') == 4);
   CHECK_THAT(lines, Contains("\"outcome\":\"missing\""));

@@ -47,6 +47,17 @@ bool real_holds(const ConditionText& text, double value) {
   return holds(ValueType::Float64, text, value) == Truth::True;
 }
 
+template <class T>
+double robustness(ValueType type, const ConditionText& text, T value) {
+  ValueBlock block(type, 2);
+  block.numbers<T>()[1] = value;
+  return Condition(variable(type), text).judge(block, 1).robustness;
+}
+
+double real_robustness(const ConditionText& text, double value) {
+  return robustness(ValueType::Float64, text, value);
+}
+
 std::string mistake(ValueType type, const ConditionText& text) {
   try {
     Condition(variable(type), text);
@@ -124,6 +135,74 @@ TEST_CASE("in words, with the unit of measure") {
   CHECK(bytes.value_text(ValueBlock(ValueType::Binary, 1), 0) == "no bytes");
 }
 
+TEST_CASE("robustness: the distance to the nearest limit, negative outside") {
+  CHECK(real_robustness(range("1", "5"), 1.5) == 0.5);
+  CHECK(real_robustness(range("1", "5"), 4.75) == 0.25);
+  CHECK(real_robustness(range("1", "5"), -1) == -2);
+  CHECK(real_robustness(open_range("1", "5"), 8) == -3);
+  CHECK(real_robustness(equals("0.5", "0.25"), 0.625) == 0.125);
+  CHECK(real_robustness(equals("0.5", "0.25"), 1) == -0.25);
+  CHECK(real_robustness(equals("0.5"), 0.75) == -0.25);
+  CHECK(robustness<float>(ValueType::Float32, range("0.5", "2"), 1.5F) == 0.5);
+}
+
+TEST_CASE("robustness: at a limit 0, and nearest to it of the right sign") {
+  CHECK(real_robustness(range("1", "5"), 1) == 0);
+  CHECK(real_robustness(open_range("1", "5"), 5) == 0);
+  CHECK((real_robustness(equals("3"), 3) == 0 && !std::signbit(real_robustness(equals("3"), 3))));
+  const double least = std::numeric_limits<double>::denorm_min();
+  CHECK(real_robustness(range("0", "1"), -least) == -least);
+  CHECK(real_robustness(range("2.2250738585072014e-308", "1"),
+                        std::nextafter(2.2250738585072014e-308, 0)) == -least);
+}
+
+TEST_CASE("robustness: infinities stay, and NaN is infinitely far outside") {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  CHECK(real_robustness(range("0", "1"), kInfinity) == -kInfinity);
+  ConditionText above;
+  above.above = "0";
+  CHECK(real_robustness(above, kInfinity) == kInfinity);
+  CHECK(real_robustness(range("-1e308", "1e308"), -1.7e308) < 0);
+  CHECK(real_robustness(above, std::nan("")) == -kInfinity);
+  CHECK(real_robustness(equals("3", "1"), std::nan("")) == -kInfinity);
+}
+
+TEST_CASE("robustness of integers is a whole number, also where doubles do not tell them apart") {
+  const std::int64_t large = std::int64_t{1} << 62;
+  const auto next = std::to_string(large + 1);
+  CHECK(robustness(ValueType::Int64, range(next, next), large) == -1);
+  CHECK(robustness(ValueType::Int64, range("-9223372036854775808", "5"),
+                   std::numeric_limits<std::int64_t>::max()) == -9223372036854775802.0);
+  CHECK(robustness<std::uint64_t>(ValueType::UInt64, range("1", "18446744073709551615"), 0) == -1);
+  CHECK(robustness<std::uint8_t>(ValueType::UInt8, open_range("3", "255"), 250) == 5);
+  CHECK(robustness<std::int8_t>(ValueType::Int8, equals("-3"), 2) == -5);
+}
+
+TEST_CASE("robustness of what has no order tells only whether the condition holds") {
+  CHECK(robustness(ValueType::Boolean, equals("true"), true) == 1);
+  CHECK(robustness(ValueType::Boolean, equals("true"), false) == -1);
+  core::Variable mode = variable(ValueType::Enumeration);
+  mode.items = {{"off", 1}, {"on", 7}};
+  ValueBlock block(ValueType::Enumeration, 1);
+  block.numbers<std::int64_t>()[0] = 7;
+  CHECK(Condition(mode, equals("on")).judge(block, 0).robustness == 1);
+  CHECK(Condition(mode, equals("off")).judge(block, 0).robustness == -1);
+  const ValueBlock text(ValueType::String, 1);
+  CHECK(Condition(variable(ValueType::String), equals("a")).judge(text, 0).robustness == -1);
+  const ValueBlock bytes(ValueType::Binary, 1);
+  CHECK(Condition(variable(ValueType::Binary), equals("")).judge(bytes, 0).robustness == 1);
+}
+
+TEST_CASE("limits are those of the attributes, in the variable's type") {
+  const auto limits = Condition(variable(ValueType::Int32), range("1", "5")).limits();
+  REQUIRE(limits.size() == 2);
+  CHECK((limits[0].name == "min" && limits[1].name == "max"));
+  CHECK(limits[1].value.numbers<std::int32_t>()[0] == 5);
+  const auto near = Condition(variable(ValueType::Float64), equals("1", "0.5")).limits();
+  REQUIRE(near.size() == 2);
+  CHECK((near[0].name == "equals" && near[1].name == "tolerance"));
+}
+
 TEST_CASE("what makes no sense is refused") {
   CHECK_THAT(mistake(ValueType::Float64, {}),
              Contains("expected min, max, above, below or equals"));
@@ -142,6 +221,7 @@ TEST_CASE("what makes no sense is refused") {
   CHECK_THAT(mistake(ValueType::Boolean, equals("yes")), Contains("true or false"));
   CHECK_THAT(mistake(ValueType::Boolean, range("false", "true")),
              Contains("a Boolean has no order; expected equals"));
+  CHECK_THAT(mistake(ValueType::Clock, range("false", "true")), Contains("a Clock has no order"));
   CHECK_THAT(mistake(ValueType::Int32, equals("3", "1")), Contains("for real numbers"));
   CHECK_THAT(mistake(ValueType::Float64, equals("3", "-1")),
              Contains("not a number of at least 0"));

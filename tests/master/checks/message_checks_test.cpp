@@ -1,5 +1,6 @@
 #include "master/checks/message_checks.h"
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -109,6 +110,49 @@ TEST_CASE("no request, and a run that breaks off, decide nothing") {
   CHECK(judged("q   ", 1, false, {}, false).time == at(1));
 }
 
+TEST_CASE("margin of an answer: the least time that was left") {
+  CHECK(margin_of(judged("q r  qr ", 3)) == "0.001 s at 0.002 s");
+  CHECK(margin_of(judged("o   ", 0)) == "0 s at 0 s");
+  CHECK(margin_of(judged("qr q", 1)) == "none");
+  CHECK(margin_of(judged("  r ", 1)) == "none");
+}
+
+TEST_CASE("margin of an answer that is late: by how much") {
+  CHECK(margin_of(judged(" q   r qr ", 2)) == "-0.002 s at 0.005 s");
+  CHECK(margin_of(judged("q     ", 2)) == "-0.003 s at 0.005 s");
+  CHECK(margin_of(judged("q  ", 2)) == "0 s at 0.002 s");
+  CHECK(margin_of(judged("q     ", 2, false, {}, false)) == "-0.003 s at 0.005 s");
+}
+
+TEST_CASE("a reply that answers no open request answers the oldest late one") {
+  CHECK(margin_of(judged("q  qr r", 2)) == "-0.004 s at 0.006 s");
+  CHECK(margin_of(judged("q  qr    ", 2)) == "-0.006 s at 0.008 s");
+  CHECK(margin_of(judged("qq   rr  ", 2)) == "-0.003 s at 0.005 s");
+  CHECK(margin_of(judged("qq   r     ", 2)) == "-0.007 s at 0.01 s");
+}
+
+TEST_CASE("with repeats each reply answers the late ones, too") {
+  CHECK(margin_of(judged("q  qr    ", 2, true)) == "-0.002 s at 0.004 s");
+  CHECK(margin_of(judged("q   q   q r ", 2, true)) == "-0.008 s at 0.01 s");
+  CHECK(margin_of(judged("qqr  ", 3, true)) == "0.001 s at 0.002 s");
+}
+
+TEST_CASE("a run that fails amid the events of an instant never turns the sign") {
+  const Definition definition{
+      Kind::Answer, "answers", "", {}, {}, AnswerDemand{{0, 1}, {0, 2}, at(5) - Time{}, false}};
+  AnswerCheck check(definition);
+  check.on_message(message(0, 1));
+  check.on_point(at(0));
+  check.on_message(message(6, 2));
+  check.on_message(message(6, 1));
+  CHECK(margin_of(check.verdict(broke(0))) == "-0.001 s at 0.006 s");
+  AnswerCheck other(definition);
+  other.on_message(message(0, 1));
+  other.on_message(message(6, 1));
+  const auto verdict = other.verdict(broke(0));
+  CHECK((verdict.passed == false && margin_of(verdict) == "0 s at 0 s"));
+}
+
 namespace {
 
 /// Messages at 1, 2, 3 and 4 ms, with others between, and communication points there and at 5 ms.
@@ -167,4 +211,16 @@ TEST_CASE("a run that breaks off leaves open what could still come") {
   CHECK(counted(4, {}, {}, broke(5)).passed == true);
   CHECK(counted({}, 4, window({}, 5), broke(5)).passed == true);
   CHECK_FALSE(counted({}, 4, window({}, 6), ended(5)).passed);
+}
+
+TEST_CASE("margin of a count: how many more or fewer there may be, too many or missing") {
+  CHECK(margin_of(counted(1, 10)) == "3 messages at 0.005 s");
+  CHECK(margin_of(counted(1, 5)) == "1 messages at 0.005 s");
+  CHECK(margin_of(counted(4, 4)) == "0 messages at 0.005 s");
+  CHECK(margin_of(counted({}, 1)) == "-3 messages at 0.005 s");
+  CHECK(margin_of(counted(6, {}, window(0, 3))) == "-3 messages at 0.003 s");
+  CHECK(margin_of(counted({}, 2, {}, broke(5))) == "-2 messages at 0.005 s");
+  CHECK(margin_of(counted({}, 4, {}, broke(5))) == "none");
+  CHECK(margin_of(counted(0, std::numeric_limits<std::uint64_t>::max())) ==
+        "4 messages at 0.005 s");
 }

@@ -134,6 +134,65 @@ TEST_CASE("between two communication points is known what holds at both") {
   CHECK(open.text == "there was no communication point in the interval");
 }
 
+TEST_CASE("margin of always: the least of the interval, also behind the first failure") {
+  CHECK(margin_of(judged(demand(Kind::Always, {}, "0.25"), kFalls, ended(40))) ==
+        "0.75 V at 0.03 s");
+  const auto verdict = judged(demand(Kind::Always, {}, "1.75"), kFalls, ended(40));
+  CHECK((verdict.time == at(20) && verdict.text == "1.5 V; expected >= 1.75 V"));
+  CHECK(margin_of(verdict) == "-0.75 V at 0.03 s");
+  CHECK(margin_of(judged(demand(Kind::Always, window(0, 20), "1.75"), kFalls, ended(40))) ==
+        "-0.25 V at 0.02 s");
+}
+
+TEST_CASE("margin of never: the least distance from what it must not be") {
+  CHECK(margin_of(judged(demand(Kind::Never, {}, "5"), kFalls, ended(40))) == "1 V at 0.04 s");
+  CHECK(margin_of(judged(demand(Kind::Never, {}, "2.5"), kFalls, ended(40))) == "-1.5 V at 0.04 s");
+  const auto touches = judged(demand(Kind::Never, {}, "4"), kFalls, ended(40));
+  CHECK((touches.passed == false && margin_of(touches) == "0 V at 0.04 s"));
+}
+
+TEST_CASE("margin of eventually: the greatest of the interval, also behind what has passed it") {
+  const auto verdict = judged(demand(Kind::Eventually, {}, "2.5"), kFalls, ended(40));
+  CHECK(verdict.text == "3 V at 0 s");
+  CHECK(margin_of(verdict) == "1.5 V at 0.04 s");
+  CHECK(margin_of(judged(demand(Kind::Eventually, window(10, 30), "2.5"), kFalls, ended(40))) ==
+        "-0.5 V at 0.01 s");
+}
+
+TEST_CASE("margin of final: that of the last value") {
+  CHECK(margin_of(judged(demand(Kind::Final, {}, "3.5"), kFalls, ended(40))) == "0.5 V at 0.04 s");
+  CHECK(margin_of(judged(demand(Kind::Final, {}, "5"), kFalls, ended(40))) == "-1 V at 0.04 s");
+}
+
+TEST_CASE("where there was no point in the interval, the margin is the lesser one beside it") {
+  CHECK(margin_of(judged(demand(Kind::Always, window(11, 19), "1.25"), kFalls, ended(40))) ==
+        "0.25 V at 0.02 s");
+  CHECK(margin_of(judged(demand(Kind::Eventually, window(31, 39), "0.5"), kFalls, ended(40))) ==
+        "0.5 V at 0.03 s");
+}
+
+TEST_CASE("what is undecided has no margin; what is decided has that of what was seen") {
+  CHECK(margin_of(judged(demand(Kind::Always, {}, "0"), kFalls, broke(40))) == "none");
+  CHECK(margin_of(judged(demand(Kind::Always, {}, "1.75"), kFalls, broke(40))) ==
+        "-0.75 V at 0.03 s");
+  CHECK(margin_of(judged(demand(Kind::Eventually, {}, "5"), kFalls, broke(40))) == "none");
+}
+
+TEST_CASE("NaN is infinitely far from what it should be") {
+  const Course course{{0, 3}, {10, std::nan("")}, {20, 3}};
+  CHECK(margin_of(judged(demand(Kind::Always, {}, "1"), course, ended(20))) == "-inf V at 0.01 s");
+  CHECK(margin_of(judged(demand(Kind::Never, {}, "4"), course, ended(20))) == "-inf V at 0.01 s");
+  CHECK(margin_of(judged(demand(Kind::Eventually, {}, "1"), course, ended(20))) == "2 V at 0 s");
+}
+
+TEST_CASE("the limits are part of the verdict, whatever it is") {
+  const auto verdict = judged(demand(Kind::Always, window(5, {}), "1.8"), kFalls, broke(40));
+  REQUIRE(verdict.limits);
+  CHECK((verdict.limits->signal == "a.x" && verdict.limits->from == at(5) && !verdict.limits->to));
+  REQUIRE(verdict.limits->limits.size() == 1);
+  CHECK(verdict.limits->limits[0].name == "min");
+}
+
 TEST_CASE("texts are kept as they were") {
   ConditionText text;
   text.equals = "calm";
@@ -154,4 +213,5 @@ TEST_CASE("texts are kept as they were") {
   const auto verdict = check.verdict(ended(2));
   CHECK(verdict.time == at(1));
   CHECK(verdict.text == "'cross'; expected = 'calm'");
+  CHECK(margin_of(verdict) == "-1 at 0.001 s");
 }

@@ -53,11 +53,18 @@ void take_over(OneCheck& check, OneCheck& other) {
   read.end();
 }
 
+/// "0.5 V at 0.01 s", or "none".
+inline std::string margin_of(const core::Verdict& verdict) {
+  if (!verdict.margin) return "none";
+  return core::to_text(*verdict.margin) + " at " + core::to_text(verdict.margin->at) + " s";
+}
+
 /// All of a verdict that can differ.
 inline std::string text_of(const core::Verdict& verdict) {
   std::string text = verdict.text + (verdict.time ? core::to_text(*verdict.time) : "-");
   text += verdict.passed ? (*verdict.passed ? " passed" : " failed") : " undecided";
   for (const auto& value : verdict.values) text += " " + core::element_text(value.value, 0);
+  if (verdict.margin) text += "; " + margin_of(verdict);
   return text;
 }
 

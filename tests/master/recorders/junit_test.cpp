@@ -1,5 +1,7 @@
 #include "master/recorders/junit.h"
 
+#include <limits>
+
 #include <catch2/catch.hpp>
 
 #include "tests/master/ssp/support.h"
@@ -19,6 +21,13 @@ core::Verdict failed_check() {
   core::ValueBlock value(core::ValueType::Float64, 1);
   value.numbers<double>()[0] = 1.5;
   verdict.values.push_back({"sensor.voltage", value, "V"});
+  verdict.margin = {-std::numeric_limits<double>::infinity(), "", Time(1500ms)};
+  return verdict;
+}
+
+core::Verdict fine_check() {
+  core::Verdict verdict{"fine", true, "", "final"};
+  verdict.margin = {0.1, "V", Time(2s)};
   return verdict;
 }
 
@@ -44,7 +53,7 @@ TEST_CASE("a test case for the run, for each unit's verdict and for each check")
   const std::vector<core::Verdict> verdicts = {{"judge", false, "too late"},
                                                {"led", std::nullopt, "no \"run\"", "count"},
                                                failed_check(),
-                                               {"fine", true, "", "final"}};
+                                               fine_check()};
   JunitReport full = report();
   full.verdicts = verdicts;
   CHECK(written(full) == R"(<?xml version="1.0" encoding="UTF-8"?>
@@ -52,6 +61,8 @@ TEST_CASE("a test case for the run, for each unit's verdict and for each check")
     <testsuite name="approach" package="" id="0" tests="5" failures="2" errors="0" skipped="1" time="1.250" timestamp="2023-11-14T22:13:20" hostname="bench">
         <properties>
             <property name="stop" value="30"/>
+            <property name="margin: voltage" value="-inf"/>
+            <property name="margin: fine" value="0.1 V"/>
         </properties>
         <testcase name="run" classname="approach" time="1.250"/>
         <testcase name="judge" classname="approach.units" time="0.000">

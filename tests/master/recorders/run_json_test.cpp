@@ -13,6 +13,15 @@ using Catch::Contains;
 
 namespace {
 
+core::Verdict check() {
+  core::Verdict verdict{"near", true, "it was so", "always", {"x.ssd", 7}};
+  verdict.margin = {0.25, "m", Time(1500ms)};
+  core::ValueBlock most(core::ValueType::Float64, 1);
+  most.numbers<double>()[0] = 2.5;
+  verdict.limits = {"a.distance", Time(1s), {}, {{"max", most}}};
+  return verdict;
+}
+
 /// The sample system with a connection.
 core::System wired_system() {
   auto description = sample_description();
@@ -80,7 +89,7 @@ TEST_CASE("run.json has what was run and how far the run came") {
   host.most_memory = 4096;
   host.protections = {"no network", "seccomp"};
   host.missing_protections = {"landlock"};
-  const std::vector<core::Verdict> verdicts = {{"b, c", false, "too \"late\""}};
+  const std::vector<core::Verdict> verdicts = {{"b, c", false, "too \"late\""}, check()};
   options.recorded = {{0, 1}, {1, 4}};
   const std::vector<Plot> plots = {{"Height", {"a.distance"}}};
   ResultFiles files;
@@ -118,7 +127,28 @@ TEST_CASE("run.json has what was run and how far the run came") {
       "text": "too \"late\""
     }
   ],
-  "checks": [],
+  "checks": [
+    {
+      "name": "near",
+      "kind": "always",
+      "passed": true,
+      "text": "it was so",
+      "time": null,
+      "margin": {
+        "value": 0.25,
+        "unit": "m",
+        "at": 1.5
+      },
+      "line": 7,
+      "values": [],
+      "limits": {
+        "signal": "a.distance",
+        "from": 1.0,
+        "to": null,
+        "max": 2.5
+      }
+    }
+  ],
   "threads": 4,
   "recorded_signals": 2,
   "reached": 14.2,

@@ -1,6 +1,6 @@
 // The units' own verdicts and the scenario's checks, in one list.
 import { h } from "../dom.js";
-import { numberText } from "../data/number_text.js";
+import { briefText, numberText } from "../data/number_text.js";
 
 /**
  * @typedef {object} Judgement
@@ -8,6 +8,7 @@ import { numberText } from "../data/number_text.js";
  * @property {boolean|null} passed null: undecided
  * @property {string} text
  * @property {number|null} time of the first failure [s]
+ * @property {{value: number|string, unit: string, at: number}|null} margin to the other verdict
  * @property {{signal: string, value: any, unit?: string}[]} values there
  * @property {number} [line] of the scenario
  */
@@ -15,9 +16,9 @@ import { numberText } from "../data/number_text.js";
 /** @returns {Judgement[]} failed ones first */
 export function judgements(run) {
   const units = (run.verdicts ?? []).map(({ component, passed, text }) => {
-    return { name: component, passed, text, time: null, values: [] };
+    return { name: component, passed, text, time: null, margin: null, values: [] };
   });
-  const checks = (run.checks ?? []).map((check) => ({ values: [], ...check, time: check.time ?? null }));
+  const checks = (run.checks ?? []).map((check) => ({ values: [], margin: null, ...check, time: check.time ?? null }));
   const rank = ({ passed }) => (passed === false ? 0 : passed === null ? 1 : 2);
   return [...checks, ...units].sort((a, b) => rank(a) - rank(b));
 }
@@ -60,11 +61,19 @@ const valueText = ({ signal, value, unit }) =>
   `${signal} = ${typeof value === "number" ? numberText(value) : value}${unit ? ` ${unit}` : ""}`;
 
 /** A button that moves the cursor to a time. */
-export function timeLink(view, seconds) {
-  return h("button.time-link", { type: "button", onclick: () => view.holdCursor(seconds) }, `${numberText(seconds)} s`);
+export function timeLink(view, seconds, text = `${numberText(seconds)} s`, title = "") {
+  return h("button.time-link", { type: "button", title, onclick: () => view.holdCursor(seconds) }, text);
 }
 
-function row({ name, passed, text, time, values, line }, view) {
+/** Short, with all digits in its title. */
+function marginLink({ value, unit, at }, view) {
+  const isNumber = typeof value === "number";
+  const withUnit = (text) => `${text}${unit ? ` ${unit}` : ""}`;
+  const title = `${withUnit(isNumber ? numberText(value) : value)} at ${numberText(at)} s`;
+  return timeLink(view, at, withUnit(isNumber ? briefText(value) : value), title);
+}
+
+function row({ name, passed, text, time, margin, values, line }, view) {
   const [sign, word, kind] = kSigns.get(passed);
   const there = values.length > 0 ? h("div.there", {}, values.map(valueText).join(", ")) : null;
   return h(
@@ -72,6 +81,7 @@ function row({ name, passed, text, time, values, line }, view) {
     {},
     h(`td.sign.${kind}`, {}, h("span", { title: word, "aria-label": word, role: "img" }, sign)),
     h("th", { scope: "row", title: line ? `line ${line} of the scenario` : "" }, name),
+    h("td.number", {}, margin === null ? "" : marginLink(margin, view)),
     h("td", {}, text, there),
     h("td.number", {}, time === null ? "" : timeLink(view, time)),
   );
@@ -81,7 +91,8 @@ export function verdictTable(run, view) {
   const all = judgements(run);
   if (all.length === 0) return null;
   const isTimed = all.some(({ time }) => time !== null);
-  const heads = ["", "verdict of", "because", isTimed ? "first failed at" : ""].map((text) =>
+  const hasMargins = all.some(({ margin }) => margin !== null);
+  const heads = ["", "verdict of", hasMargins ? "margin" : "", "because", isTimed ? "first failed at" : ""].map((text) =>
     h("th", { scope: "col" }, text),
   );
   const rows = all.map((judgement) => row(judgement, view));

@@ -3,6 +3,7 @@
 import uPlot from "uplot";
 import { color, curveColor, curveDash } from "./colors.js";
 import { kGutter } from "./layout.js";
+import { drawLimits, limitsOf, shadeViolations, withLimits } from "./limits.js";
 import { timeTicks } from "./ruler.js";
 import {
   finiteExtremes,
@@ -38,6 +39,7 @@ export class Pane {
     this.report = report;
     this.view = view;
     this.columns = columns;
+    this.limits = columns.map((column) => limitsOf(report, column));
     this.firstColor = firstColor;
     this.hidden = new Set();
     this.highlighted = null;
@@ -86,7 +88,8 @@ export class Pane {
   }
 
   #fit(drawn) {
-    const extremes = finiteExtremes(drawn);
+    const values = finiteExtremes(drawn);
+    const extremes = this.isLogarithmic ? values : withLimits(values, this.#shownLimits());
     this.range = this.isLogarithmic ? logarithmicRange(extremes) : linearRange(extremes);
     const largest = Math.max(Math.abs(extremes.least), Math.abs(extremes.most));
     this.exponent = this.isLogarithmic ? 0 : commonExponent(Number.isFinite(largest) ? largest : 0);
@@ -112,9 +115,9 @@ export class Pane {
       axes: [this.#timeAxis(), this.#valueAxis()],
       series: [{}, ...this.columns.map((column, index) => this.#series(index))],
       hooks: {
-        drawClear: [(plot) => this.#shadeIdleTime(plot)],
+        drawClear: [(plot) => this.#shade(plot)],
         drawSeries: [(plot, series) => this.#fillBars(plot, series - 1)],
-        draw: [(plot) => this.#nameAxis(plot)],
+        draw: [(plot) => this.#drawLimits(plot), (plot) => this.#nameAxis(plot)],
       },
     };
     this.plot = new uPlot(options, [[], ...this.columns.map(() => [])], this.box);
@@ -192,8 +195,20 @@ export class Pane {
     return color(curveColor(this.firstColor + index)) + (isFaint ? "40" : "");
   }
 
-  #shadeIdleTime({ ctx, bbox }) {
+  #shade({ ctx, bbox }) {
     shadeIntervals(ctx, this.report.idle, this.view, bbox, color("--idle-shade"));
+    shadeViolations(ctx, this.#shownLimits(), this.view, bbox, color("--bad-ground"));
+  }
+
+  /** Of the curves that are not hidden. */
+  #shownLimits() {
+    return this.limits.filter((_, index) => !this.hidden.has(this.columns[index])).flat();
+  }
+
+  #drawLimits({ ctx, bbox, scales }) {
+    const place = places(bbox, scales, this.isLogarithmic);
+    const colorOf = ({ isFailed }) => color(isFailed ? "--bad" : "--quiet-text");
+    drawLimits(ctx, this.#shownLimits(), bbox, place, colorOf);
   }
 
   #nameAxis({ ctx, bbox }) {

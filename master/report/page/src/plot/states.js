@@ -3,6 +3,7 @@ import { nameWithin } from "../data/components.js";
 import { sizedContext } from "../dom.js";
 import { color, curveColor } from "./colors.js";
 import { kGutter } from "./layout.js";
+import { limitsOf, shadeViolations } from "./limits.js";
 import { rowGroups } from "./thin.js";
 
 const kRow = 20;
@@ -17,6 +18,7 @@ export class StatesPane {
     this.report = report;
     this.view = view;
     this.columns = columns;
+    this.limits = new Map(columns.map((column) => [column, limitsOf(report, column)]));
     this.components = new Set(report.units);
     this.firstColor = firstColor;
     this.hidden = new Set();
@@ -40,6 +42,8 @@ export class StatesPane {
     const scale = (width - kGutter) / this.view.span;
     const place = (time) => Math.min(width, Math.max(kGutter, kGutter + (time - this.view.from) * scale));
     this.#drawName(context, column, top, width);
+    const row = { left: kGutter, top, width: width - kGutter, height: kRow };
+    shadeViolations(context, this.limits.get(column), this.view, row, color("--bad-ground"));
     const middle = { top: top + (kRow - kBar) / 2, height: kBar };
     for (const state of states(column, this.report.seconds, groups)) {
       const box = { ...middle, left: place(state.from), right: place(state.until ?? this.view.whole.until) };

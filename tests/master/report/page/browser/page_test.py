@@ -265,6 +265,28 @@ class PageTest(unittest.TestCase):
         browser.one(".banner .time-link").click()
         self.assertEqual(browser.run("return stride.view.cursor"), 7.5)
 
+    def test_limits_are_lines_and_violations_shades(self):
+        run = Run()
+        run.run["checks"] = [
+            {"name": "power stays low", "kind": "always", "passed": False, "text": "", "time": 7.5, "values": [],
+             "margin": {"value": -100.25, "unit": "W", "at": 10},
+             "limits": {"signal": "pump.power", "from": 5, "to": None, "max": 300}},
+            {"name": "on", "kind": "never", "passed": False, "text": "", "time": 2, "values": [],
+             "margin": {"value": "-inf", "unit": "", "at": 2},
+             "limits": {"signal": "pump.on", "from": None, "to": None, "equals": True}}]
+        browser = self.open_run(run)
+        links = browser.run("return [...document.querySelectorAll('.verdicts td .time-link')].map((a) => a.textContent)")
+        self.assertEqual(links, ["-100.3 W", "7.5 s", "-inf", "2 s"])
+        browser.run("document.querySelector('.verdicts td .time-link').click()")
+        self.assertEqual(browser.run("return stride.view.cursor"), 10)
+        line, shade, good = browser.run(PANE_COLOURS, 1)
+        self.assertAlmostEqual(line[0], 0.5, delta=0.02)
+        self.assertAlmostEqual(line[1], 1, delta=0.02)
+        self.assertAlmostEqual(shade[0], 0.75, delta=0.02)
+        self.assertGreater(shade[1], 0.98)
+        self.assertEqual(good, [])
+        self.assertEqual(browser.errors(), [])
+
     def test_a_failed_run_shows_its_error(self):
         run = Run()
         run.run.update(outcome="failed", error="tank.ssd:7: pump: no <water>", reached=3.5)
@@ -409,6 +431,25 @@ class PageTest(unittest.TestCase):
               done(times.sort((a, b) => a - b)[30]);
             })();""")
 
+
+# The shares of the width between which a pane has pixels of the limits' lines and of the shades behind them.
+PANE_COLOURS = """
+    const canvas = document.querySelectorAll('.pane canvas')[arguments[0]];
+    const { width, height } = canvas;
+    const pixels = canvas.getContext('2d').getImageData(0, 0, width, height).data;
+    const hex = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
+    const rgb = (name) => [1, 3, 5].map((i) => parseInt(hex(name).slice(i, i + 2), 16));
+    const between = (name) => {
+      const wanted = rgb(name);
+      const found = [];
+      for (let y = 0; y < height; ++y) for (let x = 97; x < width; ++x) {
+        const at = 4 * (y * width + x);
+        if (wanted.every((part, i) => Math.abs(pixels[at + i] - part) < 3)) found.push((x - 96) / (width - 96));
+      }
+      return found.length === 0 ? [] : [Math.min(...found), Math.max(...found)];
+    };
+    return [between('--bad'), between('--bad-ground'), between('--good')];
+"""
 
 CONTRAST = """
     const style = getComputedStyle(document.documentElement);

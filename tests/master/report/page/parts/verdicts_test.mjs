@@ -43,6 +43,14 @@ test("what failed is named, and the first instant of all is shown", () => {
   );
 });
 
+test("margins are of checks that are decided, and never of units", () => {
+  const margin = { value: 0.5, unit: "V", at: 2 };
+  const checks = [{ ...check("a", true), margin }, { ...check("b", null), margin: null }, check("old", true)];
+  const run = { outcome: "completed", verdicts: [{ component: "truth", passed: true, text: "" }], checks };
+  const found = Object.fromEntries(judgements(run).map(({ name, margin: each }) => [name, each]));
+  assert.deepEqual(found, { a: margin, b: null, old: null, truth: null });
+});
+
 test("undecided is neither passed nor failed", () => {
   assert.equal(summary({ outcome: "completed", checks: [check("a", null), check("b", true)] }).kind, "open");
 });

@@ -18,6 +18,10 @@ async function readColumn({ name, values }, role) {
   return Column.ofTexts(name, role, await unpack(values.indices), values.values);
 }
 
+function readMargin({ name, unit, values }) {
+  return readColumn({ name: `margin of ${name}${unit ? ` [${unit}]` : ""}`, values }, "margin");
+}
+
 async function readCases(cases) {
   const arrays = ["indices", "outcomes", "wall_times", "reached", "failed_at"];
   const texts = ["reasons", "links", "commands", "began", "hosts"];
@@ -34,6 +38,7 @@ export async function readCampaign(data) {
   const cases = await readCases(data.cases);
   const parameters = await Promise.all(data.parameters.map((entry) => readColumn(entry, "parameter")));
   const aggregates = await Promise.all(data.aggregates.map((entry) => readColumn(entry, "aggregate")));
+  const margins = await Promise.all((data.margins ?? []).map(readMargin));
   const reached = new Column("reached [s]", "time", cases.reached);
   const times = [
     new Column("first failure [s]", "time", cases.failed_at),
@@ -46,6 +51,7 @@ export async function readCampaign(data) {
     count: cases.indices.length,
     parameters,
     aggregates,
+    margins,
     times: times.filter((column) => column.least <= column.most),
   };
 }

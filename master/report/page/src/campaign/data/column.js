@@ -1,4 +1,4 @@
-// A quantity of each case: a parameter, an aggregate, a time.
+// A quantity of each case: a parameter, an aggregate, a margin, a time.
 import { briefText, numberText } from "../../data/number_text.js";
 import { decimalsOf } from "../../plot/ticks.js";
 
@@ -36,7 +36,7 @@ function differentTexts(values) {
 export class Column {
   /**
    * @param {string} name
-   * @param {"parameter"|"aggregate"|"time"} role
+   * @param {"parameter"|"aggregate"|"margin"|"time"} role
    * @param {ArrayLike<number>} values of a text: its index in `categories`; NaN is not known
    * @param {string[]} [categories]
    */

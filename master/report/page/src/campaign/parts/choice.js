@@ -1,7 +1,7 @@
 // A choice of a column.
 import { h } from "../../dom.js";
 
-const kGroups = { parameter: "parameters", aggregate: "aggregates", time: "times" };
+const kGroups = { parameter: "parameters", aggregate: "aggregates", margin: "margins", time: "times" };
 
 function groupOf(role, options) {
   const found = options.filter(({ column }) => column.role === role);

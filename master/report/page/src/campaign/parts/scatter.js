@@ -29,8 +29,8 @@ const radiusOf = (count) => (count < 300 ? 4 : count < 3000 ? 3 : 2);
 export class Scatter {
   constructor({ report, selection, tip, showCase }) {
     Object.assign(this, { report, selection, tip, showCase });
-    const { parameters, aggregates, times } = report;
-    this.columns = [...parameters, ...aggregates, ...times];
+    const { parameters, aggregates, margins, times } = report;
+    this.columns = [...parameters, ...aggregates, ...margins, ...times];
     const varying = parameters.filter((column) => column.varies);
     this.x = varying[0] ?? this.columns[0];
     this.y = aggregates[0] ?? varying[1] ?? times.at(-1) ?? this.x;

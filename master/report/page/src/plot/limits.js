@@ -1,0 +1,104 @@
+// The limits of the checks of a signal: dashed lines as long as they hold, and shades where they are violated.
+import { Intervals } from "../data/intervals.js";
+import { shadeIntervals } from "./shade.js";
+
+/** A limit that holds at one instant is a line of this length [px]. */
+const kShortest = 14;
+
+/**
+ * @typedef {object} Limits of a check
+ * @property {boolean} isFailed
+ * @property {number[]} lines
+ * @property {number} from [s]
+ * @property {number} until [s]
+ * @property {Intervals} violated
+ */
+
+/** @returns {Limits[]} those of all checks of a column */
+export function limitsOf({ run, seconds, whole }, column) {
+  const checks = (run.checks ?? []).filter(({ limits }) => limits?.signal === column.name);
+  return checks.map((check) => {
+    const until = check.limits.to ?? whole.until;
+    const from = check.kind === "final" ? until : (check.limits.from ?? whole.from);
+    const times = { from, until };
+    return {
+      isFailed: check.passed === false,
+      lines: column.isState ? [] : linesOf(check.limits),
+      ...times,
+      violated: new Intervals(...violations(check, column, seconds, times)),
+    };
+  });
+}
+
+function linesOf({ min, max, above, below, equals, tolerance }) {
+  const around = tolerance ? [equals - tolerance, equals + tolerance] : [equals];
+  return [min, max, above, below, ...around].filter(Number.isFinite);
+}
+
+/** Whether a row's value is as the condition has it; NaN never is. */
+function condition({ min = -Infinity, max = Infinity, above, below, equals, tolerance = 0 }, column) {
+  if (column.texts) return (value) => column.texts[value] === equals;
+  if (column.type === "Boolean") return (value) => Boolean(value) === equals;
+  const exact = column.type === "Float32" ? Math.fround : (value) => value;
+  return (value) => {
+    const number = exact(value);
+    if (!(number >= min && number <= max) || number <= above || number >= below) return false;
+    return equals === undefined || Math.abs(number - equals) <= tolerance;
+  };
+}
+
+/** The beginnings and ends of what a check has failed by: from the sample that is not as it should be to the next. */
+function violations({ kind, passed, limits }, column, seconds, { from, until }) {
+  if (passed !== false || kind === "final") return [[], []];
+  if (kind === "eventually") return [[from], [until]];
+  const holds = condition(limits, column);
+  const isBad = kind === "never" ? (value) => holds(value) || Number.isNaN(value) : (value) => !holds(value);
+  const [starts, ends] = [[], []];
+  for (let i = 0; i < seconds.length && seconds[i] <= until; ++i) {
+    if (seconds[i] < from || !isBad(column.values[i])) continue;
+    if (ends.at(-1) !== seconds[i]) starts.push(seconds[i]);
+    else ends.pop();
+    ends.push(Math.min(until, seconds[i + 1] ?? seconds[i]));
+  }
+  return [starts, ends];
+}
+
+/** The range of values that a pane shows, with the limits that are no further away than the values are apart. */
+export function withLimits(extremes, limits) {
+  const { least, most } = extremes;
+  if (!(least <= most)) return extremes;
+  const reach = most - least || Math.max(Math.abs(least), Math.abs(most)) || 1;
+  const near = limits.flatMap(({ lines }) => lines).filter((line) => line >= least - reach && line <= most + reach);
+  return { ...extremes, least: Math.min(least, ...near), most: Math.max(most, ...near) };
+}
+
+export function shadeViolations(context, limits, view, box, fill) {
+  for (const { violated } of limits) shadeIntervals(context, violated, view, box, fill);
+}
+
+/**
+ * @param {{left: number, top: number, width: number, height: number}} box of the drawing [device px]
+ * @param {{x: (time: number) => number, y: (value: number) => number}} place
+ * @param {(limits: Limits) => string} colorOf
+ */
+export function drawLimits(context, limits, box, place, colorOf) {
+  const ratio = window.devicePixelRatio || 1;
+  context.save();
+  context.beginPath();
+  context.rect(box.left, box.top, box.width, box.height);
+  context.clip();
+  context.lineWidth = ratio;
+  context.setLineDash([5 * ratio, 3 * ratio]);
+  for (const each of limits) {
+    context.strokeStyle = colorOf(each);
+    context.beginPath();
+    for (const line of each.lines) {
+      const y = Math.round(place.y(line)) + 0.5;
+      const right = place.x(each.until);
+      context.moveTo(Math.min(place.x(each.from), right - kShortest * ratio), y);
+      context.lineTo(right, y);
+    }
+    context.stroke();
+  }
+  context.restore();
+}
