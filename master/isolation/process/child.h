@@ -36,7 +36,7 @@ struct ChildOptions {
   std::chrono::milliseconds grace{};
   /// There is a process between this one and the work, whose parent it is: what the work does to
   /// its parent does not reach this process, and no process of its own outlives it, a daemon
-  /// neither. Then there is no grace.
+  /// neither, unless that one is killed. Then there is no grace.
   bool has_keeper = false;
 };
 
