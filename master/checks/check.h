@@ -38,9 +38,21 @@ class Check {
   /// What it has seen, between two communication points.
   virtual void persist(core::StateArchive& state) = 0;
   /// After the run.
-  virtual core::Verdict verdict(const Ending& ending) const = 0;
+  core::Verdict verdict(const Ending& ending) const {
+    core::Verdict verdict = judged(ending);
+    if (verdict.passed) verdict.margin = margin(ending);
+    verdict.limits = limits();
+    return verdict;
+  }
 
  protected:
+  /// The verdict without margin and limits.
+  virtual core::Verdict judged(const Ending& ending) const = 0;
+  /// Of a check that is decided.
+  virtual core::Margin margin(const Ending& ending) const = 0;
+  /// Of a check of a signal.
+  virtual std::optional<core::SignalLimits> limits() const { return std::nullopt; }
+
   const Definition& definition() const { return definition_; }
   const Window& window() const { return definition_.window; }
   /// Whether nothing more can come that the check is about, `last` being the last instant seen.

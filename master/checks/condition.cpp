@@ -8,6 +8,8 @@
 
 #include <fmt/format.h>
 
+#include "master/checks/difference.h"
+
 namespace stride::checks {
 namespace {
 
@@ -28,20 +30,6 @@ const T& only(const ValueBlock& block) {
     return block.binaries()[0];
   } else {
     return block.numbers<T>()[0];
-  }
-}
-
-/// a - b, whose sign is exact: the difference of integers is taken as a whole number.
-template <class T>
-double difference(T a, T b) {
-  if constexpr (std::is_integral_v<T>) {
-    const auto distance = [](T more, T less) {
-      return static_cast<double>(static_cast<std::uint64_t>(more) -
-                                 static_cast<std::uint64_t>(less));
-    };
-    return a >= b ? distance(a, b) : -distance(b, a);
-  } else {
-    return static_cast<double>(a) - static_cast<double>(b);
   }
 }
 

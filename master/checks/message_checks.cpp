@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "master/checks/difference.h"
 #include "master/util/time_text.h"
 
 namespace stride::checks {
@@ -12,11 +13,6 @@ namespace {
 
 std::string requests(std::uint64_t count) {
   return count == 1 ? "1 request" : fmt::format("{} requests", count);
-}
-
-/// a - b
-double surplus(std::uint64_t a, std::uint64_t b) {
-  return a >= b ? static_cast<double>(a - b) : -static_cast<double>(b - a);
 }
 
 }  // namespace
@@ -87,12 +83,6 @@ void AnswerCheck::persist(core::StateArchive& state) {
   state.value(margin_at_);
 }
 
-core::Verdict AnswerCheck::verdict(const Ending& ending) const {
-  core::Verdict verdict = judged(ending);
-  if (verdict.passed) verdict.margin = margin(ending);
-  return verdict;
-}
-
 /// A request that was never answered is late by what the run has shown of it.
 core::Margin AnswerCheck::margin(const Ending& ending) const {
   if (!late_.empty()) {
@@ -138,16 +128,10 @@ void CountCheck::persist(core::StateArchive& state) {
   state.value(last_);
 }
 
-core::Verdict CountCheck::verdict(const Ending& ending) const {
-  core::Verdict verdict = judged(ending);
-  if (verdict.passed) verdict.margin = margin(ending);
-  return verdict;
-}
-
 core::Margin CountCheck::margin(const Ending& ending) const {
   double least = std::numeric_limits<double>::infinity();
-  if (demand_.max) least = surplus(*demand_.max, count_);
-  if (demand_.min) least = std::min(least, surplus(count_, *demand_.min));
+  if (demand_.max) least = difference(*demand_.max, count_);
+  if (demand_.min) least = std::min(least, difference(count_, *demand_.min));
   return {least, "messages", std::min(end(ending), ending.reached)};
 }
 

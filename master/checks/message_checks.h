@@ -23,7 +23,6 @@ class AnswerCheck final : public Check {
   void on_message(const core::Message& message) override;
   void persist(core::StateArchive& state) override;
   void on_point(Time time) override;
-  core::Verdict verdict(const Ending& ending) const override;
 
  private:
   Time deadline(Time request) const { return later(request, demand_.within); }
@@ -33,9 +32,9 @@ class AnswerCheck final : public Check {
   void add_request(Time time);
   void add_late_reply(Time time);
   void extend_margin(Duration margin, Time time);
-  core::Verdict judged(const Ending& ending) const;
+  core::Verdict judged(const Ending& ending) const override;
   core::Verdict unanswered_verdict() const;
-  core::Margin margin(const Ending& ending) const;
+  core::Margin margin(const Ending& ending) const override;
 
   const AnswerDemand& demand_;
   std::vector<Time> open_;  ///< requests, the oldest first
@@ -59,11 +58,10 @@ class CountCheck final : public Check {
   void on_message(const core::Message& message) override;
   void persist(core::StateArchive& state) override;
   void on_point(Time time) override { last_ = time; }
-  core::Verdict verdict(const Ending& ending) const override;
 
  private:
-  core::Verdict judged(const Ending& ending) const;
-  core::Margin margin(const Ending& ending) const;
+  core::Verdict judged(const Ending& ending) const override;
+  core::Margin margin(const Ending& ending) const override;
   std::string text() const;
 
   const CountDemand& demand_;

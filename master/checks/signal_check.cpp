@@ -106,16 +106,13 @@ void SignalCheck::persist(core::StateArchive& state) {
   state.value(most_);
 }
 
-core::Verdict SignalCheck::verdict(const Ending& ending) const {
-  core::Verdict verdict = judged(ending);
-  if (verdict.passed) verdict.margin = margin();
-  verdict.limits = {demand_.signal, window().from, window().to, demand_.condition.limits()};
-  return verdict;
+std::optional<core::SignalLimits> SignalCheck::limits() const {
+  return core::SignalLimits{demand_.signal, window().from, window().to, demand_.condition.limits()};
 }
 
-/// Of a verdict that is there: at a communication point of the interval, or else at one of those
+/// At a communication point of the interval, or else at one of those
 /// beside it, which both are as they should be.
-core::Margin SignalCheck::margin() const {
+core::Margin SignalCheck::margin(const Ending& /*ending*/) const {
   const Point& point =
       decisive_ ? *decisive_ : std::min(*before_, *after_, [](const Point& a, const Point& b) {
         return a.robustness < b.robustness;

@@ -26,7 +26,6 @@ class SignalCheck final : public Check {
   void on_point(Time time) override;
   /// Behind attach().
   void persist(core::StateArchive& state) override;
-  core::Verdict verdict(const Ending& ending) const override;
 
  private:
   /// A communication point.
@@ -44,8 +43,9 @@ class SignalCheck final : public Check {
   void extend_margin(const Point& point);
   bool is_good(Truth truth) const { return truth == good_; }
 
-  core::Verdict judged(const Ending& ending) const;
-  core::Margin margin() const;
+  core::Verdict judged(const Ending& ending) const override;
+  core::Margin margin(const Ending& ending) const override;
+  std::optional<core::SignalLimits> limits() const override;
   core::Verdict bad(Time time) const;
   core::Verdict lasting_verdict() const;
   core::Verdict eventual_verdict(const Ending& ending) const;
