@@ -57,8 +57,12 @@ const kSigns = new Map([
   [null, ["?", "undecided", "open"]],
 ]);
 
-const valueText = ({ signal, value, unit }) =>
-  `${signal} = ${typeof value === "number" ? numberText(value) : value}${unit ? ` ${unit}` : ""}`;
+/** A number by this function, and any other value as it is, with its unit of measure. */
+function withUnit({ value, unit }, textOf) {
+  return `${typeof value === "number" ? textOf(value) : value}${unit ? ` ${unit}` : ""}`;
+}
+
+const valueText = (entry) => `${entry.signal} = ${withUnit(entry, numberText)}`;
 
 /** A button that moves the cursor to a time. */
 export function timeLink(view, seconds, text = `${numberText(seconds)} s`, title = "") {
@@ -66,11 +70,9 @@ export function timeLink(view, seconds, text = `${numberText(seconds)} s`, title
 }
 
 /** Short, with all digits in its title. */
-function marginLink({ value, unit, at }, view) {
-  const isNumber = typeof value === "number";
-  const withUnit = (text) => `${text}${unit ? ` ${unit}` : ""}`;
-  const title = `${withUnit(isNumber ? numberText(value) : value)} at ${numberText(at)} s`;
-  return timeLink(view, at, withUnit(isNumber ? briefText(value) : value), title);
+function marginLink(margin, view) {
+  const title = `${withUnit(margin, numberText)} at ${numberText(margin.at)} s`;
+  return timeLink(view, margin.at, withUnit(margin, briefText), title);
 }
 
 function row({ name, passed, text, time, margin, values, line }, view) {

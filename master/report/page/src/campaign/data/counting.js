@@ -1,5 +1,8 @@
-// Cases counted by bins.
+// Cases counted, in words and by bins.
 import { hasFailed, kMissing, kOutcomes } from "./outcomes.js";
+
+/** "1 case", "1,200 cases" */
+export const casesText = (count) => (count === 1 ? "1 case" : `${count.toLocaleString("en")} cases`);
 
 /**
  * For each bin of a column the number of the cases with each outcome.

@@ -1,7 +1,7 @@
 // How often each value of a parameter occurs, and with which outcomes.
 import { briefText } from "../../data/number_text.js";
 import { h, svg } from "../../dom.js";
-import { countOutcomes } from "../data/counting.js";
+import { casesText, countOutcomes } from "../data/counting.js";
 import { kOutcomes } from "../data/outcomes.js";
 
 const kBins = 24;
@@ -12,7 +12,6 @@ const kHeight = 84;
 /** From the bottom: what has not passed is seen best there. */
 const kStack = [1, 2, 3, 4, 0, 5];
 
-const casesText = (most) => (most === 1 ? "up to 1 case" : `up to ${most.toLocaleString("en")} cases`);
 
 const sum = (counts) => counts.reduce((total, count) => total + count, 0);
 
@@ -45,7 +44,12 @@ export class Histogram {
     this.box = h(
       "figure.histogram-box",
       {},
-      h("figcaption", {}, h("h3", { title: column.name }, h("bdi", {}, column.name)), h("span.there", {}, casesText(this.most))),
+      h(
+        "figcaption",
+        {},
+        h("h3", { title: column.name }, h("bdi", {}, column.name)),
+        h("span.there", {}, `up to ${casesText(this.most)}`),
+      ),
       this.picture,
       h("div.ends", {}, ...ends.map((text) => h("span", {}, text))),
     );

@@ -1,8 +1,7 @@
 // When and where the cases ran, and what they were made from.
 import { h } from "../../dom.js";
 import { madeFrom } from "../../parts/made_from.js";
-
-const casesText = (count) => (count === 1 ? "1 case" : `${count.toLocaleString("en")} cases`);
+import { casesText } from "../data/counting.js";
 
 /** "3 cases on a, 1 case on b, from 2026-11-25T23:59:59Z to …"; empty if none has run. */
 export function whereText({ began, hosts }) {

@@ -27,18 +27,20 @@ export function axisTitle(column) {
   return exponent === 0 ? column.name : `${column.name} · ${powerText(exponent)}`;
 }
 
-/** As much of a text as there is room for. */
-export function fitted(pen, text, width) {
+/** The text, or else the longest of cut(1), cut(2), … without so many of its characters for which there is room. */
+function shortened(pen, text, width, cut) {
   if (pen.measureText(text).width <= width) return text;
-  let end = text.length;
-  while (end > 1 && pen.measureText(`${text.slice(0, end)}…`).width > width) --end;
-  return `${text.slice(0, end)}…`;
+  let dropped = 1;
+  while (dropped < text.length - 1 && pen.measureText(cut(dropped)).width > width) ++dropped;
+  return cut(dropped);
 }
 
-/** The same of its end: "…offset.wrist_1". Names of one component differ there. */
+/** As much of the beginning of a text as there is room for, one character at least. */
+export function fitted(pen, text, width) {
+  return shortened(pen, text, width, (dropped) => `${text.slice(0, Math.max(1, text.length - dropped))}…`);
+}
+
+/** As much of the end of a name: "…offset.wrist_1". Names of one component differ there. */
 export function fittedName(pen, name, width) {
-  if (pen.measureText(name).width <= width) return name;
-  let begin = 1;
-  while (begin < name.length - 1 && pen.measureText(`…${name.slice(begin)}`).width > width) ++begin;
-  return `…${name.slice(begin)}`;
+  return shortened(pen, name, width, (dropped) => `…${name.slice(dropped)}`);
 }
