@@ -166,17 +166,24 @@ class PageWriter {
     file_.write(text);
   }
 
+  template <class Write>
+  void list(const char* name, std::size_t size, Write&& write_entry) {
+    member(name, "[");
+    for (std::size_t i = 0; i < size; ++i) {
+      if (i > 0) file_.write(',');
+      write_entry(i);
+    }
+    file_.write(']');
+  }
+
   void write_parameters() {
-    member("parameters", "[");
-    for (std::size_t i = 0; i < columns_.parameters.size(); ++i) {
+    list("parameters", columns_.parameters.size(), [&](std::size_t i) {
       const ParameterColumn& column = columns_.parameters[i];
-      file_.write(
-          fmt::format(R"({}{{"name":{},"values":)", i == 0 ? "" : ",", json_text(column.name)));
+      file_.write(fmt::format(R"({{"name":{},"values":)", json_text(column.name)));
       file_.write(column.is_number ? report::blob(std::span(column.numbers))
                                    : report::blob(texts_of(column)));
       file_.write('}');
-    }
-    file_.write(']');
+    });
   }
 
   static report::Texts texts_of(const ParameterColumn& column) {
@@ -186,27 +193,24 @@ class PageWriter {
   }
 
   void write_aggregates() {
-    member("aggregates", "[");
-    for (std::size_t i = 0; i < columns_.aggregates.size(); ++i) {
+    list("aggregates", columns_.aggregates.size(), [&](std::size_t i) {
       const Aggregate& aggregate = plan_.campaign().aggregates[i];
-      file_.write(fmt::format(R"({}{{"name":{},"signal":{},"function":"{}","values":)",
-                              i == 0 ? "" : ",", json_text(aggregate.name),
-                              json_text(aggregate.signal), name(aggregate.function)));
+      file_.write(fmt::format(R"({{"name":{},"signal":{},"function":"{}","values":)",
+                              json_text(aggregate.name), json_text(aggregate.signal),
+                              name(aggregate.function)));
       file_.write(report::blob(std::span(columns_.aggregates[i])));
       file_.write('}');
-    }
-    file_.write(']');
+    });
   }
 
   void write_margins() {
-    member("margins", "[");
-    for (std::size_t i = 0; i < columns_.margins.size(); ++i) {
+    list("margins", columns_.margins.size(), [&](std::size_t i) {
       const MarginColumn& column = columns_.margins[i];
-      file_.write(fmt::format(R"({}{{"name":{},"unit":{},"values":{}}})", i == 0 ? "" : ",",
-                              json_text(column.name), json_text(column.unit),
-                              report::blob(std::span(column.values))));
-    }
-    file_.write(']');
+      file_.write(fmt::format(R"({{"name":{},"unit":{},"values":)", json_text(column.name),
+                              json_text(column.unit)));
+      file_.write(report::blob(std::span(column.values)));
+      file_.write('}');
+    });
   }
 
   void write_cases(const std::vector<std::string>& links) {
