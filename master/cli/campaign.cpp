@@ -142,11 +142,8 @@ void add_campaign(CLI::App& app) {
   command->add_flag("--ssv", arguments->ssv,
                     "Write the values of each case as a parameter set, too, for 'stride run "
                     "--parameters' and other tools");
-  command
-      ->add_option("--case", arguments->only,
-                   "Print the command that runs this case, counted from 0, and write nothing")
-      ->type_name("INDEX")
-      ->check(CLI::Range(std::uint64_t{0}, campaign::Plan::kMostCases - 1));
+  add_case_option(*command, arguments->only,
+                  "Print the command that runs this case, counted from 0, and write nothing");
   command->callback([arguments] { plan_campaign(*arguments); });
   add_campaign_run(*group);
   add_campaign_submit(*group);

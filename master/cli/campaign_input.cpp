@@ -73,6 +73,13 @@ void add_campaign_options(CLI::App& command, CampaignArguments& arguments) {
       ->type_name("FOLDER");
 }
 
+CLI::Option* add_case_option(CLI::App& command, std::optional<std::uint64_t>& index,
+                             const std::string& description) {
+  return command.add_option("--case", index, description)
+      ->type_name("INDEX")
+      ->check(CLI::Range(std::uint64_t{0}, campaign::Plan::kMostCases - 1));
+}
+
 CampaignInput::CampaignInput(const CampaignArguments& arguments)
     : CampaignInput(arguments, read_with_warnings(campaign_file(arguments))) {}
 

@@ -2,7 +2,9 @@
 #ifndef STRIDE_MASTER_CLI_CAMPAIGN_INPUT_H
 #define STRIDE_MASTER_CLI_CAMPAIGN_INPUT_H
 
+#include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,7 +16,8 @@
 
 namespace CLI {
 class App;
-}
+class Option;
+}  // namespace CLI
 
 namespace stride::cli {
 
@@ -25,6 +28,10 @@ struct CampaignArguments {
 
 /// FILE|FOLDER and --out. `arguments` must outlive the command line.
 void add_campaign_options(CLI::App& command, CampaignArguments& arguments);
+
+/// --case INDEX, likewise.
+CLI::Option* add_case_option(CLI::App& command, std::optional<std::uint64_t>& index,
+                             const std::string& description);
 
 /// A campaign, its scenario with all units, and its plan, in a guarded process.
 class CampaignInput {

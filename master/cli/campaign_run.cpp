@@ -212,12 +212,9 @@ void add_campaign_run(CLI::App& group) {
           ->type_name("N")
           ->check(CLI::Range(1, kMostCaseJobs));
   CLI::Option* only =
-      command
-          ->add_option("--case", arguments->only,
-                       "Run this case only, counted from 0, and make no table: for other runners, "
-                       "which may run several at the same time")
-          ->type_name("INDEX")
-          ->check(CLI::Range(std::uint64_t{0}, campaign::Plan::kMostCases - 1))
+      add_case_option(*command, arguments->only,
+                      "Run this case only, counted from 0, and make no table: for other runners, "
+                      "which may run several at the same time")
           ->excludes(jobs);
   CLI::Option* range =
       command
