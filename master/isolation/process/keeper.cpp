@@ -1,6 +1,7 @@
 #include "master/isolation/process/keeper.h"
 
 #include <csignal>
+#include <optional>
 
 #include <sys/prctl.h>
 #include <sys/wait.h>
@@ -27,27 +28,25 @@ sigset_t block_watched_signals() {
   return watched;
 }
 
-/// Whether that process is among those that have ended, and how.
-bool take_ended(pid_t wanted, int& how) {
-  bool is_found = false;
+/// How that process has ended, if it is among those that have.
+std::optional<int> take_ended(pid_t wanted) {
+  std::optional<int> how;
   int status = 0;
   for (pid_t child = 0; (child = ::waitpid(-1, &status, WNOHANG)) > 0;) {
     if (WIFSTOPPED(status)) {
       let_go(child, status);
     } else if (child == wanted) {
       how = status;
-      is_found = true;
     }
   }
-  return is_found;
+  return how;
 }
 
 int await_end(pid_t kept, const sigset_t& watched) {
-  int how = kTerminated;
   for (;;) {
     int signal = 0;
     if (::sigwait(&watched, &signal) == 0 && signal == SIGTERM) return kTerminated;
-    if (take_ended(kept, how)) return how;
+    if (const auto how = take_ended(kept)) return *how;
   }
 }
 
