@@ -13,6 +13,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "master/isolation/process/children.h"
 #include "master/isolation/process/shared_memory.h"
 
 using namespace stride::isolation;
@@ -31,15 +32,7 @@ void wait_for_ever() {
 /// Whoever adopts it may take a while to bury it: whether the process goes on running for five
 /// seconds.
 bool goes_on(pid_t process) {
-  const auto lives = [&] {
-    char state = 'X';
-    const std::string path = "/proc/" + std::to_string(process) + "/stat";
-    if (std::FILE* const file = std::fopen(path.c_str(), "r")) {
-      if (std::fscanf(file, "%*d (%*[^)]) %c", &state) != 1) state = 'X';
-      std::fclose(file);
-    }
-    return state != 'X' && state != 'Z';
-  };
+  const auto lives = [&] { return living_thread(process).has_value(); };
   for (int i = 0; i < 500 && lives(); ++i) std::this_thread::sleep_for(10ms);
   return lives();
 }
