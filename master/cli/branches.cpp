@@ -110,6 +110,7 @@ void Branches::note_end(std::size_t branch, const isolation::ChildOutcome& outco
       break;
     case End::Interrupted:
     case End::TimedOut:
+    case End::Unkept:  // they have no keeper
       failure = "it was interrupted";
       break;
     case End::Exited:

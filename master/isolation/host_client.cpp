@@ -210,7 +210,9 @@ void HostClient::fail(const std::string& what, std::optional<Time> time) {
     hint = fmt::format("its memory is limited to {} MiB (memoryLimit); it may need more",
                        *spec_.host.memory_limit >> 20);
   }
-  core::fail_run(context(time), failure_ + output_tail_.text(), hint);
+  const std::string text = failure_ + output_tail_.text();
+  if (process_.has_lacked_something()) throw core::EnvironmentError(context(time), text, hint);
+  core::fail_run(context(time), text, hint);
 }
 
 void HostClient::fail_bad_packet(std::optional<Time> time) {

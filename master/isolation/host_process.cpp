@@ -153,6 +153,11 @@ void HostProcess::send(Command command) const {
   ::send(control_.number(), &command, sizeof command, MSG_NOSIGNAL);
 }
 
+bool HostProcess::has_lacked_something() const {
+  return end_.how == HostEnd::How::NotStarted &&
+         (end_.code == EAGAIN || core::is_shortage(end_.code));
+}
+
 std::string HostProcess::how_it_ended() const {
   if (is_control_lost_) {
     return fmt::format(

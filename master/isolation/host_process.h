@@ -38,6 +38,8 @@ class HostProcess {
   /// printed. A supervisor that does not end in time is killed, with all that it supervises.
   void finish(const std::function<void()>& meanwhile);
 
+  /// Whether it could not be started, for want of processes or memory.
+  bool has_lacked_something() const;
   /// "its process was killed by SIGSEGV (signal 11)"
   std::string how_it_ended() const;
   /// What may help, where that is known.

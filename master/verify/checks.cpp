@@ -49,6 +49,7 @@ std::string explain(const isolation::ChildOutcome& outcome, const importer::Call
       text = "it did not come to an end in time";
       break;
     case End::Interrupted:
+    case End::Unkept:  // it has no keeper
       text = "it was interrupted";
       break;
   }

@@ -11,9 +11,11 @@
 #include <vector>
 
 #include <poll.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "master/isolation/process/children.h"
 #include "master/isolation/process/descriptor.h"
 #include "master/isolation/process/keeper.h"
 #include "master/isolation/process/surroundings.h"
@@ -60,7 +62,7 @@ void end_at_once(int status, void*) {
   char kind = kAnswer;
   std::string text;
   try {
-    settle(has_keeper ? go_on_kept(parent) : parent, output);
+    settle(has_keeper ? go_on_kept(parent, answer) : parent, output);
     text = work();
   } catch (const std::exception& error) {
     kind = kException;
@@ -81,6 +83,15 @@ bool has_ended(pid_t child) {
   const int options = WEXITED | WNOWAIT | WNOHANG;
   if (::waitid(P_PID, static_cast<id_t>(child), &info, options) != 0) return errno == ECHILD;
   return info.si_pid == child;
+}
+
+/// If somebody has stopped it.
+void let_go_on(pid_t child) {
+  siginfo_t info{};
+  const int options = WSTOPPED | WNOHANG;
+  const bool is_stopped =
+      ::waitid(P_PID, static_cast<id_t>(child), &info, options) == 0 && info.si_pid == child;
+  if (is_stopped) ::kill(child, SIGCONT);
 }
 
 /// Ends all of the child's group and takes the child's status away.
@@ -113,6 +124,7 @@ class Child::Watch {
     const auto end = Clock::now() + patience;
     std::optional<End> cut_off;
     while (!has_ended(child_)) {
+      if (options_.has_keeper) let_go_on(child_);
       read();
       cut_off = reason_to_stop();
       if (cut_off) break;
@@ -128,6 +140,8 @@ class Child::Watch {
     outcome.printed = std::move(printed_);
     return outcome;
   }
+
+  bool is_of(pid_t process) const { return process == child_; }
 
   static void await_any(std::span<const Watch* const> watches, std::chrono::milliseconds patience) {
     std::vector<pollfd> files;
@@ -171,6 +185,11 @@ class Child::Watch {
   }
 
   ChildOutcome judge(int status) {
+    if (options_.has_keeper) {
+      const auto kept = take_report(text_);
+      if (!kept) return {End::Unkept, 0, {}, {}};
+      status = *kept;
+    }
     if (WIFSIGNALED(status)) return {End::Killed, WTERMSIG(status), {}, {}};
     if (WEXITSTATUS(status) != 0 || text_.empty()) {
       return {End::Exited, WEXITSTATUS(status), {}, {}};
@@ -218,6 +237,21 @@ void Child::await_any(std::span<const Child* const> children, std::chrono::milli
   Watch::await_any(watches, std::min(patience, kGlance));
 }
 
+void Child::end_others(std::span<const Child* const> children) {
+  const auto is_own = [&](pid_t process) {
+    return std::ranges::any_of(children,
+                               [&](const Child* child) { return child->watch_->is_of(process); });
+  };
+  for (bool is_one_left = true; is_one_left;) {
+    std::vector<pid_t> others = children_of(::getpid()).value_or(std::vector<pid_t>{});
+    std::erase_if(others, is_own);
+    is_one_left = !others.empty();
+    for (const pid_t other : others) reap(other);
+  }
+}
+
+void adopt_orphans() { ::prctl(PR_SET_CHILD_SUBREAPER, 1); }
+
 ChildOutcome run_in_child(const std::function<std::string()>& work, const ChildOptions& options) {
   constexpr std::chrono::hours kLong{1};
   Child child(work, options);
@@ -229,10 +263,8 @@ ChildOutcome run_in_child(const std::function<std::string()>& work, const ChildO
 std::string signal_name(int signal) {
   const char* const name = ::sigabbrev_np(signal);
   if (name != nullptr) return std::string("SIG") + name;
-  if (SIGRTMIN <= signal && signal <= SIGRTMAX) {
-    return "SIGRTMIN+" + std::to_string(signal - SIGRTMIN);
-  }
-  return "without name";
+  const int place = signal - SIGRTMIN;  // below 0 for those that the C library keeps for itself
+  return "SIGRTMIN" + (place < 0 ? std::to_string(place) : "+" + std::to_string(place));
 }
 
 }  // namespace stride::isolation

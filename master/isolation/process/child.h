@@ -19,6 +19,7 @@ struct ChildOutcome {
     Threw,        ///< `text` is the message of the exception that left it
     Exited,       ///< something in it ended the process; `code` is the exit code
     Killed,       ///< by the signal `code`
+    Unkept,       ///< its keeper was killed or limited, by the child itself or by somebody else
     TimedOut,     ///< it was killed, because its time was over
     Interrupted,  ///< likewise, because the user wanted so
   };
@@ -36,7 +37,8 @@ struct ChildOptions {
   std::chrono::milliseconds grace{};
   /// There is a process between this one and the work, whose parent it is: what the work does to
   /// its parent does not reach this process, and no process of its own outlives it, a daemon
-  /// neither, unless that one is killed. Then there is no grace.
+  /// neither; if the keeper itself was killed, end_others() ends
+  /// them in a process that has called adopt_orphans(). Then there is no grace.
   bool has_keeper = false;
 };
 
@@ -60,6 +62,9 @@ class Child {
   /// asked, without patience, whether each of them has ended.
   static void await_any(std::span<const Child* const> children, std::chrono::milliseconds patience);
 
+  /// Ends all children of this process but these: those that it has adopted.
+  static void end_others(std::span<const Child* const> children);
+
  private:
   class Watch;
   std::unique_ptr<Watch> watch_;
@@ -68,6 +73,9 @@ class Child {
 /// Runs the work in a Child and waits for its end.
 ChildOutcome run_in_child(const std::function<std::string()>& work,
                           const ChildOptions& options = {});
+
+/// From here on this process adopts what loses its parent below it: see Child::end_others().
+void adopt_orphans();
 
 /// "SIGSEGV"
 std::string signal_name(int signal);

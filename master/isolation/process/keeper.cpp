@@ -1,9 +1,12 @@
 #include "master/isolation/process/keeper.h"
 
+#include <algorithm>
 #include <csignal>
-#include <optional>
+#include <cstring>
+#include <iterator>
 
 #include <sys/prctl.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -16,16 +19,37 @@
 namespace stride::isolation {
 namespace {
 
-/// How a process has ended that SIGTERM has ended, as waitpid() has it.
-constexpr int kTerminated = SIGTERM;
+/// Behind all that was written by what it keeps.
+struct Report {
+  char mark[8] = {};
+  int status = 0;
+  int is_limited = 0;
+};
+constexpr char kMark[sizeof Report::mark] = "\0KEPT\0";
 
-sigset_t block_watched_signals() {
-  sigset_t watched;
-  ::sigemptyset(&watched);
-  ::sigaddset(&watched, SIGCHLD);
-  ::sigaddset(&watched, SIGTERM);
-  ::sigprocmask(SIG_BLOCK, &watched, nullptr);
-  return watched;
+class Limits {
+ public:
+  Limits() {
+    for (int resource = 0; resource < RLIM_NLIMITS; ++resource) {
+      ::getrlimit(static_cast<__rlimit_resource>(resource), &limits_[resource]);
+    }
+  }
+  bool operator==(const Limits& other) const {
+    return std::equal(std::begin(limits_), std::end(limits_), std::begin(other.limits_),
+                      [](const rlimit& one, const rlimit& two) {
+                        return one.rlim_cur == two.rlim_cur && one.rlim_max == two.rlim_max;
+                      });
+  }
+
+ private:
+  rlimit limits_[RLIM_NLIMITS]{};
+};
+
+/// All that can be: what a case sends to its parent is not for this one.
+void block_signals() {
+  sigset_t all;
+  ::sigfillset(&all);
+  ::sigprocmask(SIG_SETMASK, &all, nullptr);
 }
 
 /// How that process has ended, if it is among those that have.
@@ -42,11 +66,17 @@ std::optional<int> take_ended(pid_t wanted) {
   return how;
 }
 
-int await_end(pid_t kept, const sigset_t& watched) {
+/// Nothing if the parent wants its end, or has ended.
+std::optional<int> await_end(pid_t kept, pid_t parent) {
+  sigset_t watched;
+  ::sigemptyset(&watched);
+  ::sigaddset(&watched, SIGCHLD);
+  ::sigaddset(&watched, SIGTERM);
   for (;;) {
-    int signal = 0;
-    if (::sigwait(&watched, &signal) == 0 && signal == SIGTERM) return kTerminated;
-    if (const auto how = take_ended(kept)) return *how;
+    siginfo_t info{};
+    const int signal = ::sigwaitinfo(&watched, &info);
+    if (signal == SIGTERM && (info.si_pid == parent || ::getppid() != parent)) return std::nullopt;
+    if (const auto how = take_ended(kept)) return how;
   }
 }
 
@@ -57,30 +87,41 @@ void end_all_that_is_left() {
   }
 }
 
-[[noreturn]] void end_as(int status) {
-  if (WIFSIGNALED(status)) {
-    reset_signal_handlers();
-    ::kill(::getpid(), WTERMSIG(status));
-  }
-  ::_exit(WEXITSTATUS(status));
+void write_report(int file, int status, bool is_limited) {
+  Report report{.status = status, .is_limited = is_limited};
+  std::memcpy(report.mark, kMark, sizeof kMark);
+  write_all(file, reinterpret_cast<const char*>(&report), sizeof report);
 }
 
 }  // namespace
 
-pid_t go_on_kept(pid_t parent) {
+pid_t go_on_kept(pid_t parent, int report) {
   ::setpgid(0, 0);
   core::OutlivingMemory::leave();
   reset_signal_handlers();
   ::prctl(PR_SET_CHILD_SUBREAPER, 1);
-  const sigset_t watched = block_watched_signals();
+  block_signals();
   end_with(parent, SIGTERM);
+  const Limits limits;
   const pid_t self = ::getpid();
   const pid_t kept = ::fork();
   if (kept < 0) fail("fork");
   if (kept == 0) return self;
-  const int how = await_end(kept, watched);
+  const auto how = await_end(kept, parent);
   end_all_that_is_left();
-  end_as(how);
+  if (how) write_report(report, *how, !(Limits() == limits));
+  ::_exit(0);
+}
+
+std::optional<int> take_report(std::string& text) {
+  Report report;
+  if (text.size() < sizeof report) return std::nullopt;
+  const std::size_t rest = text.size() - sizeof report;
+  std::memcpy(&report, text.data() + rest, sizeof report);
+  if (std::memcmp(report.mark, kMark, sizeof kMark) != 0) return std::nullopt;
+  text.resize(rest);
+  if (report.is_limited != 0) return std::nullopt;
+  return report.status;
 }
 
 }  // namespace stride::isolation

@@ -232,36 +232,49 @@ TEST_CASE("a child with a keeper ends as one without") {
   CHECK_FALSE(has_child_left());
 }
 
-TEST_CASE("what a child does to its parent reaches its keeper at most") {
+TEST_CASE("a child that ends its keeper is one without a known end") {
   const pid_t self = ::getpid();
-  for (const int signal : {SIGKILL, SIGTERM, SIGSTOP}) {
+  const ChildOutcome outcome = run_in_child(
+      [&] {
+        if (::getppid() == self) return std::string("no keeper");
+        ::kill(::getppid(), SIGKILL);
+        wait_for_ever();
+        return std::string();
+      },
+      kKept);
+  CHECK(outcome.end == End::Unkept);
+  CHECK_FALSE(has_child_left());
+}
+
+TEST_CASE("no signal but SIGKILL does anything to a keeper") {
+  for (const int signal : {SIGTERM, SIGINT, SIGHUP, SIGQUIT, SIGSTOP, SIGXCPU, SIGSEGV, SIGCHLD}) {
     CAPTURE(signal);
-    ChildOptions options = kKept;
-    options.limit = 500ms;
     const ChildOutcome outcome = run_in_child(
         [&] {
-          if (::getppid() == self) return std::string("no keeper");
           ::kill(::getppid(), signal);
-          wait_for_ever();
-          return std::string();
+          std::this_thread::sleep_for(20ms);
+          return std::string("done");
         },
-        options);
-    CHECK(outcome.end == (signal == SIGSTOP ? End::TimedOut : End::Killed));
-    if (signal != SIGSTOP) CHECK(outcome.code == signal);
+        kKept);
+    CHECK(outcome.end == End::Answered);
+    CHECK(outcome.text == "done");
   }
   CHECK_FALSE(has_child_left());
 }
 
-TEST_CASE("a child with a keeper cannot limit the process that has started both") {
+TEST_CASE("a child that limits its keeper is one without a known end") {
   rlimit before{};
   ::getrlimit(RLIMIT_CPU, &before);
-  const ChildOutcome outcome = run_in_child(
-      [] {
-        const rlimit none{0, 0};
-        return std::to_string(::prlimit(::getppid(), RLIMIT_CPU, &none, nullptr));
-      },
-      kKept);
-  CHECK(outcome.text == "0");
+  for (const auto resource : {RLIMIT_CPU, RLIMIT_NOFILE, RLIMIT_FSIZE}) {
+    CAPTURE(resource);
+    const ChildOutcome outcome = run_in_child(
+        [&] {
+          const rlimit none{0, 0};
+          return std::to_string(::prlimit(::getppid(), resource, &none, nullptr));
+        },
+        kKept);
+    CHECK(outcome.end == End::Unkept);
+  }
   rlimit after{};
   ::getrlimit(RLIMIT_CPU, &after);
   CHECK(after.rlim_max == before.rlim_max);
@@ -290,6 +303,34 @@ TEST_CASE("no daemon outlives the keeper of the child that has started it") {
   CHECK(run([] {}, {}).end == End::Answered);
   CHECK(::kill(*daemon, 0) == 0);
   ::kill(*daemon, SIGKILL);
+}
+
+TEST_CASE("a daemon of a child that has killed its keeper is ended by who adopts it") {
+  const Shared<std::atomic<pid_t>> daemon, other;
+  const ChildOutcome outcome = run_in_child([&] {
+    adopt_orphans();
+    const Child beside([&]() -> std::string {
+      *other = ::getpid();
+      wait_for_ever();
+      return {};
+    });
+    while (*other == 0) std::this_thread::sleep_for(1ms);
+    const ChildOutcome kept = run_in_child(
+        [&] {
+          start_daemon(*daemon);
+          ::kill(::getppid(), SIGKILL);
+          wait_for_ever();
+          return std::string();
+        },
+        kKept);
+    if (kept.end != End::Unkept) return std::string("kept");
+    if (!goes_on(*daemon)) return std::string("ended before");
+    const Child* const own = &beside;
+    Child::end_others({&own, 1});
+    if (goes_on(*daemon)) return std::string("goes on");
+    return std::string(goes_on(*other) ? "good" : "a child has ended, too");
+  });
+  CHECK(outcome.text == "good");
 }
 
 TEST_CASE("no daemon of a kept child outlives the process that has started both") {
