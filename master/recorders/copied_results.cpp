@@ -28,8 +28,11 @@ void copy_unit_files(const std::filesystem::path& from, const std::filesystem::p
                             std::filesystem::copy_options::overwrite_existing,
                         error);
   if (!error) return;
-  core::fail_run({.where = {(to / kUnitsFolder).string(), 0}},
-                 fmt::format("cannot copy the files of units to here: {}", error.message()));
+  const core::Context where{.where = {(to / kUnitsFolder).string(), 0}};
+  const std::string message =
+      fmt::format("cannot copy the files of units to here: {}", error.message());
+  if (core::is_shortage(error.value())) throw core::EnvironmentError(where, message);
+  core::fail_run(where, message);
 }
 
 }  // namespace stride::recorders

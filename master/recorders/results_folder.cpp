@@ -92,7 +92,10 @@ void make_results_folder(const fs::path& folder) {
     fail("it is a file");
   }
   fs::create_directories(folder, error);
-  if (error) fail(error.message());
+  if (error) {
+    core::fail_output(error, {.where = {folder.string(), 0}},
+                      "cannot write results into this folder", "choose another results folder");
+  }
   if (::access(folder.c_str(), W_OK | X_OK) != 0) fail(std::generic_category().message(errno));
 }
 

@@ -74,9 +74,8 @@ void make_folder(const fs::path& folder) {
   std::error_code error;
   fs::create_directory(folder, error);
   if (!error) return;
-  core::fail_input({.where = {folder.string(), 0}},
-                   fmt::format("cannot make this folder for files of a unit: {}", error.message()),
-                   "choose another results folder");
+  core::fail_output(error, {.where = {folder.string(), 0}},
+                    "cannot make this folder for files of a unit", "choose another results folder");
 }
 
 }  // namespace

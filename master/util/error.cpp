@@ -1,6 +1,7 @@
 #include "master/util/error.h"
 
 #include <cerrno>
+#include <new>
 #include <utility>
 
 #include <fmt/format.h>
@@ -26,6 +27,13 @@ void fail_run(Context context, const std::string& message, const std::string& hi
   throw Error(Error::Kind::Run, std::move(context), message, hint);
 }
 
+void fail_output(const std::error_code& reason, Context context, const std::string& message,
+                 const std::string& hint) {
+  const std::string text = message + ": " + reason.message();
+  if (!is_shortage(reason.value())) fail_input(std::move(context), text, hint);
+  throw EnvironmentError(std::move(context), text, "make room on the disk");
+}
+
 bool is_shortage(int error) {
   switch (error) {
     case ENOSPC:
@@ -37,6 +45,16 @@ bool is_shortage(int error) {
     default:
       return false;
   }
+}
+
+bool is_of_environment(const std::exception& error) {
+  if (dynamic_cast<const EnvironmentError*>(&error) != nullptr) return true;
+  if (dynamic_cast<const std::bad_alloc*>(&error) != nullptr) return true;
+  const auto* const system = dynamic_cast<const std::system_error*>(&error);
+  if (system == nullptr) return false;
+  const std::error_condition what = system->code().default_error_condition();
+  if (what.category() != std::generic_category()) return false;
+  return what == std::errc::resource_unavailable_try_again || is_shortage(what.value());
 }
 
 std::string to_text(const Context& context) {

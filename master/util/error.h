@@ -3,10 +3,13 @@
 #define STRIDE_MASTER_UTIL_ERROR_H
 
 #include <cstddef>
+#include <exception>
 #include <optional>
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <system_error>
+#include <utility>
 
 #include <stride/time.h>
 
@@ -56,15 +59,32 @@ class ConsequentError : public Error {
   using Error::Error;
 };
 
+/// Neither is the input wrong nor has the simulation failed: the machine lacks something, such as
+/// room on a disk, or other code has moved a file that is in use.
+class EnvironmentError : public Error {
+ public:
+  EnvironmentError(Context context, const std::string& message, const std::string& hint = "")
+      : Error(Kind::Run, std::move(context), message, hint) {}
+};
+
 /// Shorthands for the two kinds.
 [[noreturn]] void fail_input(Context context, const std::string& message,
                              const std::string& hint = "");
 [[noreturn]] void fail_run(Context context, const std::string& message,
                            const std::string& hint = "");
 
+/// Of what the system does not let be made where the user wants it: "message: No such file". Throws
+/// an EnvironmentError if it lacks something, else fails as the input does, with the hint.
+[[noreturn]] void fail_output(const std::error_code& reason, Context context,
+                              const std::string& message, const std::string& hint);
+
 /// Whether this errno says that the system lacks something, such as room on a disk or numbers for
 /// open files: no file that the user names instead would help.
 bool is_shortage(int error);
+
+/// Whether it is an EnvironmentError, or one that the standard library has thrown for such an errno
+/// or for want of processes, threads or memory.
+bool is_of_environment(const std::exception& error);
 
 /// "FILE:LINE: unit 'U', variable 'V', at T s: ", as far as it is known.
 std::string to_text(const Context& context);

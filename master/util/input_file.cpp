@@ -31,13 +31,18 @@ const char* kind_of(mode_t mode) {
 struct Mistake {
   std::string message;
   std::string hint;
-  Error::Kind kind = Error::Kind::Input;
+  bool is_shortage = false;
+
+  [[noreturn]] void fail(const Context& context, const std::string& text) const {
+    if (is_shortage) throw EnvironmentError(context, text, hint);
+    fail_input(context, text, hint);
+  }
 };
 
 Mistake mistake_of(int error) {
   if (error == ENOENT || error == ENOTDIR) return {"the file does not exist", "check its path"};
   const std::string message = fmt::format("cannot read the file: {}", reason(error));
-  if (is_shortage(error)) return {message, "", Error::Kind::Run};
+  if (is_shortage(error)) return {message, "", true};
   if (error == ELOOP) return {message, kLinkLoopHint};
   return {message, "check that it is a file that you may read"};
 }
@@ -75,8 +80,7 @@ constexpr std::string_view kLfsBeginning = "version https://git-lfs.github.com/s
 Descriptor open_input(const fs::path& file, const Location& where) {
   Descriptor opened;
   if (const auto mistake = open(file, opened)) {
-    throw Error(mistake->kind, {.where = where},
-                fmt::format("'{}': {}", file.string(), mistake->message), mistake->hint);
+    mistake->fail({.where = where}, fmt::format("'{}': {}", file.string(), mistake->message));
   }
   return opened;
 }
@@ -84,7 +88,7 @@ Descriptor open_input(const fs::path& file, const Location& where) {
 Descriptor open_input(const fs::path& file, const std::string& shown_as) {
   Descriptor opened;
   if (const auto mistake = open(file, opened)) {
-    throw Error(mistake->kind, at(file, shown_as), mistake->message, mistake->hint);
+    mistake->fail(at(file, shown_as), mistake->message);
   }
   return opened;
 }

@@ -111,7 +111,7 @@ void OutputFile::open(Existing existing) {
   }
   const std::string message =
       fmt::format("cannot create the file: {}", std::generic_category().message(error));
-  if (is_shortage(error)) fail_run(where, message, hint_for_shortage(error));
+  if (is_shortage(error)) throw EnvironmentError(where, message, hint_for_shortage(error));
   fail_input(where, message, hints_.create);
 }
 
@@ -262,7 +262,7 @@ void OutputFile::check_size() {
       !absolute_path_.empty() && ::fstat(descriptor_, &status) == 0 && status.st_size < taken_;
   if (!is_cut) return;
   has_failed_ = true;
-  fail_run(
+  throw EnvironmentError(
       {.where = {path_.string(), 0}, .time = time_},
       fmt::format("other code has cut the file off while it was written: it has {} bytes of {}",
                   status.st_size, taken_),
@@ -273,7 +273,7 @@ void OutputFile::check_size() {
 void OutputFile::check_path() {
   if (absolute_path_.empty() || FileIdentity::of(absolute_path_.c_str()) == identity_) return;
   has_failed_ = true;
-  fail_run(
+  throw EnvironmentError(
       {.where = {path_.string(), 0}, .time = time_},
       "other code has moved or removed the file, or put another one in its place, while it was "
       "written",
@@ -384,9 +384,12 @@ void OutputFile::fail(int error) {
   // fails for what is no regular file, where there is nothing to cut
   if (descriptor_ >= 0 && !is_untouched_ && is_own() && taken_ > rest_->line_end)
     (void)!::ftruncate(descriptor_, rest_->line_end);
-  fail_run({.where = {path_.string(), 0}, .time = time_},
-           fmt::format("cannot write the file: {}", std::generic_category().message(error)),
-           hints_.write != nullptr ? hints_.write : hint_for(error));
+  const Context where{.where = {path_.string(), 0}, .time = time_};
+  const std::string message =
+      fmt::format("cannot write the file: {}", std::generic_category().message(error));
+  const char* const hint = hints_.write != nullptr ? hints_.write : hint_for(error);
+  if (is_shortage(error)) throw EnvironmentError(where, message, hint);
+  fail_run(where, message, hint);
 }
 
 void OutputFile::fail_taken(bool is_back) {

@@ -33,11 +33,11 @@ bool is_chosen() {
 /// A mistake in TMPDIR is one of the input; a full disk is not.
 [[noreturn]] void fail(const fs::path& path, const std::string& what) {
   const int error = errno;
-  const bool is_full = error == ENOSPC || error == EDQUOT;
-  throw core::Error(is_full ? core::Error::Kind::Run : core::Error::Kind::Input, {},
-                    fmt::format("{}cannot {} '{}': {}", is_chosen() ? "TMPDIR: " : "", what,
-                                path.string(), std::strerror(error)),
-                    "set TMPDIR to a folder that you may write to and that has room");
+  const std::string message = fmt::format("{}cannot {} '{}': {}", is_chosen() ? "TMPDIR: " : "",
+                                          what, path.string(), std::strerror(error));
+  const char* const hint = "set TMPDIR to a folder that you may write to and that has room";
+  if (core::is_shortage(error)) throw core::EnvironmentError({}, message, hint);
+  core::fail_input({}, message, hint);
 }
 
 /// Whether the path still names this open file.

@@ -142,6 +142,12 @@ std::string Element::required(const char* name) const {
   return value;
 }
 
+std::string Element::required_line(const char* name) const {
+  std::string value = required(name);
+  if (value.find_first_of("\n\r") == std::string::npos) return value;
+  fail(fmt::format("the attribute '{}' of {} has more than one line", name, tag()));
+}
+
 bool Element::lenient_flag(const char* name, std::vector<std::string>& warnings) const {
   const std::string value = without_blanks(attribute_or(name));
   const std::string lower = core::lower_case(value);

@@ -82,6 +82,8 @@ class Element {
   std::string given(const char* name) const;
   /// An attribute that must be there and not be empty.
   std::string required(const char* name) const;
+  /// Likewise, of one line: what names something in tables and messages.
+  std::string required_line(const char* name) const;
   bool flag(const char* name, bool otherwise = false) const;
   /// Likewise, false where it is missing; True and FALSE, which some tools write, are taken with a
   /// warning.
