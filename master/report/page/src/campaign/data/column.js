@@ -4,6 +4,8 @@ import { decimalsOf } from "../../plot/ticks.js";
 
 /** Of numbers with no more different values than these each one is a bin. */
 const kFewValues = 12;
+/** Of a parameter that the case leaves as it is; texts have it from the campaign. */
+const kScenarioValue = "(as in the scenario)";
 
 function finiteExtremes(values) {
   let least = Infinity;
@@ -97,13 +99,13 @@ export class Column {
   /** With all digits. */
   textAt(row) {
     const value = this.values[row];
-    if (Number.isNaN(value)) return "";
+    if (Number.isNaN(value)) return this.role === "parameter" ? kScenarioValue : "";
     return this.isNumber ? numberText(value) : this.categories[value];
   }
 
   briefAt(row) {
     const value = this.values[row];
-    if (Number.isNaN(value)) return "";
+    if (Number.isNaN(value)) return this.role === "parameter" ? kScenarioValue : "";
     return this.isNumber ? briefText(value) : this.categories[value];
   }
 

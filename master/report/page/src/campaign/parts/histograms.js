@@ -48,12 +48,18 @@ export class Histogram {
         "figcaption",
         {},
         h("h3", { title: column.name }, h("bdi", {}, column.name)),
-        h("span.there", {}, `up to ${casesText(this.most)}`),
+        h("span.there", {}, `up to ${casesText(this.most)}${this.#restText()}`),
       ),
       this.picture,
       h("div.ends", {}, ...ends.map((text) => h("span", {}, text))),
     );
     this.draw();
+  }
+
+  /** Cases whose value is infinite, or the scenario's own, which is not known here. */
+  #restText() {
+    const rest = this.report.count - sum(this.all.map(sum));
+    return rest === 0 ? "" : `, ${rest} not shown`;
   }
 
   draw() {

@@ -47,3 +47,8 @@ test("bins of numbers that are nearly alike have all digits", () => {
   const { texts } = new Column("a", "parameter", [1.000001, 1.000002]).bins(8);
   assert.deepEqual(texts, ["1.000001", "1.000002"]);
 });
+
+test("what a case leaves as it is in the scenario is said so, of parameters only", () => {
+  assert.equal(new Column("a", "parameter", [NaN]).textAt(0), "(as in the scenario)");
+  assert.equal(new Column("a", "aggregate", [NaN]).briefAt(0), "");
+});
