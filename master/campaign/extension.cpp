@@ -45,7 +45,7 @@ Choice read_choice(const xml::Element& element, const char* attribute, const Cho
 
 /// What declares parameters is called by its name in theirs.
 std::string read_own_name(const xml::Element& element, const Campaign& campaign) {
-  const std::string name = element.required("name");
+  const std::string name = element.required_line("name");
   if (name.find('.') != std::string::npos) {
     element.fail(fmt::format("the name '{}' has a dot", core::name_text(name)),
                  "parts of an intervention follow a dot: choose a name without one");
@@ -74,7 +74,7 @@ void read_swap(const xml::Element& element, const Extension& to) {
   for (const xml::Element& unit : element.children()) {
     unit.allow_attributes({"name", "file"});
     unit.allow_children({});
-    const std::string name = unit.required("name");
+    const std::string name = unit.required_line("name");
     if (std::ranges::find(swap.alternatives, name, &Swap::Alternative::name) !=
         swap.alternatives.end()) {
       unit.fail(fmt::format("a second unit is called '{}'", core::name_text(name)));
@@ -182,7 +182,7 @@ auto parsed(const xml::Element& element, const char* attribute, Parse&& parse) {
 void read_aggregate(const xml::Element& element, const Extension& to) {
   element.allow_attributes({"name", "signal", "function", "at"});
   element.allow_children({});
-  Aggregate aggregate{element.required("name"),
+  Aggregate aggregate{element.required_line("name"),
                       element.required("signal"),
                       read_choice(element, "function", kAggregateFunctions),
                       {},

@@ -84,15 +84,6 @@ void read_answer(const xml::Element& element, CheckDeclaration& check) {
   check.window = read_window(element);
 }
 
-/// A line of tables, test reports and messages.
-std::string read_name(const xml::Element& element) {
-  std::string name = element.required("name");
-  if (name.find_first_of("\n\r") != std::string::npos) {
-    element.fail("'name' has more than one line");
-  }
-  return name;
-}
-
 struct Word {
   const char* element;
   checks::Kind kind;
@@ -122,7 +113,7 @@ std::vector<CheckDeclaration> read_checks(const xml::Element& checks) {
       element.allow_children({});
       CheckDeclaration& check = found.emplace_back();
       check.kind = word.kind;
-      if (element.attribute("name")) check.name = read_name(element);
+      if (element.attribute("name")) check.name = element.required_line("name");
       check.where = element.where();
       word.read(element, check);
     }

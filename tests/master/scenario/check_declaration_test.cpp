@@ -71,7 +71,7 @@ TEST_CASE("what is written wrongly is refused, with its line") {
   CHECK_THAT(declaration_error("<stride:Always signal='a' to='nan'/>"), Contains("to: 'nan'"));
   CHECK_THAT(declaration_error("<stride:Always signal='a' name=''/>"), Contains("name"));
   CHECK_THAT(declaration_error("<stride:Always signal='a' max='1' name='a&#10;b'/>"),
-             Contains("'name' has more than one line"));
+             Contains("'name' of <stride:Always> has more than one line"));
   CHECK_THAT(declaration_error("<stride:Final signal='a' equals='1' from='1'/>"), Contains("from"));
   CHECK_THAT(declaration_error("<stride:Count event='a'/>"),
              Contains("expected min, max or equals"));
