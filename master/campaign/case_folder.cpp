@@ -27,6 +27,9 @@ namespace fs = std::filesystem;
 /// Digits of a name that are its place in its folder.
 constexpr std::size_t kPlaces = 3;
 
+/// That a case may need for its files [byte].
+constexpr std::size_t kRoom = 64 << 10;
+
 core::Descriptor opened(const fs::path& folder) {
   return core::Descriptor(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
 }
@@ -124,19 +127,38 @@ void CaseScratch::keep_results(std::uint64_t index) const {
   move(results(index), to);
 }
 
-bool CaseScratch::has_room() const {
-  constexpr std::uintmax_t kRoom = 16 << 10;  // [byte]
-  std::error_code error;
-  const fs::space_info space = fs::space(folder_, error);
-  return error || space.available >= kRoom;
+std::optional<std::string> CaseScratch::why_unusable() const {
+  const fs::path probe = file(fmt::format("probe_{}", ::getpid()));  // forks look, too
+  const std::string some(kRoom, ' ');
+  std::optional<std::string> reason;
+  try {
+    fs::create_directory(probe);
+    core::OutputFile output(probe / "file");
+    output.write(some);
+    output.close();
+  } catch (const fs::filesystem_error& error) {
+    reason =
+        fmt::format("no folder can be made in {}: {}", folder_.string(), error.code().message());
+  } catch (const core::Error& error) {
+    reason = fmt::format("nothing can be written in {}: {}", folder_.string(), error.message());
+  }
+  std::error_code ignored;
+  fs::remove_all(probe, ignored);
+  return reason;
 }
 
 void CaseScratch::write(std::uint64_t index, const std::string& line) const {
   const fs::path fresh = file(fmt::format("record_{}.json", index));  // forks write, too
-  core::OutputFile record(fresh);
-  record.write(line);
-  record.write('\n');
-  record.close();
+  try {
+    core::OutputFile record(fresh);
+    record.write(line);
+    record.write('\n');
+    record.close();
+  } catch (const core::Error& failure) {
+    core::fail_run(failure.context(),
+                   fmt::format("case {} has no record: {}", index, failure.message()),
+                   "see to the folder and its disk, and run the campaign again: it goes on");
+  }
   move(fresh, cases_.record_file(index));
 }
 

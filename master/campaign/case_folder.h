@@ -64,8 +64,9 @@ class CaseScratch {
   /// Moves them to their place. To be called before write().
   void keep_results(std::uint64_t index) const;
 
-  /// Whether there is room for some files: on a full disk a case fails by what is not its own.
-  bool has_room() const;
+  /// Why nothing more can be written here, if that is so: "the disk is full". A case fails by that
+  /// without being to blame.
+  std::optional<std::string> why_unusable() const;
 
   /// The record is there as a whole or not at all. Throws core::Error (Run).
   void write(std::uint64_t index, const std::string& line) const;

@@ -5,17 +5,17 @@
 
 #include <fmt/format.h>
 
-namespace stride::campaign {
-namespace {
+#include "master/campaign/plan.h"
 
-std::optional<std::uint64_t> case_index(std::string_view text) {
+namespace stride::campaign {
+
+std::optional<std::uint64_t> parse_case_index(std::string_view text) {
   std::uint64_t index = 0;
   const char* const end = text.data() + text.size();
   const auto [rest, error] = std::from_chars(text.data(), end, index);
-  return error == std::errc() && rest == end ? std::optional(index) : std::nullopt;
+  const bool is_whole = error == std::errc() && rest == end && index < Plan::kMostCases;
+  return is_whole ? std::optional(index) : std::nullopt;
 }
-
-}  // namespace
 
 std::string to_text(const CaseRange& range) {
   if (range.first == range.last) return fmt::format("{}", range.first);
@@ -24,8 +24,9 @@ std::string to_text(const CaseRange& range) {
 
 std::optional<CaseRange> parse_case_range(std::string_view text) {
   const std::size_t dash = text.find('-');
-  const auto first = case_index(text.substr(0, dash));
-  const auto last = dash == std::string_view::npos ? first : case_index(text.substr(dash + 1));
+  const auto first = parse_case_index(text.substr(0, dash));
+  const auto last =
+      dash == std::string_view::npos ? first : parse_case_index(text.substr(dash + 1));
   if (!first || !last || *first > *last) return std::nullopt;
   return CaseRange{*first, *last};
 }

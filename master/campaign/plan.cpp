@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <iterator>
 #include <stdexcept>
+#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
@@ -22,7 +24,20 @@ namespace {
 
 using Role = PlanColumn::Role;
 
+/// Of cases.csv, beside those of each plan; others that are not parameters have a colon.
+constexpr std::string_view kColumnsOfResults[] = {"outcome",   "reason", "reached",
+                                                  "wall_time", "began",  "host"};
+
+void refuse_column_of_results(const Parameter& parameter) {
+  if (std::ranges::find(kColumnsOfResults, parameter.name) == std::end(kColumnsOfResults)) return;
+  core::fail_input(
+      {.where = parameter.where},
+      fmt::format("'{}' is the name of a column that each table of cases has", parameter.name),
+      "choose another name");
+}
+
 PlanColumn column_of(const Campaign& campaign, const Parameter& parameter) {
+  refuse_column_of_results(parameter);
   for (std::size_t i = 0; i < campaign.swaps.size(); ++i) {
     if (campaign.swaps[i].name == parameter.name) return {parameter, Role::Swap, i, {}};
   }
@@ -49,9 +64,9 @@ std::uint64_t size_of(const Factor& factor) {
 }
 
 [[noreturn]] void fail_size(const Campaign& campaign, const std::string& count) {
-  core::fail_input({.where = {campaign.file.string(), 0}},
-                   fmt::format("the campaign has {} cases, and {} at most are possible", count,
-                               Plan::kMostCases));
+  core::fail_input(
+      {.where = {campaign.file.string(), 0}},
+      fmt::format("the campaign has {} cases, which is more than {}", count, Plan::kMostCases));
 }
 
 std::uint64_t count_cases(const Campaign& campaign) {
@@ -61,8 +76,8 @@ std::uint64_t count_cases(const Campaign& campaign) {
   }
   std::uint64_t count = 1;
   for (const Factor& factor : std::get<Deterministic>(campaign.variation).factors) {
-    if (__builtin_mul_overflow(count, size_of(factor), &count)) fail_size(campaign, "too many");
-    if (count > Plan::kMostCases) fail_size(campaign, "more than 10 million");
+    if (__builtin_mul_overflow(count, size_of(factor), &count)) fail_size(campaign, "2^64 or more");
+    if (count > Plan::kMostCases) fail_size(campaign, fmt::format("{} or more", count));
   }
   return count;
 }

@@ -39,7 +39,7 @@ std::string table_text(const campaign::ValueTable& table, std::size_t place) {
   const auto column = static_cast<std::size_t>(found - table.parameters.begin());
   std::vector<std::string> texts;
   for (const auto& row : table.rows) {
-    texts.push_back(row.values[column] ? *row.values[column] : "(the scenario's)");
+    texts.push_back(row.values[column] ? *row.values[column] : "(as in the scenario)");
   }
   const std::string list = core::abridged(texts, kMostAlternatives);
   return table.parameters.size() == 1 ? list : "together with others: " + list;

@@ -12,12 +12,14 @@
 #include <fmt/format.h>
 
 #include "master/campaign/campaign_file.h"
+#include "master/campaign/case_range.h"
 #include "master/campaign/plan_check.h"
 #include "master/campaign/plan_folder.h"
 #include "master/cli/output.h"
 #include "master/cli/output_paths.h"
 #include "master/util/error.h"
 #include "master/util/input_file.h"
+#include "master/util/message_text.h"
 
 namespace stride::cli {
 namespace {
@@ -75,9 +77,14 @@ void add_campaign_options(CLI::App& command, CampaignArguments& arguments) {
 
 CLI::Option* add_case_option(CLI::App& command, std::optional<std::uint64_t>& index,
                              const std::string& description) {
-  return command.add_option("--case", index, description)
-      ->type_name("INDEX")
-      ->check(CLI::Range(std::uint64_t{0}, campaign::Plan::kMostCases - 1));
+  const auto read = [&index](const std::string& text) {
+    index = campaign::parse_case_index(text);
+    if (index) return;
+    throw CLI::ValidationError(
+        "--case", fmt::format("'{}' is no whole number from 0 to {}", core::name_text(text),
+                              campaign::Plan::kMostCases - 1));
+  };
+  return command.add_option_function<std::string>("--case", read, description)->type_name("INDEX");
 }
 
 CampaignInput::CampaignInput(const CampaignArguments& arguments)

@@ -34,11 +34,13 @@ void CampaignProgress::show(const campaign::CaseTotals& totals) {
   if (form_ == Progress::Form::Nothing || !is_due(totals, now)) return;
   put(totals, nullptr);
   shown_ = now;
+  shown_done_ = totals.done();
   shown_tenth_ = tenth(totals);
 }
 
 void CampaignProgress::end(const campaign::CaseTotals& totals, const std::string& outcome) {
-  if (form_ == Progress::Form::Nothing) return;
+  const bool is_shown = form_ == Progress::Form::Lines && shown_done_ == totals.done();
+  if (form_ == Progress::Form::Nothing || is_shown) return;
   put(totals, &outcome);
   if (form_ == Progress::Form::Rewritten) Progress::put("\n");
 }

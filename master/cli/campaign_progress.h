@@ -34,6 +34,7 @@ class CampaignProgress {
   Progress::Form form_;
   std::uint64_t done_before_;
   std::uint64_t shown_tenth_;
+  std::optional<std::uint64_t> shown_done_;  ///< by show()
   Clock::time_point began_ = Clock::now(), shown_ = began_;
 };
 

@@ -31,6 +31,7 @@
 #include "master/cli/table.h"
 #include "master/recorders/results_folder.h"
 #include "master/util/error.h"
+#include "master/util/message_text.h"
 
 namespace stride::cli {
 namespace {
@@ -83,12 +84,15 @@ void print_summary(const CampaignInput& input, const campaign::CaseSummary& summ
 
 void require_all_passed(const CampaignInput& input, const campaign::CaseTotals& totals) {
   if (MissingCases::is_interrupted() || totals.missing() > 0) {
-    core::fail_run({},
-                   fmt::format("the campaign was interrupted; {} of {} are done", totals.done(),
-                               cases_text(totals.cases)),
-                   fmt::format("it goes on with: stride campaign run {}", input.word()));
+    core::fail_run(
+        {},
+        fmt::format("the campaign {}; {} of {} are done",
+                    MissingCases::is_interrupted() ? "was interrupted" : "is not complete",
+                    totals.done(), cases_text(totals.cases)),
+        fmt::format("it goes on with: stride campaign run {}", input.word()));
   }
   if (totals.failed == 0) return;
+  if (totals.cases == 1) core::fail_run({}, "the only case has not passed");
   core::fail_run({}, fmt::format("{} of {} {} not passed", totals.failed, cases_text(totals.cases),
                                  totals.failed == 1 ? "has" : "have"));
 }
@@ -144,6 +148,13 @@ void run_range(const CampaignRunArguments& arguments, const CampaignInput& input
   require_all_passed(input, totals);
 }
 
+CasePool::Ended run_alone(CasePool& pool, const CaseRunner& runner, std::uint64_t index) {
+  pool.start(index, [&] { return runner.run(index); });
+  std::optional<CasePool::Ended> ended;
+  while (!ended) ended = pool.collect(std::chrono::hours(1));
+  return std::move(*ended);
+}
+
 std::optional<campaign::CaseResult> run_case(const CampaignInput& input,
                                              const campaign::CaseFolder& cases,
                                              std::uint64_t index) {
@@ -151,10 +162,10 @@ std::optional<campaign::CaseResult> run_case(const CampaignInput& input,
   const Interruption interruption;
   const CaseRunner runner(input.plan(), input.scenario(), scratch);
   CasePool pool(1, case_options(input.plan().campaign()));
-  pool.start(index, [&] { return runner.run(index); });
-  std::optional<CasePool::Ended> ended;
-  while (!ended) ended = pool.collect(std::chrono::hours(1));
-  return runner.conclude(*ended);
+  pool.adopt_orphans();
+  CasePool::Ended ended = run_alone(pool, runner, index);
+  if (runner.is_doubtful(ended)) ended = run_alone(pool, runner, index);
+  return runner.conclude(ended);
 }
 
 void run_only(const CampaignRunArguments& arguments, const CampaignInput& input) {
@@ -223,12 +234,13 @@ void add_campaign_run(CLI::App& group) {
               [arguments](const std::string& text) {
                 arguments->range = campaign::parse_case_range(text);
                 if (!arguments->range) {
-                  throw CLI::ValidationError("--cases", "'" + text + "' is not as 20-29");
+                  throw CLI::ValidationError(
+                      "--cases", "'" + core::name_text(text) + "' is not as 20-29 or 7");
                 }
               },
               "Run those of these cases that have no record, counted from 0, and make no table: "
               "likewise, for many short cases")
-          ->type_name("FIRST-LAST")
+          ->type_name("FIRST[-LAST]")
           ->excludes(only);
   command
       ->add_option("--junit", arguments->junit,

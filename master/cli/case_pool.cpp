@@ -1,7 +1,6 @@
 #include "master/cli/case_pool.h"
 
 #include <utility>
-#include <vector>
 
 namespace stride::cli {
 
@@ -17,11 +16,20 @@ std::optional<CasePool::Ended> CasePool::collect(std::chrono::milliseconds patie
     if (auto ended = take_ended()) return ended;
     const auto rest = std::chrono::ceil<std::chrono::milliseconds>(end - Clock::now());
     if (rest.count() <= 0) break;
-    std::vector<const isolation::Child*> children;
-    for (const Running& running : running_) children.push_back(&running.child);
-    isolation::Child::await_any(children, rest);
+    isolation::Child::await_any(children(), rest);
   }
   return std::nullopt;
+}
+
+void CasePool::adopt_orphans() {
+  isolation::adopt_orphans();
+  adopts_orphans_ = true;
+}
+
+std::vector<const isolation::Child*> CasePool::children() const {
+  std::vector<const isolation::Child*> children;
+  for (const Running& running : running_) children.push_back(&running.child);
+  return children;
 }
 
 std::optional<CasePool::Ended> CasePool::take_ended() {
@@ -30,6 +38,8 @@ std::optional<CasePool::Ended> CasePool::take_ended() {
     if (!outcome) continue;
     Ended ended{running->index, std::move(*outcome), Clock::now() - running->begin, running->began};
     running_.erase(running);
+    const bool is_good = ended.outcome.end == isolation::ChildOutcome::End::Answered;
+    if (adopts_orphans_ && !is_good) isolation::Child::end_others(children());
     return ended;
   }
   return std::nullopt;

@@ -10,6 +10,7 @@
 #include <list>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "master/isolation/process/child.h"
 
@@ -39,6 +40,10 @@ class CasePool {
   void start(std::uint64_t index, const std::function<std::string()>& work,
              const isolation::ChildOptions& options);
 
+  /// From here on this process, which has no other children, adopts what loses its parent below it,
+  /// and ends that when a case has ended in a bad way.
+  void adopt_orphans();
+
   /// One that has ended; nothing if none does within the patience.
   std::optional<Ended> collect(std::chrono::milliseconds patience);
 
@@ -53,10 +58,12 @@ class CasePool {
   };
 
   std::optional<Ended> take_ended();
+  std::vector<const isolation::Child*> children() const;
 
   std::size_t jobs_;
   isolation::ChildOptions options_;
   std::list<Running> running_;
+  bool adopts_orphans_ = false;
 };
 
 }  // namespace stride::cli

@@ -116,6 +116,7 @@ CaseResult CaseRun::result_of(Go&& go) {
   } catch (const core::TakenFileError& taken) {
     end_with(taken.what());
   } catch (const std::exception& error) {
+    if (core::is_of_environment(error)) throw;
     failure = in_words(error);
   }
   CaseResult result{.verdicts = campaign::case_verdicts(recorded_.verdicts()),

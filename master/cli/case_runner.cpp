@@ -4,6 +4,7 @@
 #include <csignal>
 #include <ctime>
 #include <exception>
+#include <stdexcept>
 #include <string_view>
 #include <utility>
 
@@ -15,7 +16,9 @@
 #include "master/cli/command_line.h"
 #include "master/cli/crash_guard.h"
 #include "master/cli/interruption.h"
+#include "master/cli/machine_lack.h"
 #include "master/cli/output.h"
+#include "master/cli/output_paths.h"
 #include "master/cli/provenance.h"
 #include "master/cli/report_page.h"
 #include "master/util/error.h"
@@ -58,10 +61,27 @@ void await_end_of_job() {
   if (Interruption::flag() == 0) ::nanosleep(&kPatience, nullptr);  // a signal ends it
 }
 
-/// What a signal from outside does; others are of the case's own making.
-bool was_killed_from_outside(const isolation::ChildOutcome& outcome) {
-  return outcome.end == End::Killed &&
-         (outcome.code == SIGKILL || outcome.code == SIGTERM || outcome.code == SIGHUP);
+/// It may have been a signal from outside; others are of the case's own making.
+bool may_be_killed_from_outside(const isolation::ChildOutcome& outcome) {
+  return outcome.end == End::Unkept ||
+         (outcome.end == End::Killed &&
+          (outcome.code == SIGKILL || outcome.code == SIGTERM || outcome.code == SIGHUP));
+}
+
+/// For conclude(), by way of an exception: what a case lacks is not its own fault.
+[[noreturn]] void fail_lacking(const std::exception& lack) {
+  throw std::runtime_error(in_words(lack));
+}
+
+void add_files(core::FileStamps& files, const scenario::LoadedScenario& loaded) {
+  for (const KeptPath& input : inputs_of(loaded)) {
+    if (core::is_file(input.path)) files.add(input.path);
+  }
+  for (const auto& fmu : loaded.fmus()) {
+    for (const fs::path& folder : {fmu->folder(), fmu->resources()}) {
+      if (core::is_folder(folder)) files.add(folder);
+    }
+  }
 }
 
 bool is_complete(const CaseResult& result) {
@@ -78,8 +98,11 @@ CaseRunner::CaseRunner(const campaign::Plan& plan, const campaign::CampaignScena
     if (core::is_file(document)) files.read_ahead(document);
   }
   provenance_of(scenario.loaded(), digests_);
-  for (const auto& alternative : scenario.alternatives())
+  add_files(files_, scenario.loaded());
+  for (const auto& alternative : scenario.alternatives()) {
     provenance_of(alternative.loaded, digests_);
+    add_files(files_, alternative.loaded);
+  }
 }
 
 bool CaseRunner::has_hosts() const {
@@ -125,6 +148,7 @@ CaseResult CaseRunner::simulate(std::uint64_t index, bool& was_interrupted) cons
     was_interrupted = run.was_interrupted();
     return result;
   } catch (const std::exception& mistake) {
+    if (core::is_of_environment(mistake)) fail_lacking(mistake);
     return {.outcome = Outcome::Error, .reason = in_words(mistake)};
   }
 }
@@ -185,7 +209,7 @@ std::string CaseRunner::run_together(const campaign::SharedBeginning& shared, st
         auto ended = pool.collect(std::chrono::milliseconds(100));
         if (!ended) return;
         ended->wall_time += beginning;
-        conclude(*ended);
+        if (!is_doubtful(*ended)) conclude(*ended);
       };
       for (const std::uint64_t index : shared.cases) {
         while (pool.is_full()) collect();
@@ -216,6 +240,7 @@ std::string CaseRunner::simulate_rest(std::uint64_t index, const campaign::Share
     const auto interventions = plan_.request(plan_.at(index)).interventions;
     result = run.run_rest(interventions, shared.until, results(index));
   } catch (const std::exception& mistake) {
+    if (core::is_of_environment(mistake)) fail_lacking(mistake);
     result = {.outcome = Outcome::Error, .reason = in_words(mistake)};
   }
   return run.was_interrupted() ? "" : campaign::record_line(plan_, plan_.at(index), result);
@@ -234,6 +259,11 @@ std::optional<CaseResult> CaseRunner::result_of(const CasePool::Ended& ended) co
                                               plan_.campaign().wall_time_limit.value_or(0))};
     case End::Interrupted:
       return std::nullopt;
+    case End::Unkept:
+      return CaseResult{
+          .outcome = Outcome::Crashed,
+          .reason =
+              "the process that watches over it was ended or limited, by a unit or from outside"};
     case End::Exited:
     case End::Killed:
       break;
@@ -241,19 +271,23 @@ std::optional<CaseResult> CaseRunner::result_of(const CasePool::Ended& ended) co
   return crashed(outcome);
 }
 
+bool CaseRunner::is_doubtful(const CasePool::Ended& ended) const {
+  const auto result = result_of(ended);
+  if (!result || is_complete(*result)) return false;
+  const bool may_be_killed = may_be_killed_from_outside(ended.outcome);
+  if (may_be_killed) await_end_of_job();
+  if (!may_be_killed && ended.outcome.end != End::Threw && !scratch_.why_unusable()) return false;
+  scratch_.drop_results(ended.index);
+  return true;
+}
+
 std::optional<CaseResult> CaseRunner::conclude(const CasePool::Ended& ended) const {
   std::optional<CaseResult> result = result_of(ended);
-  if (was_killed_from_outside(ended.outcome)) await_end_of_job();
   if (!result || (!is_complete(*result) && Interruption::flag() != 0)) {
     scratch_.drop_results(ended.index);
     return std::nullopt;
   }
-  if (result->outcome == Outcome::Error && !scratch_.has_room()) {
-    core::fail_run(
-        {},
-        fmt::format("the disk is full, so case {} is not done: {}", ended.index, result->reason),
-        "make room, and run the campaign again");
-  }
+  if (!is_complete(*result)) require_circumstances(ended, *result);
   result->wall_time = ended.wall_time.count();
   result->began = utc_text(ended.began);
   result->host = core::host_name();
@@ -269,6 +303,29 @@ std::optional<CaseResult> CaseRunner::conclude(const CasePool::Ended& ended) con
   }
   scratch_.write(ended.index, campaign::record_line(plan_, plan_.at(ended.index), *result));
   return result;
+}
+
+/// What a record says is a function of the plan only if these are as they should be.
+void CaseRunner::require_circumstances(const CasePool::Ended& ended,
+                                       const CaseResult& result) const {
+  const auto fail = [&](const std::string& why, const std::string& hint) {
+    core::fail_run({},
+                   fmt::format("{}, so case {} is not done: {}", why, ended.index,
+                               result.reason.substr(0, result.reason.find('\n'))),
+                   hint);
+  };
+  if (scratch_.why_unusable()) scratch_.drop_results(ended.index);  // its own may have filled it
+  if (const auto reason = scratch_.why_unusable()) {
+    fail(*reason, "mend that, and run the campaign again: it goes on");
+  }
+  if (const auto file = files_.changed()) {
+    fail(fmt::format("'{}' is not what it was when the campaign began", file->string()),
+         "put it back, and run the campaign again: it goes on");
+  }
+  if (ended.outcome.end != End::Threw) return;
+  if (const auto lack = find_machine_lack()) {
+    fail(lack->what, lack->hint + ", and run the campaign again: it goes on");
+  }
 }
 
 /// What the process of the case could not do itself.

@@ -15,6 +15,7 @@
 #include "master/campaign/shared_beginnings.h"
 #include "master/cli/case_pool.h"
 #include "master/cli/case_run.h"
+#include "master/util/file_stamps.h"
 
 namespace stride::cli {
 
@@ -34,8 +35,15 @@ class CaseRunner {
   std::string run_together(const campaign::SharedBeginning& shared, std::size_t jobs,
                            const isolation::ChildOptions& options) const;
 
+  /// Whether it may have ended so for a reason that is not its own: the machine lacked something,
+  /// which other cases may have taken, or somebody has ended its process. Then its results are
+  /// dropped, and it is to be run once more, with no other one beside it, before it is concluded.
+  bool is_doubtful(const CasePool::Ended& ended) const;
+
   /// In the process that has started it: puts results and record in their places. Nothing, and no
-  /// record, if the case was interrupted. Throws core::Error (Run) if the disk does not take them.
+  /// record, if the case was interrupted. Throws core::Error (Run), and there is no record, if the
+  /// case has not come to its end and the disk is full, the machine lacks something, or a file of
+  /// the scenario is no longer what it was.
   std::optional<campaign::CaseResult> conclude(const CasePool::Ended& ended) const;
 
  private:
@@ -46,6 +54,8 @@ class CaseRunner {
   std::string simulate_rest(std::uint64_t index, const campaign::SharedBeginning& shared,
                             CaseRun& run) const;
   std::optional<campaign::CaseResult> result_of(const CasePool::Ended& ended) const;
+  void require_circumstances(const CasePool::Ended& ended,
+                             const campaign::CaseResult& result) const;
   void complete_results(std::uint64_t index, const campaign::CaseResult& result) const;
   std::string with_lasting_paths(std::uint64_t index, std::string text) const;
 
@@ -53,6 +63,7 @@ class CaseRunner {
   const campaign::CampaignScenario& scenario_;
   const campaign::CaseScratch& scratch_;
   mutable core::FileDigests digests_;
+  core::FileStamps files_;
 };
 
 }  // namespace stride::cli

@@ -12,6 +12,7 @@ namespace {
 
 /// Those that are looked at together: among them some may share a beginning.
 constexpr std::size_t kMostTogether = 1000;
+constexpr std::chrono::milliseconds kPatience{100};
 
 }  // namespace
 
@@ -33,7 +34,9 @@ MissingCases::MissingCases(const CampaignInput& input, const campaign::CaseFolde
       runner_(input.plan(), input.scenario(), scratch),
       pool_(options.jobs, child_options_),
       totals_(totals_before()),
-      progress_(options.progress, totals_) {}
+      progress_(options.progress, totals_) {
+  pool_.adopt_orphans();
+}
 
 bool MissingCases::is_interrupted() { return Interruption::flag() != 0; }
 
@@ -60,6 +63,7 @@ void MissingCases::run() {
   }
   run_some(cases);
   while (!pool_.is_empty() || (!left_over_.empty() && !is_interrupted())) await_room();
+  run_doubtful();
   progress_.end(totals_, is_interrupted() ? "interrupted" : "completed");
 }
 
@@ -101,6 +105,20 @@ void MissingCases::start_together(campaign::SharedBeginning shared, std::size_t 
   together_.emplace(first, std::move(shared));
 }
 
+/// Each for the second time, and alone.
+void MissingCases::run_doubtful() {
+  std::ranges::sort(doubtful_);
+  for (const std::uint64_t index : doubtful_) {
+    if (is_interrupted()) return;
+    if (is_done_elsewhere(index)) continue;
+    start(index);
+    std::optional<CasePool::Ended> ended;
+    while (!ended) ended = pool_.collect(kPatience);
+    conclude(*ended);
+    progress_.show(totals_);
+  }
+}
+
 /// Those that were left over come first.
 void MissingCases::await_room() {
   if (!left_over_.empty() && !pool_.is_full() && !is_interrupted()) {
@@ -112,14 +130,20 @@ void MissingCases::await_room() {
 }
 
 void MissingCases::collect() {
-  const auto ended = pool_.collect(std::chrono::milliseconds(100));
+  const auto ended = pool_.collect(kPatience);
   count_shared();
   if (ended && together_.contains(ended->index)) {
     end_together(ended->index);
+  } else if (ended && runner_.is_doubtful(*ended)) {
+    doubtful_.push_back(ended->index);
   } else if (ended) {
-    if (const auto result = runner_.conclude(*ended)) totals_.add(result->outcome);
+    conclude(*ended);
   }
   progress_.show(totals_);
+}
+
+void MissingCases::conclude(const CasePool::Ended& ended) {
+  if (const auto result = runner_.conclude(ended)) totals_.add(result->outcome);
 }
 
 void MissingCases::count_shared() {

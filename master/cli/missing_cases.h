@@ -51,8 +51,10 @@ class MissingCases {
   void run_some(const std::vector<std::uint64_t>& cases);
   void start(std::uint64_t index);
   void start_together(campaign::SharedBeginning shared, std::size_t jobs);
+  void run_doubtful();
   void await_room();
   void collect();
+  void conclude(const CasePool::Ended& ended);
   void count_shared();
   void end_together(std::uint64_t first);
 
@@ -66,6 +68,7 @@ class MissingCases {
   /// What runs in one process, by the first case; of the cases those without a record.
   std::map<std::uint64_t, campaign::SharedBeginning> together_;
   std::deque<std::uint64_t> left_over_;  ///< by such processes
+  std::vector<std::uint64_t> doubtful_;  ///< see CaseRunner::is_doubtful()
   campaign::CaseTotals totals_;
   CampaignProgress progress_;
 };

@@ -82,6 +82,24 @@ bool is_lack_of_memory(const std::exception& error) {
          (system != nullptr && system->code() == std::errc::not_enough_memory);
 }
 
+/// What a call of the system could not have; empty for other reasons.
+const char* lacking_of(const std::exception& error) {
+  const auto* system = dynamic_cast<const std::system_error*>(&error);
+  if (system == nullptr) return "";
+  if (system->code() == std::errc::resource_unavailable_try_again) {
+    return "there can be no more processes or threads\n  hint: raise the limit of processes "
+           "(ulimit -u), or run fewer at the same time";
+  }
+  if (system->code() == std::errc::too_many_files_open) {
+    return "this process can have no more open files\n  hint: raise the limit of open files "
+           "(ulimit -n)";
+  }
+  if (system->code() == std::errc::too_many_files_open_in_system) {
+    return "the system can have no more open files\n  hint: end other programs";
+  }
+  return "";
+}
+
 }  // namespace
 
 bool put(std::FILE* stream, std::string_view text) {
@@ -114,7 +132,8 @@ std::string in_words(const std::exception& error) {
   if (is_lack_of_memory(error)) {
     return fmt::format("there is not enough memory\n  hint: {}", memory_hint());
   }
-  return error.what();
+  const std::string lacking = lacking_of(error);
+  return lacking.empty() ? error.what() : lacking;
 }
 
 void print_warnings(std::span<const std::string> warnings) {

@@ -53,6 +53,8 @@ class Files {
   xml::Document document(const std::filesystem::path& file);
   /// Reads one before that: document() returns it without reading it again, once. Throws likewise.
   const xml::Document& read_ahead(const std::filesystem::path& file);
+  /// Whether it has been read so, whatever has become of the file.
+  bool is_ahead(const std::filesystem::path& file) const { return ahead_.contains(file); }
   /// The files that document() has read or tried to read.
   const std::set<std::filesystem::path>& documents() const { return documents_; }
   /// A path as its reader knows it: within an archive, "FILE.ssp/resources/a.ssv".

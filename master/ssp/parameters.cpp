@@ -132,6 +132,7 @@ xml::Document open(const xml::Element& owner, const BindingContext& context, con
     folders = {context.files.unit_folder(context.component, owner.where())};
   }
   const std::filesystem::path path = source_path(owner, folders, context.warnings);
+  if (context.files.is_ahead(path)) return context.files.document(path);
   if (const std::string reason = core::why_unreachable(path); !reason.empty()) {
     owner.fail(fmt::format("cannot reach the {} '{}': {}", what, context.files.shown(path), reason),
                "check its path");

@@ -284,7 +284,7 @@ class SystemReader {
   SystemNode read_other_file(const xml::Element& component) {
     const auto [source, variant, warning] = source_of(component, folders_);
     if (!warning.empty()) reading_.warnings.push_back(warning);
-    if (!core::path_exists(source)) {
+    if (!reading_.files.is_ahead(source) && !core::path_exists(source)) {
       component.fail(fmt::format("the system '{}' does not exist", reading_.files.shown(source)),
                      "its path is relative to this file");
     }

@@ -57,6 +57,11 @@ std::string further_option(const std::string& text) {
                      "see --jobs, --chunk and --wait; --dry-run prints the script, which can be "
                      "changed and submitted by hand");
   }
+  const std::size_t behind = option.find_first_not_of(' ', name.size());
+  if (behind != name.size() && behind != std::string::npos && option[behind] == '=') {
+    core::fail_input({}, fmt::format("--sbatch '{}' has a blank before '='", text),
+                     "write it without");
+  }
   const std::string dashes = name.size() == 1 ? "-" : "--";
   if (name.size() == option.size() || option[name.size()] != '=') return dashes + option;
   const std::string value = option.substr(name.size() + 1);

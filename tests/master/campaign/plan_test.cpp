@@ -163,15 +163,18 @@ TEST_CASE("what no plan can be made of") {
     return error_of([&] { plan_of(text, type); });
   };
   CHECK_THAT(error(campaign_text(stochastic(drawn("a.x", uniform("0", "1")), "10000001"))),
-             Contains("the campaign has 10000001 cases, and 10000000 at most are possible"));
+             Contains("the campaign has 10000001 cases, which is more than 10000000"));
   CHECK(error(campaign_text(stochastic(drawn("a.x", uniform("0", "1")), "10000000"))) ==
         "(no error)");
   CHECK_THAT(error(campaign_text(deterministic(value_range("a.x", "0", "1", "9999") +
                                                value_range("a.y", "0", "1", "9999")))),
-             Contains("more than 10 million cases"));
-  CHECK_THAT(error(campaign_text(deterministic(value_range("a.x", "0", "1", "1e15") +
-                                               value_range("a.y", "0", "1", "1e15")))),
-             Contains("cases, and 10000000 at most"));
+             Contains("which is more than 10000000"));
+  CHECK_THAT(error(campaign_text(deterministic(value_set("host", {"1"})))),
+             Contains("c.xosc:6: 'host' is the name of a column that each table of cases has"));
+  CHECK_THAT(
+      error(campaign_text(deterministic(value_range("a.x", "0", "1", "1e15") +
+                                        value_range("a.y", "0", "1", "1e15")))),
+      Contains("the campaign has 1000000000000001 or more cases, which is more than 10000000"));
   CHECK_THAT(error(campaign_text(stochastic(drawn("a.x", uniform("0", "1")))), KindType::Text),
              Contains("c.xosc:6: 'a.x' is not a number, so none can be drawn for it"));
   CHECK_THAT(error(campaign_text(stochastic(drawn("a.x", uniform("0.2", "0.8")))), KindType::Whole),
