@@ -8,6 +8,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "master/campaign/case_columns.h"
 #include "master/campaign/plan.h"
 #include "master/campaign/plan_check.h"
 #include "master/campaign/plan_folder.h"
@@ -39,7 +40,7 @@ std::string table_text(const campaign::ValueTable& table, std::size_t place) {
   const auto column = static_cast<std::size_t>(found - table.parameters.begin());
   std::vector<std::string> texts;
   for (const auto& row : table.rows) {
-    texts.push_back(row.values[column] ? *row.values[column] : "(as in the scenario)");
+    texts.push_back(row.values[column].value_or(campaign::kScenarioValue));
   }
   const std::string list = core::abridged(texts, kMostAlternatives);
   return table.parameters.size() == 1 ? list : "together with others: " + list;
@@ -85,7 +86,8 @@ std::string case_table(const campaign::Plan& plan) {
   for (std::uint64_t i = 0; i < std::min(plan.size(), kShownCases); ++i) {
     const campaign::Case row = plan.at(i);
     std::vector<std::string> fields{std::to_string(i)};
-    for (const campaign::Text& value : row.values) fields.push_back(value.value_or(""));
+    for (const campaign::Text& value : row.values)
+      fields.push_back(value.value_or(campaign::kScenarioValue));
     table.add(std::move(fields));
   }
   return table.text(output_width());
