@@ -1,12 +1,18 @@
 // box_drop: what its tutorial, docs/accelerometer.md, relies on.
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <stdexcept>
 
 #include <catch2/catch.hpp>
+#include <fmt/format.h>
 
 #include "tests/golden/scenario_run.h"
+#include "tests/scratch_folder.h"
 
 using namespace stride::tests;
+using Catch::Matchers::Contains;
+namespace fs = std::filesystem;
 
 namespace {
 
@@ -44,6 +50,46 @@ TEST_CASE("box_drop: the contact, the interrupt and its record come when they ha
   const auto records = run.instants("firmware", "shock.samples", "received");
   REQUIRE(!records.empty());
   CHECK(std::stod(records.front()) == Approx(interrupt + 0.024).epsilon(1e-12));
+}
+
+namespace {
+
+/// "TIME irq 0" and "TIME shock SAMPLE …", as the testbench prints them.
+std::string said_by_testbench(const fs::path& stimuli) {
+  Process process({ACCELEROMETER_TESTBENCH, stimuli.string()}, stimuli.parent_path());
+  const Outcome outcome = process.wait();
+  INFO(outcome.err);
+  CHECK(outcome.exit_code == 0);
+  return outcome.out;
+}
+
+/// Likewise, of the run: two bytes of hexadecimal digits each, the high one first.
+std::string shock_line(const std::string& time, const std::string& payload) {
+  std::string line = fmt::format("{:.6f} shock", std::stod(time));
+  for (std::size_t at = 0; at < payload.size(); at += 4) {
+    const auto sample = static_cast<std::int16_t>(std::stoi(payload.substr(at, 4), nullptr, 16));
+    line += fmt::format(" {}", sample);
+  }
+  return line + "\n";
+}
+
+}  // namespace
+
+TEST_CASE("box_drop: the chip alone, with SystemC and its stimuli, does what it did") {
+  const ScratchFolder folder;
+  const fs::path stimuli = folder / "chip.csv";
+  const ScenarioRun run("box_drop", {"--no-trace", "--no-idle-skip", "--capture",
+                                     "accelerometer=" + stimuli.string()});
+  const auto times = run.instants("accelerometer", "shock.samples", "sent");
+  const auto payloads = run.payloads("accelerometer", "shock.samples", "sent");
+  REQUIRE(times.size() == 2);
+  const std::string said = said_by_testbench(stimuli);
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    CHECK_THAT(said, Contains(shock_line(times[i], payloads[i])));
+  }
+  const std::string irq = fmt::format("{:.6f} irq 1\n", first_time(run, "accelerometer.irq"));
+  CHECK_THAT(said, Contains(irq));
+  CHECK(std::count(said.begin(), said.end(), '\n') == 6);
 }
 
 TEST_CASE("box_drop: it begins where its parameters say") {
