@@ -66,6 +66,7 @@ Stepper::Stepper(RunContext& context, const std::vector<StepOrderEntry>& order,
     unit_step.can_save_with_step = inputs == nullptr;
   }
   form_stages();
+  if (context.options.steps_in_rows) form_rows();
 }
 
 void Stepper::form_stages() {
@@ -135,6 +136,7 @@ Time Stepper::make_timed_passes(Time from, Time target) {
 
 void Stepper::persist(StateArchive& state) {
   state.mark("steps");
+  count_whole_rows();
   state.fixed(unit_steps_, [&](UnitStep& unit_step) { state.value(unit_step.steps); });
 }
 
@@ -155,6 +157,8 @@ Time Stepper::make_passes(Time from, Time target) {
     last_end_ = target;
     last_end_seconds_ = interval.end_seconds;
     const Time reached = make_pass(interval, is_first);
+    if (is_first && (reached != target || has_requests_)) [[unlikely]]
+      note_whole_rows(target);
     if (reached == target) return target;
     target = reached;
   }
@@ -175,17 +179,20 @@ inline Time Stepper::make_pass(const StepInterval& interval, bool is_first) {
 inline Time Stepper::step_one_by_one(const StepInterval& interval, bool is_first_pass) {
   const bool may_be_plain =
       is_first_pass && !step_clock_.measures() && interval.from != interval.to;
+  const bool may_be_in_row = may_be_plain && exchange_.has_all_to_write();
   Time reached = interval.to;
-  for (UnitStep& unit_step : unit_steps_) {
-    const bool is_plain = may_be_plain & unit_step.is_plain;
-    if (is_plain && step_plainly(unit_step, interval)) [[likely]] {
-      if (reached == interval.to) [[likely]]
-        continue;
-    } else {
-      if (!is_plain) unit_step.outcome = attempt_timed(unit_step, interval);
-      reached = reached_by(unit_step, interval, reached);
+  UnitStep* const end = unit_steps_.data() + unit_steps_.size();
+  for (UnitStep* unit_step = unit_steps_.data(); unit_step != end; ++unit_step) {
+    const bool is_plain = may_be_plain & unit_step->is_plain;
+    const bool is_in_row = may_be_in_row & unit_step->begins_row && reached == interval.to;
+    const bool is_done =
+        is_in_row ? step_row(unit_step, interval) : is_plain && step_plainly(*unit_step, interval);
+    if (!is_done) [[unlikely]] {
+      if (!is_plain) unit_step->outcome = attempt_timed(*unit_step, interval);
+      reached = reached_by(*unit_step, interval, reached);
     }
-    if (unit_step.ends_stage && reached != interval.to) break;
+    if (reached != interval.to && unit_step->ends_stage) [[unlikely]]
+      break;
   }
   if (reached != interval.to) check_minimum(interval, reached);
   return reached;
@@ -281,6 +288,12 @@ inline bool Stepper::step_plainly(UnitStep& unit_step, const StepInterval& inter
   ++unit_step.steps;
   if (unit_step.result.reached_without_request(interval.to)) [[likely]]
     return true;
+  note_outcome(unit_step, interval);
+  return false;
+}
+
+/// Of a plain step that did not just reach its end.
+void Stepper::note_outcome(UnitStep& unit_step, const StepInterval& interval) {
   unit_step.steps -= unit_step.result.rejected;
   unit_step.rolled_back = false;
   unit_step.outcome = unit_step.result.rejected ? Outcome::Rejected : Outcome::Stepped;
@@ -288,7 +301,6 @@ inline bool Stepper::step_plainly(UnitStep& unit_step, const StepInterval& inter
     unit_step.possible = unit_step.result.reached;
     unit_step.result = {.reached = interval.from};
   }
-  return false;
 }
 
 inline Stepper::Outcome Stepper::attempt_timed(UnitStep& unit_step, const StepInterval& interval) {

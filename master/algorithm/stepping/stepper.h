@@ -13,6 +13,7 @@
 #include <stride/time.h>
 
 #include "master/algorithm/capabilities/concurrent_steps.h"
+#include "master/algorithm/capabilities/steps_in_a_row.h"
 #include "master/algorithm/idle/idle_scheduler.h"
 #include "master/algorithm/parallel/load_balancer.h"
 #include "master/algorithm/run_context.h"
@@ -32,6 +33,8 @@ class StateArchive;
 ///
 /// Units that compute elsewhere (ConcurrentSteps) step at the same time, and beside the others: all
 /// of a stage, or with Gauss-Seidel all of a batch, begin before the first of them is waited for.
+///
+/// Units that can step in a row (StepsInARow) do so where nothing else is to be done for them.
 ///
 /// The outcome of each unit's step is recorded in the step order, whichever thread made it, so
 /// results, statistics and errors do not depend on the threads. Where several units of a stage
@@ -63,7 +66,8 @@ class Stepper {
   bool has_requests() const { return has_requests_; }
   /// How many steps the unit has made, redone ones included.
   std::uint64_t steps(std::size_t component) const {
-    return unit_steps_[index_of_[component]].steps;
+    const UnitStep& unit_step = unit_steps_[index_of_[component]];
+    return unit_step.steps + (unit_step.row != nullptr ? unit_step.row->whole_steps : 0);
   }
 
   /// Between two communication steps.
@@ -73,6 +77,7 @@ class Stepper {
   bool was_parallel() const { return was_parallel_; }
 
  private:
+  struct Row;
   enum class Outcome : std::uint8_t { Idle, Pending, Stepped, Rejected, TooFar, Failed };
 
   /// The step of one unit in the present communication step. Written by the thread that steps the
@@ -91,6 +96,7 @@ class Stepper {
     bool saves_state;
     bool can_vary_step;
     bool is_plain = false;  ///< it needs nothing but the step itself
+    bool begins_row = false;
     bool ends_stage = false;
     std::uint32_t rejections = 0;  ///< in the present communication step
 
@@ -103,6 +109,15 @@ class Stepper {
     Time undone{};    ///< the time that it had reached before
     const StepOrderEntry* entry;
     ConcurrentSteps* concurrent;  ///< null if it steps here
+    Row* row = nullptr;           ///< in which it can step
+  };
+  /// Successive ones that can step in a row. What is noted of a unit is noted of the row where all
+  /// of them have just reached the end of a step.
+  struct Row {
+    std::unique_ptr<UnitRow> units;
+    std::span<UnitStep> steps;
+    std::uint64_t whole_steps = 0;  ///< which each of them has made, beside its own
+    std::uint64_t last = 0;         ///< in this communication step
   };
   /// The last unit that cut the present communication step short.
   struct EarlyStop {
@@ -132,6 +147,13 @@ class Stepper {
   bool succeeds(UnitStep& unit_step, Attempt&& attempt) noexcept;
   StepResult save_and_step(UnitStep& unit_step, const StepInterval& interval);
   bool step_plainly(UnitStep& unit_step, const StepInterval& interval);
+  void note_outcome(UnitStep& unit_step, const StepInterval& interval);
+  void form_rows();
+  void form_rows(std::size_t first, std::span<const StepsInARow::Member> members);
+  bool step_row(UnitStep*& first, const StepInterval& interval);
+  void note_step(UnitStep& unit_step, const StepResult& result);
+  void note_whole_rows(Time reached);
+  void count_whole_rows();
   Outcome attempt_timed(UnitStep& unit_step, const StepInterval& interval);
   Outcome attempt(UnitStep& unit_step, const StepInterval& interval);
   Outcome begin_timed(UnitStep& unit_step, const StepInterval& interval);
@@ -181,6 +203,7 @@ class Stepper {
   const std::vector<StepOrderEntry>& order_;
   std::vector<UnitStep> unit_steps_;             ///< in that order
   std::vector<Stage> stages_;                    ///< of them
+  std::vector<Row> rows_;                        ///< likewise
   bool has_concurrent_ = false;                  ///< whether units step elsewhere
   std::vector<std::size_t> index_of_;            ///< by component
   std::vector<std::chrono::nanoseconds> times_;  ///< by unit_step, of the present pass

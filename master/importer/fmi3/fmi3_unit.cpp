@@ -70,6 +70,7 @@ void Fmi3Unit::free() {
 
 core::Capability* Fmi3Unit::find_capability(core::CapabilityId id) {
   const bool has_text = library_->describe_functions().DescribeMessage != nullptr;
+  if (id == core::StepsInARow::kId) return implemented(id);
   if (id == core::MessageText::kId ? !has_text : !declares(id)) return nullptr;
   return id == core::UnitDiagnostics::kId ? diagnostics() : implemented(id);
 }

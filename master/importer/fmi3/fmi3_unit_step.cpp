@@ -1,5 +1,6 @@
 // How a unit of FMI 3.0 steps.
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include <fmt/format.h>
@@ -13,51 +14,66 @@ namespace {
 /// Either of the two that a double may be after the step.
 bool is_exact_end(const core::StepInterval& interval, double seconds) {
   const double sum = interval.begin_seconds + interval.size_seconds;
-  return seconds == interval.end_seconds || seconds == sum;
+  return (seconds == interval.end_seconds) | (seconds == sum);  // no branch: either is likely
 }
 
 }  // namespace
 
 // Most values are of this type.
-[[gnu::always_inline]] inline void Fmi3Unit::get(CallSequence& calls,
-                                                 const core::BoundValues& values) {
-  if (values.float64s.empty()) return get(values.references, *values.block);
+[[gnu::always_inline]] inline void Fmi3Unit::get_reals(CallSequence& calls,
+                                                       const core::BoundValues& values) {
   calls.call("fmi3GetFloat64", fmi_.GetFloat64, values.references.data(), values.references.size(),
              values.float64s.data(), values.float64s.size());
 }
 
-[[gnu::always_inline]] inline void Fmi3Unit::set(CallSequence& calls,
-                                                 const core::BoundValues& values) {
-  if (values.float64s.empty()) return set(values.references, *values.block);
+[[gnu::always_inline]] inline void Fmi3Unit::set_reals(CallSequence& calls,
+                                                       const core::BoundValues& values) {
   calls.call("fmi3SetFloat64", fmi_.SetFloat64, values.references.data(), values.references.size(),
              values.float64s.data(), values.float64s.size());
+}
+
+[[gnu::always_inline]] inline void Fmi3Unit::set(CallSequence& calls, const core::StepValues& all) {
+  for (const core::BoundValues& values : all.inputs) {
+    values.float64s.empty() ? set(values.references, *values.block) : set_reals(calls, values);
+  }
 }
 
 core::StepResult Fmi3Unit::step(const core::StepInterval& interval,
                                 const core::StepValues& values) {
   CallSequence calls(*this, "fmi3DoStep", interval.from);
-  for (const core::BoundValues& input : values.inputs) set(calls, input);
-  return make_step(calls, interval, values.outputs);
+  set(calls, values);
+  return step_behind_inputs(calls, interval, values);
 }
 
 core::StepResult Fmi3Unit::save_with_step(core::Unit& unit, const core::StepInterval& interval,
                                           const core::StepValues& values) {
   if (&unit != this) return StateSaving::save_with_step(unit, interval, values);
   CallSequence calls(*this, "fmi3DoStep", interval.from);
-  for (const core::BoundValues& input : values.inputs) set(calls, input);
+  set(calls, values);
   Fmi3Unit::save_state();
-  return make_step(calls, interval, values.outputs);
+  return step_behind_inputs(calls, interval, values);
 }
 
-/// Behind its inputs: the step, and its outputs.
-[[gnu::always_inline]] inline core::StepResult Fmi3Unit::make_step(
-    CallSequence& calls, const core::StepInterval& interval,
-    std::span<const core::BoundValues> outputs) {
+[[gnu::always_inline]] inline core::StepResult Fmi3Unit::step_behind_inputs(
+    CallSequence& calls, const core::StepInterval& interval, const core::StepValues& all) {
+  core::StepResult result{.reached = interval.to};
   const double size = size_of(interval);
   if (!(size > 0)) [[unlikely]] {  // to the unit, whose time is a double, it is the same instant
     calls.set_time(interval.to);
-    return {.reached = interval.to};
+    return result;
   }
+  do_step(calls, interval, size, result);
+  if (result.rejected) return result;
+  for (const core::BoundValues& values : all.outputs) {
+    values.float64s.empty() ? get(values.references, *values.block) : get_reals(calls, values);
+  }
+  return result;
+}
+
+/// Returns whether the step has just reached its end. If not, `result` is how it has ended.
+[[gnu::always_inline]] inline bool Fmi3Unit::do_step(CallSequence& calls,
+                                                     const core::StepInterval& interval,
+                                                     double size, core::StepResult& result) {
   StepAnswer answer{.last_successful = interval.end_seconds};
   step_point_ = interval.begin_seconds;
   // noSetFMUStatePriorToCurrentPoint
@@ -65,18 +81,16 @@ core::StepResult Fmi3Unit::save_with_step(core::Unit& unit, const core::StepInte
   const Status status = calls.call_discardable(
       "fmi3DoStep", fmi_.DoStep, interval.begin_seconds, size, never_goes_back, &answer.needs_event,
       &answer.terminate, &answer.early, &answer.last_successful);
-  core::StepResult result{.reached = interval.to};
-  const bool has_more = answer.needs_event || answer.terminate || answer.early ||
-                        callback_failure_ != nullptr || status == Status::Discard ||
-                        !is_exact_end(interval, answer.last_successful);
-  if (has_more) [[unlikely]] {
+  const bool is_plain = !(answer.needs_event | answer.terminate | answer.early) &&
+                        status != Status::Discard && callback_failure_ == nullptr &&
+                        is_end(interval, answer.last_successful);
+  if (!is_plain) [[unlikely]] {
     result = evaluate(interval, status, answer);
-    if (result.rejected) return result;
+    if (result.rejected) return false;
   }
   was_restored_ = false;
-  calls.set_time(result.reached);
-  for (const core::BoundValues& output : outputs) get(calls, output);
-  return result;
+  calls.set_time(is_plain ? interval.to : result.reached);
+  return is_plain;
 }
 
 /// Of a step that did not just reach its end.
@@ -89,12 +103,111 @@ core::StepResult Fmi3Unit::evaluate(const core::StepInterval& interval, Status s
   }
   if (answer.needs_event && !parts_.description->has_event_mode)
     fail("fmi3DoStep returned eventHandlingNeeded, and the unit has no Event Mode (hasEventMode)");
-  const bool is_exact = is_exact_end(interval, answer.last_successful);
-  if (!answer.early && !is_exact) compare_times(interval, answer.last_successful);
+  if (!answer.early) compare_times(interval, answer.last_successful);
   return {.early_return = answer.early,
           .event_handling_needed = answer.needs_event,
           .terminate_simulation = answer.terminate,
           .reached = answer.early ? reached_early(interval, answer.last_successful) : interval.to};
+}
+
+// ---- Steps in a row ----
+
+class Fmi3Unit::Row final : public core::UnitRow {
+ public:
+  void add(Fmi3Unit& unit, const core::StepValues& values);
+
+  std::size_t size() const override { return members_.size(); }
+  void step(const core::StepInterval& interval, Progress& progress) override;
+
+ private:
+  struct InRow {
+    Fmi3Unit* unit;
+    const core::BoundValues *input, *output;  ///< null: none
+    core::StepValues values;
+  };
+  bool is_quick(const core::StepInterval& interval) const {
+    const double sum = interval.begin_seconds + interval.size_seconds;
+    return !is_single_ && interval.size_seconds > 0 && sum <= stop_seconds_;
+  }
+  void step_quickly(const core::StepInterval& interval, Progress& progress);
+  void step_singly(const core::StepInterval& interval, Progress& progress);
+  void restore_mode();
+
+  std::vector<InRow> members_;
+  bool is_single_ = false;   ///< each unit steps as if it were alone
+  double stop_seconds_ = 0;  ///< the earliest of the units; known when they have stepped
+};
+
+void Fmi3Unit::Row::add(Fmi3Unit& unit, const core::StepValues& values) {
+  const auto [inputs, outputs] = values;
+  members_.push_back({&unit, inputs.empty() ? nullptr : &inputs.front(),
+                      outputs.empty() ? nullptr : &outputs.front(), values});
+}
+
+void Fmi3Unit::Row::step(const core::StepInterval& interval, Progress& progress) {
+  if (!is_quick(interval)) [[unlikely]]
+    return step_singly(interval, progress);
+  is_single_ = true;  // if one of them fails
+  step_quickly(interval, progress);
+  is_single_ = !members_.front().unit->mode_.is_present();
+  if (is_single_) [[unlikely]]
+    restore_mode();
+}
+
+void Fmi3Unit::Row::step_singly(const core::StepInterval& interval, Progress& progress) {
+  stop_seconds_ = std::numeric_limits<double>::infinity();
+  for (const InRow& member : members_) {
+    stop_seconds_ = std::min(stop_seconds_, member.unit->stop_seconds_);
+  }
+  for (const InRow& member : members_) {
+    progress.result = member.unit->step(interval, member.values);
+    if (!progress.result.reached_without_request(interval.to)) return;
+    ++progress.plain;
+  }
+}
+
+void Fmi3Unit::Row::step_quickly(const core::StepInterval& interval, Progress& progress) {
+  for (const InRow& member : members_) {
+    Fmi3Unit& unit = *member.unit;
+    unit.present_step_ = {interval.from, interval.to};
+    CallSequence calls(unit, "fmi3DoStep", interval.from, CallSequence::Kind::InRow);
+    if (member.input != nullptr) unit.set_reals(calls, *member.input);
+    const bool is_plain = unit.do_step(calls, interval, interval.size_seconds, progress.result);
+    if (!is_plain && progress.result.rejected) [[unlikely]]
+      return;
+    if (member.output != nullptr) unit.get_reals(calls, *member.output);
+    if (!is_plain && !progress.result.reached_without_request(interval.to)) [[unlikely]]
+      return;
+    ++progress.plain;
+  }
+}
+
+/// Which unit it was is seen the next time only.
+void Fmi3Unit::Row::restore_mode() {
+  std::vector<std::string> names;
+  for (const InRow& member : members_) names.push_back(member.unit->name_);
+  members_.front().unit->restore_mode_behind("fmi3DoStep", names);
+}
+
+bool Fmi3Unit::can_be_in_row(const Member& member) const {
+  const auto has_other_type = [](const core::BoundValues& values) {
+    return values.block->type() != core::ValueType::Float64;
+  };
+  const auto [inputs, outputs] = member.values;
+  return options_.call_note == nullptr && mode_.is_usual() && fmi_.SetFloat64 != nullptr &&
+         fmi_.GetFloat64 != nullptr && fmi_.DoStep != nullptr && inputs.size() <= 1 &&
+         outputs.size() <= 1 && std::ranges::none_of(inputs, has_other_type) &&
+         std::ranges::none_of(outputs, has_other_type);
+}
+
+std::unique_ptr<core::UnitRow> Fmi3Unit::make_row(std::span<const Member> members) {
+  auto row = std::make_unique<Row>();
+  for (const Member& member : members) {
+    auto* const unit = dynamic_cast<Fmi3Unit*>(member.unit);
+    if (unit == nullptr || !unit->can_be_in_row(member) || unit->mode_ != mode_) break;
+    row->add(*unit, member.values);
+  }
+  return row->size() > 1 ? std::move(row) : nullptr;
 }
 
 // ---- Inputs within a step ----

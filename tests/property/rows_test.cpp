@@ -1,0 +1,153 @@
+// Units that step in rows: the same bytes, counts and failures as where each steps by itself.
+#include <array>
+#include <random>
+
+#include <catch2/catch.hpp>
+#include <fmt/format.h>
+
+#include "tests/error_of.h"
+#include "tests/master/importer/support.h"
+#include "tests/property/random_system.h"
+
+using namespace stride;
+using namespace stride::tests;
+using namespace std::chrono_literals;
+
+namespace {
+
+const unsigned kRowsSystems = kSanitized ? 20 : 200;
+constexpr Duration kRowsStep = 1ms;
+constexpr Time kRowsStop{100ms};
+
+/// All that is counted, without the wall-clock times.
+std::array<std::uint64_t, 9> all_counts(const core::UnitStatistics& unit) {
+  return {unit.steps,  unit.early_returns, unit.rejections,         unit.rollbacks, unit.saves,
+          unit.events, unit.messages_sent, unit.unannounced_events, unit.calls};
+}
+
+/// Of a run, or the error that ends it.
+struct Ending {
+  std::string error;
+  Results results;
+};
+
+Ending run_in(const Assembly& system, bool steps_in_rows) {
+  core::RunOptions options = fixed_steps(kRowsStep, kRowsStop);
+  options.steps_in_rows = steps_in_rows;
+  Ending ending;
+  ending.error = error_of([&] { ending.results = run(system, options); });
+  return ending;
+}
+
+Ending check_same_without_rows(const Assembly& singly, const Assembly& in_rows) {
+  const Ending expected = run_in(singly, false);
+  const Ending ending = run_in(in_rows, true);
+  CHECK(ending.error == expected.error);
+  check_same_bytes(ending.results, expected.results);
+  const core::RunStatistics &counted = ending.results.statistics,
+                            &wanted = expected.results.statistics;
+
+  CHECK(counted.communication_steps == wanted.communication_steps);
+  CHECK(counted.event_iterations == wanted.event_iterations);
+  CHECK(counted.end == wanted.end);
+  for (const auto& [name, unit] : expected.results.units) {
+    INFO(name);
+    CHECK(all_counts(ending.results.units.at(name)) == all_counts(unit));
+  }
+  return expected;
+}
+
+/// 2 to 15 units in random order. Most of them can be in a row, unless their states are saved since
+/// another one may stop. Others have events, or do something special.
+class RowMixture {
+ public:
+  RowMixture(unsigned seed, std::shared_ptr<importer::Fmu> raw)
+      : random_(seed), raw_(std::move(raw)) {
+    const std::size_t size = 2 + below(14);
+    for (std::size_t i = 0; i < size; ++i) add_unit(fmt::format("u{}", i));
+    for (const std::string& input : inputs_) {
+      if (below(5) > 0) assembly_.wire(outputs_[below(outputs_.size())], input);
+    }
+  }
+
+  const Assembly& assembly() const { return assembly_; }
+
+ private:
+  std::size_t below(std::size_t limit) { return random_() % limit; }
+
+  void add_unit(const std::string& name) {
+    switch (outputs_.empty() ? 0 : below(8)) {
+      case 0:
+      case 1:
+      case 2:
+        assembly_.add(name, relay_);
+        return connect(name, "u", "y");
+      case 3:
+      case 4:
+        assembly_.add(name, "linear",
+                      {{"damping", "1"}, {"frequency", fmt::format("{}", below(9))}});
+        return connect(name, "u", "x");
+      case 5:
+        assembly_.add(name, "bouncing_ball");
+        outputs_.push_back(name + ".h");
+        return;
+      case 6:
+        if (!has_special_) add_special();
+        return;
+      default:
+        assembly_.add(name, below(2) == 0 ? "early_without_state" : "early",
+                      {{"instants", "0.0105 0.02 0.03 0.04 0.05 0.0605 0.07 0.08"}});
+        return connect(name, "", "y");
+    }
+  }
+  /// A raw unit does what its name says.
+  void add_special() {
+    constexpr std::array kNames{"needs", "arrives", "drifts", "error", "discard", "fatal", "plain"};
+    assembly_.add(kNames[below(kNames.size())], raw_);
+    has_special_ = true;
+  }
+  void connect(const std::string& name, const std::string& input, const std::string& output) {
+    if (!input.empty()) inputs_.push_back(name + "." + input);
+    outputs_.push_back(name + "." + output);
+  }
+
+  std::mt19937 random_;
+  std::shared_ptr<importer::Fmu> raw_;
+  std::shared_ptr<importer::Fmu> relay_ = importer::Fmu::load(test_fmu("relay"));
+  Assembly assembly_;
+  std::vector<std::string> inputs_, outputs_;
+  bool has_special_ = false;
+};
+
+fs::path raw_fmu(const Scratch& scratch) {
+  return make_raw_fmu(scratch, "raw",
+                      "hasEventMode=\"true\" canHandleVariableCommunicationStepSize=\"true\"");
+}
+
+}  // namespace
+
+TEST_CASE("rows change neither results nor counts of random systems") {
+  for (unsigned seed = 0; seed < kRowsSystems / 4; ++seed) {
+    const Assembly system = random_system(seed, Wiring::Continuous);
+    INFO("seed " << seed << "\n" << system.text());
+    check_same_without_rows(system, system);
+  }
+}
+
+TEST_CASE("rows change nothing where most units are in rows, nor how a unit fails among them") {
+  unsigned failures = 0;
+  std::uint64_t events = 0;
+  for (unsigned seed = 0; seed < kRowsSystems; ++seed) {
+    // not shared, since a unit that fails fatally spoils its library
+    const Scratch scratch, other;
+    const RowMixture singly(seed, importer::Fmu::load(raw_fmu(scratch)));
+    const RowMixture in_rows(seed, importer::Fmu::load(raw_fmu(other)));
+    INFO("seed " << seed << "\n" << singly.assembly().text());
+    const Ending ending = check_same_without_rows(singly.assembly(), in_rows.assembly());
+    failures += ending.error != "(no error)";
+    events += ending.results.statistics.event_iterations;
+  }
+  CHECK(failures > kRowsSystems / 20);
+  CHECK(failures < kRowsSystems / 2);
+  CHECK(events > kRowsSystems);
+}
