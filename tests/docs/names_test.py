@@ -33,7 +33,8 @@ SHOWN = {
            "notify_observers start_observers make_input_extrapolator make_idle_scheduler "
            "connect_input_updates should_continue",
     "Stepper": "result has_requests steps was_parallel make_timed_passes step_together step_share succeeds "
-               "form_stages batches step_one_by_one step_plainly save_and_step reached_by attempt_timed begin_timed "
+               "form_stages form_rows step_row note_outcome note_step note_whole_rows count_whole_rows "
+               "batches step_one_by_one step_plainly save_and_step reached_by attempt_timed begin_timed "
                "finish persist prepare conclude report record_time index name rethrow_failure reason hint_for_final fail_final plan pool",
     "IdleScheduler": "add_candidate all_suspended_until catch_up_and_report check_promise covers drop_tangents find_sources "
                      "is_disturbed is_suspended is_trivial leaves_deadband may_suspend persist persist_tangents report_suspension "

@@ -56,18 +56,21 @@ core::StepResult Fmi3Unit::save_with_step(core::Unit& unit, const core::StepInte
 
 [[gnu::always_inline]] inline core::StepResult Fmi3Unit::step_behind_inputs(
     CallSequence& calls, const core::StepInterval& interval, const core::StepValues& all) {
-  core::StepResult result{.reached = interval.to};
   const double size = size_of(interval);
   if (!(size > 0)) [[unlikely]] {  // to the unit, whose time is a double, it is the same instant
     calls.set_time(interval.to);
-    return result;
+    return {.reached = interval.to};
   }
-  do_step(calls, interval, size, result);
-  if (result.rejected) return result;
+  core::StepResult other;
+  const bool is_plain = do_step(calls, interval, size, other);
+  if (!is_plain && other.rejected) [[unlikely]]
+    return other;
   for (const core::BoundValues& values : all.outputs) {
     values.float64s.empty() ? get(values.references, *values.block) : get_reals(calls, values);
   }
-  return result;
+  if (!is_plain) [[unlikely]]
+    return other;
+  return {.reached = interval.to};
 }
 
 /// Returns whether the step has just reached its end. If not, `result` is how it has ended.
