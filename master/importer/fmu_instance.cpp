@@ -210,22 +210,11 @@ void FmuInstance::leave_fork(const char* function) const {
 void FmuInstance::restore_mode(const char* function) {
   const core::ProcessorMode left = core::ProcessorMode::present();
   mode_.set();
-  if (!std::exchange(has_mode_warning_, true)) warn_of_mode(function, left);
+  warn_of_mode(function, left);
 }
 
-void FmuInstance::restore_mode_behind(const char* function, std::span<const std::string> units) {
-  if (units.size() == 1) return restore_mode(function);
-  const core::ProcessorMode left = core::ProcessorMode::present();
-  mode_.set();
-  constexpr std::size_t kMostNames = 8;
-  const std::size_t others = units.size() - std::min(units.size(), kMostNames);
-  warn_of_mode(fmt::format("{} of one of the units {}{}", function,
-                           core::quoted(units.first(units.size() - others)),
-                           others != 0 ? fmt::format(" and {} more", others) : ""),
-               left);
-}
-
-void FmuInstance::warn_of_mode(const std::string& function, const core::ProcessorMode& left) const {
+void FmuInstance::warn_of_mode(const char* function, const core::ProcessorMode& left) {
+  if (std::exchange(has_mode_warning_, true)) return;
   warn(
       fmt::format("{} left another mode of the processor behind ({}); it is put back, here and "
                   "after later calls, since all units depend on it: a function has to restore it "

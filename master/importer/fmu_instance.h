@@ -162,8 +162,8 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics, public Call
    public:
     enum class Kind : std::uint8_t {
       Single,
-      /// Its functions are there and can be called, no other process has a note of it, and the mode
-      /// is looked at once more behind the row.
+      /// Its functions are there and can be called, no other process has a note of it, its first
+      /// calls are over, and `signals_` is looked at behind the row.
       InRow,
     };
 
@@ -194,8 +194,8 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics, public Call
     const char* function_;
     const Kind kind_;
   };
-  /// Puts the mode back that a call of this function has left, of one of these units.
-  void restore_mode_behind(const char* function, std::span<const std::string> units);
+  /// Warns that a call of this function has left another mode behind, once.
+  void warn_of_mode(const char* function, const core::ProcessorMode& left);
   /// After a call of this function: see InstanceOptions::process.
   void restore_process(const char* function);
   [[gnu::always_inline]] void check_callable(const char* name) const {
@@ -358,6 +358,7 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics, public Call
   bool is_repeating_ = false;             ///< what it logs has been logged before
   int watched_calls_ = 0;  ///< so many of the next ones are followed by restore_process()
   const core::ProcessorMode mode_ = core::ProcessorMode::present();
+  core::ProcessorMode::Signals signals_;  ///< behind its last step in a row
   std::optional<Time> time_;
   double stop_seconds_ = std::numeric_limits<double>::infinity();
   struct {
@@ -399,16 +400,14 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics, public Call
       check_registers(function);
     core::ProcessorMode::empty_registers();
   }
-  /// Likewise, of what costs least to be seen: all but which exceptions of SSE raise signals.
+  /// Likewise, of what costs least to be seen: all but the signals, which are noted.
   [[gnu::always_inline]] void check_mode_in_row(const char* function) {
-    if (calls_ < kCloselyWatched) [[unlikely]]
-      return check_mode(function);
+    signals_.note();
     if (!mode_.is_almost_present()) [[unlikely]]
       restore_mode(function);
     core::ProcessorMode::empty_registers();
   }
   void restore_mode(const char* function);
-  void warn_of_mode(const std::string& function, const core::ProcessorMode& left) const;
   /// Warns, once.
   void check_registers(const char* function);
   std::string status_name(Status status) const;

@@ -17,7 +17,7 @@ namespace {
 
 const unsigned kRowsSystems = kSanitized ? 20 : 200;
 constexpr Duration kRowsStep = 1ms;
-constexpr Time kRowsStop{100ms};
+constexpr Time kRowsStop{200ms};
 
 /// All that is counted, without the wall-clock times.
 std::array<std::uint64_t, 9> all_counts(const core::UnitStatistics& unit) {
@@ -26,22 +26,22 @@ std::array<std::uint64_t, 9> all_counts(const core::UnitStatistics& unit) {
 }
 
 /// Of a run, or the error that ends it.
-struct Ending {
+struct RunOutcome {
   std::string error;
   Results results;
 };
 
-Ending run_in(const Assembly& system, bool steps_in_rows) {
+RunOutcome run_in(const Assembly& system, bool steps_in_rows) {
   core::RunOptions options = fixed_steps(kRowsStep, kRowsStop);
   options.steps_in_rows = steps_in_rows;
-  Ending ending;
+  RunOutcome ending;
   ending.error = error_of([&] { ending.results = run(system, options); });
   return ending;
 }
 
-Ending check_same_without_rows(const Assembly& singly, const Assembly& in_rows) {
-  const Ending expected = run_in(singly, false);
-  const Ending ending = run_in(in_rows, true);
+RunOutcome check_same_without_rows(const Assembly& singly, const Assembly& in_rows) {
+  const RunOutcome expected = run_in(singly, false);
+  const RunOutcome ending = run_in(in_rows, true);
   CHECK(ending.error == expected.error);
   check_same_bytes(ending.results, expected.results);
   const core::RunStatistics &counted = ending.results.statistics,
@@ -100,10 +100,12 @@ class RowMixture {
         return connect(name, "", "y");
     }
   }
-  /// A raw unit does what its name says.
+  /// A raw unit does what its name says, from the first step on or when 100 of its calls are over.
   void add_special() {
-    constexpr std::array kNames{"needs", "arrives", "drifts", "error", "discard", "fatal", "plain"};
-    assembly_.add(kNames[below(kNames.size())], raw_);
+    constexpr std::array kNames{"needs", "arrives", "drifts", "error",
+                                "ends",  "discard", "fatal",  "plain"};
+    const std::string name = kNames[below(kNames.size())];
+    assembly_.add(below(2) == 0 ? name : fmt::format("{}@{}", name, 110 + below(60)), raw_);
     has_special_ = true;
   }
   void connect(const std::string& name, const std::string& input, const std::string& output) {
@@ -143,7 +145,7 @@ TEST_CASE("rows change nothing where most units are in rows, nor how a unit fail
     const RowMixture singly(seed, importer::Fmu::load(raw_fmu(scratch)));
     const RowMixture in_rows(seed, importer::Fmu::load(raw_fmu(other)));
     INFO("seed " << seed << "\n" << singly.assembly().text());
-    const Ending ending = check_same_without_rows(singly.assembly(), in_rows.assembly());
+    const RunOutcome ending = check_same_without_rows(singly.assembly(), in_rows.assembly());
     failures += ending.error != "(no error)";
     events += ending.results.statistics.event_iterations;
   }

@@ -41,8 +41,8 @@ class StepsInARow : public Capability {
     StepValues values;
   };
 
-  /// A row of as many of the members as can be in one, from the first one on. Null if these are not
-  /// two at least, as where the first one is not this unit but a decorator of it.
+  /// A row of as many of the members as can be in one, from the first one on: one at least. Null if
+  /// the first one cannot, as where it is not this unit but a decorator of it.
   virtual std::unique_ptr<UnitRow> make_row(std::span<const Member> members) = 0;
 };
 

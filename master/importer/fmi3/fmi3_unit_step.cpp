@@ -130,14 +130,15 @@ class Fmi3Unit::Row final : public core::UnitRow {
   };
   bool is_quick(const core::StepInterval& interval) const {
     const double sum = interval.begin_seconds + interval.size_seconds;
-    return !is_single_ && interval.size_seconds > 0 && sum <= stop_seconds_;
+    return !is_watched_ && interval.size_seconds > 0 && sum <= stop_seconds_;
   }
   void step_quickly(const core::StepInterval& interval, Progress& progress);
   void step_singly(const core::StepInterval& interval, Progress& progress);
-  void restore_mode();
+  void check_signals(const Progress& progress);
+  void restore_signals(std::span<const InRow> stepped);
 
   std::vector<InRow> members_;
-  bool is_single_ = false;   ///< each unit steps as if it were alone
+  bool is_watched_ = true;   ///< some are closely watched, and step as if each were alone
   double stop_seconds_ = 0;  ///< the earliest of the units; known when they have stepped
 };
 
@@ -150,16 +151,20 @@ void Fmi3Unit::Row::add(Fmi3Unit& unit, const core::StepValues& values) {
 void Fmi3Unit::Row::step(const core::StepInterval& interval, Progress& progress) {
   if (!is_quick(interval)) [[unlikely]]
     return step_singly(interval, progress);
-  is_single_ = true;  // if one of them fails
-  step_quickly(interval, progress);
-  is_single_ = !members_.front().unit->mode_.is_present();
-  if (is_single_) [[unlikely]]
-    restore_mode();
+  try {
+    step_quickly(interval, progress);
+  } catch (...) {
+    check_signals(progress);
+    throw;
+  }
+  check_signals(progress);
 }
 
 void Fmi3Unit::Row::step_singly(const core::StepInterval& interval, Progress& progress) {
+  is_watched_ = false;
   stop_seconds_ = std::numeric_limits<double>::infinity();
   for (const InRow& member : members_) {
+    is_watched_ |= member.unit->calls_ < kCloselyWatched;
     stop_seconds_ = std::min(stop_seconds_, member.unit->stop_seconds_);
   }
   for (const InRow& member : members_) {
@@ -185,11 +190,26 @@ void Fmi3Unit::Row::step_quickly(const core::StepInterval& interval, Progress& p
   }
 }
 
-/// Which unit it was is seen the next time only.
-void Fmi3Unit::Row::restore_mode() {
-  std::vector<std::string> names;
-  for (const InRow& member : members_) names.push_back(member.unit->name_);
-  members_.front().unit->restore_mode_behind("fmi3DoStep", names);
+/// The units behind one that has changed them, and did not put them back, have them, too.
+inline void Fmi3Unit::Row::check_signals(const Progress& progress) {
+  const std::size_t stepped = std::min(progress.plain + 1, members_.size());
+  const Fmi3Unit& last = *members_[stepped - 1].unit;
+  if (last.signals_ != last.mode_.signals()) [[unlikely]]
+    restore_signals(std::span(members_).first(stepped));
+}
+
+void Fmi3Unit::Row::restore_signals(std::span<const InRow> stepped) {
+  const core::ProcessorMode& mode = stepped.front().unit->mode_;
+  const core::ProcessorMode left = core::ProcessorMode::present();
+  mode.set();
+  core::ProcessorMode::Signals before = mode.signals();
+  for (const InRow& member : stepped) {
+    const core::ProcessorMode::Signals behind = member.unit->signals_;
+    if (behind != before && behind != mode.signals()) {
+      member.unit->warn_of_mode("fmi3DoStep", left);
+    }
+    before = behind;
+  }
 }
 
 bool Fmi3Unit::can_be_in_row(const Member& member) const {
@@ -210,7 +230,7 @@ std::unique_ptr<core::UnitRow> Fmi3Unit::make_row(std::span<const Member> member
     if (unit == nullptr || !unit->can_be_in_row(member) || unit->mode_ != mode_) break;
     row->add(*unit, member.values);
   }
-  return row->size() > 1 ? std::move(row) : nullptr;
+  return row->size() > 0 ? std::move(row) : nullptr;
 }
 
 // ---- Inputs within a step ----

@@ -44,8 +44,9 @@ class ProcessorMode {
   }
   /// Whether is_almost_present() can be used: it rounds to nearest and keeps subnormal numbers.
   bool is_usual() const noexcept;
-  /// As is_present(), in a third of the time: from what becomes of numbers. What it does not see is
-  /// which exceptions of SSE raise signals; where those of x87 do, it does.
+  /// As is_present(), in a third of the time: from what becomes of numbers. What it does not see
+  /// are Signals, unless exceptions of x87 raise signals, too; those of inexact results and
+  /// subnormal numbers are raised by it.
   [[gnu::always_inline]] bool is_almost_present() const noexcept {
 #if defined(__x86_64__)
     std::uint16_t x87;
@@ -59,6 +60,31 @@ class ProcessorMode {
 #else
     return is_present();
 #endif
+  }
+  /// What is_almost_present() does not see: which exceptions of SSE raise signals.
+  class Signals {
+   public:
+    /// Those of the calling thread. Costs less than to read and compare them at once.
+    [[gnu::always_inline]] void note() noexcept {
+#if defined(__x86_64__)
+      asm volatile("stmxcsr %0" : "=m"(sse_));
+#endif
+    }
+    bool operator==(const Signals& other) const noexcept {
+      return ((sse_ ^ other.sse_) & kMasks) == 0;
+    }
+
+   private:
+    friend ProcessorMode;
+    static constexpr std::uint32_t kMasks = 0x1f80;  ///< Intel's manual, volume 1, 10.2.3
+    std::uint32_t sse_ = 0;
+  };
+  Signals signals() const noexcept {
+    Signals signals;
+#if defined(__x86_64__)
+    signals.sse_ = sse_;
+#endif
+    return signals;
   }
   /// Gives it to the calling thread.
   void set() const noexcept;

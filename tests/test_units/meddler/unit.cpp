@@ -57,13 +57,6 @@ void flush_to_zero() {
 }
 
 /// So that the next long double is NaN.
-void enable_exceptions_of_sse() {
-#if defined(__x86_64__)
-  constexpr unsigned kDivisionByZero = 0x0200;  // masked where it is 1
-  __builtin_ia32_ldmxcsr(__builtin_ia32_stmxcsr() & ~kDivisionByZero);
-#endif
-}
-
 void use_registers() {
 #if defined(__x86_64__)
   asm volatile("fld1; fld1; fld1; fld1; fld1; fld1; fld1; fld1");
@@ -96,7 +89,6 @@ void meddle(const std::string& what) {
       {"rounding", [] { std::fesetround(FE_UPWARD); }},
       {"flush", flush_to_zero},
       {"exceptions", [] { ::feenableexcept(FE_DIVBYZERO); }},
-      {"exceptions of SSE", enable_exceptions_of_sse},
       {"registers", use_registers},
       {"streams", take_streams},
       {"crash", [] { std::abort(); }},
