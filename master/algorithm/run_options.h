@@ -144,7 +144,8 @@ struct RunOptions {
   std::vector<VariableId> recorded{};  ///< the default signals of observers, in order
   std::vector<VariableId> watched{};   ///< further signals that observers may request
   bool steps_in_rows = true;           ///< for tests: else each unit steps by itself
-  bool measure_time = true;            ///< wall-clock time per unit and phase (TimeSampling)
+  bool steps_in_stretches = true;  ///< for tests: else each communication step is made by itself
+  bool measure_time = true;        ///< wall-clock time per unit and phase (TimeSampling)
   /// The run ends at its next communication point after this is no longer 0.
   const volatile std::sig_atomic_t* interrupted = nullptr;
 };

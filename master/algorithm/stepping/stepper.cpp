@@ -127,6 +127,17 @@ Time Stepper::advance(Time from, Time target) {
   return reached;
 }
 
+Time Stepper::advance_regularly(const StepInterval& interval) {
+  ++communication_step_;
+  early_stop_.by = nullptr;
+  has_requests_ = was_parallel_ = is_short_end_ = false;
+  step_clock_.measure(false);
+  const Time reached = step_one_by_one(interval, true);
+  if (reached == interval.to && !has_requests_) [[likely]]
+    return reached;
+  return make_further_passes(interval, reached);
+}
+
 Time Stepper::make_timed_passes(Time from, Time target) {
   const auto began = WallClock::Source::now();
   const Time reached = make_passes(from, target);
@@ -151,17 +162,23 @@ void Stepper::undo(Time from) {
 Time Stepper::make_passes(Time from, Time target) {
   was_parallel_ = balancer_.is_parallel();
   if (from != last_end_) last_end_seconds_ = to_seconds(from);
-  const double from_seconds = last_end_seconds_;
-  for (bool is_first = true;; is_first = false) {
-    const StepInterval interval(from, from_seconds, target);
-    last_end_ = target;
+  const StepInterval interval(from, last_end_seconds_, target);
+  return make_further_passes(interval, make_pass(interval, true));
+}
+
+/// Behind the first one, with which the units have `reached` a time, until all are at the same.
+Time Stepper::make_further_passes(const StepInterval& first, Time reached) {
+  if (reached != first.to || has_requests_) [[unlikely]]
+    note_whole_rows(first.to);
+  last_end_ = first.to;
+  last_end_seconds_ = first.end_seconds;
+  while (reached != last_end_) {
+    const StepInterval interval(first.from, first.begin_seconds, reached);
+    last_end_ = interval.to;
     last_end_seconds_ = interval.end_seconds;
-    const Time reached = make_pass(interval, is_first);
-    if (is_first && (reached != target || has_requests_)) [[unlikely]]
-      note_whole_rows(target);
-    if (reached == target) return target;
-    target = reached;
+    reached = make_pass(interval, false);
   }
+  return reached;
 }
 
 /// Returns the target if all units have reached it, else the nearer one for the next pass.

@@ -54,6 +54,14 @@ class Stepper {
   /// than the minimum was rejected, or a unit stopped when another could not go back.
   Time advance(Time from, Time target);
 
+  /// Whether advance_regularly() can be used now: all units step here, on one thread.
+  bool may_be_regular() const {
+    return !has_concurrent_ && !balancer_.is_deciding() && balancer_.threads() == 1;
+  }
+  /// As advance() to the end of an interval, of a step of the regular size that does not end at the
+  /// stop time, and in which the clock does not measure.
+  Time advance_regularly(const StepInterval& interval);
+
   /// Takes all units back to `from`, where the last advance() began. Their states must have been
   /// saved, as they are with an error-controlled step.
   void undo(Time from);
@@ -136,6 +144,7 @@ class Stepper {
 
   Time make_timed_passes(Time from, Time target);
   Time make_passes(Time from, Time target);
+  Time make_further_passes(const StepInterval& first, Time reached);
   Time make_pass(const StepInterval& interval, bool is_first);
   Time step_one_by_one(const StepInterval& interval, bool is_first_pass);
   Time step_stage(const Stage& stage, std::span<const ThreadShare> shares,
