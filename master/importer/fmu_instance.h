@@ -327,8 +327,12 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics, public Call
   /// Whether a time that the unit names is one of the step, the rounding of doubles aside, and what
   /// a unit that adds up its own internal steps may have drifted.
   static bool is_within(const core::StepInterval& interval, double seconds);
-  [[gnu::always_inline]] static bool is_end(const core::StepInterval& interval, double seconds) {
-    return std::abs(seconds - interval.end_seconds) <= time_tolerance(interval);
+  [[gnu::always_inline]] static bool is_end(const core::StepInterval& interval, double seconds,
+                                            double tolerance) {
+    return std::abs(seconds - interval.end_seconds) <= tolerance;
+  }
+  static bool is_end(const core::StepInterval& interval, double seconds) {
+    return is_end(interval, seconds, time_tolerance(interval));
   }
   /// The instant of the step that the unit names; nothing if it is not in the step, or not known.
   std::optional<Time> instant_within(const core::StepInterval& interval,

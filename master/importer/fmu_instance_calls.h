@@ -62,8 +62,13 @@ template <class Function, class... Arguments>
 }
 
 [[gnu::always_inline]] inline FmuInstance::CallSequence::~CallSequence() {
-  kind_ == Kind::InRow ? unit_.check_mode_in_row(function_) : unit_.check_mode(function_);
-  unit_.present_.end_sequence();
+  if (kind_ == Kind::InRow) {
+    unit_.check_mode_in_row(function_);
+    unit_.present_.end_sequence_without_note();
+  } else {
+    unit_.check_mode(function_);
+    unit_.present_.end_sequence();
+  }
 }
 
 template <class Function, class... Arguments>

@@ -93,9 +93,13 @@ class PresentCall {
     if (!is_in_sequence()) return end_sequence();
     if (note_ != nullptr) note_->clear();
   }
-  [[gnu::always_inline]] void end_sequence() noexcept {
+  /// Where has_note() is false.
+  [[gnu::always_inline]] void end_sequence_without_note() noexcept {
     extent_.store(Extent::None, std::memory_order_relaxed);
     left_->is_unfinished.store(false, std::memory_order_relaxed);
+  }
+  [[gnu::always_inline]] void end_sequence() noexcept {
+    end_sequence_without_note();
     if (note_ != nullptr) [[unlikely]]
       note_->clear();
   }

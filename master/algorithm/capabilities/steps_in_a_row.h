@@ -13,11 +13,13 @@ namespace stride::core {
 /// Units that step one right after the other, with nothing between them.
 class UnitRow {
  public:
-  /// How far the units have come, also where an exception ends them.
+  /// How far the units have come where one of them requests something, does not reach the end of
+  /// the step, or throws an exception.
   struct Progress {
     /// So many of them, from the first on, have just reached the end of the step.
     std::size_t plain = 0;
-    /// If there is another unit: how its step has ended; those behind it have not been called.
+    /// How the step of the next one has ended, if it did not throw; those behind it have not been
+    /// called.
     StepResult result{};
   };
 
@@ -25,9 +27,10 @@ class UnitRow {
 
   virtual std::size_t size() const = 0;
   /// Makes the step of each unit as Unit::step() does, with the values that it has been given, up
-  /// to the first one that requests something, or does not reach the end of the step. Throws what
-  /// the unit's own step would.
-  virtual void step(const StepInterval& interval, Progress& progress) = 0;
+  /// to the first one that requests something, or does not reach the end of the step. Returns
+  /// whether there is none; else, and where it throws what the unit's own step would, the progress
+  /// says how far the units have come.
+  virtual bool step(const StepInterval& interval, Progress& progress) = 0;
 };
 
 /// Of a unit whose steps cost less where they are made so.

@@ -132,7 +132,11 @@ Time Stepper::advance_regularly(const StepInterval& interval) {
   early_stop_.by = nullptr;
   has_requests_ = was_parallel_ = is_short_end_ = false;
   step_clock_.measure(false);
-  const Time reached = step_one_by_one(interval, true);
+  UnitStep* last = nullptr;
+  const bool are_in_rows = are_all_in_rows_ && exchange_.has_all_to_write();
+  if (are_in_rows && step_rows(rows_, last, interval)) [[likely]]
+    return interval.to;
+  const Time reached = step_one_by_one(interval, true, last);
   if (reached == interval.to && !has_requests_) [[likely]]
     return reached;
   return make_further_passes(interval, reached);
@@ -192,18 +196,21 @@ inline Time Stepper::make_pass(const StepInterval& interval, bool is_first) {
   return interval.to;
 }
 
-/// To the end of the stage in which one of the units stopped.
-inline Time Stepper::step_one_by_one(const StepInterval& interval, bool is_first_pass) {
+/// To the end of the stage in which one of the units stopped. `stepped`: the units up to this one
+/// have stepped in rows, and of it there is something to record; or null.
+Time Stepper::step_one_by_one(const StepInterval& interval, bool is_first_pass, UnitStep* stepped) {
   const bool may_be_plain =
       is_first_pass && !step_clock_.measures() && interval.from != interval.to;
   const bool may_be_in_row = may_be_plain && exchange_.has_all_to_write();
   Time reached = interval.to;
   UnitStep* const end = unit_steps_.data() + unit_steps_.size();
-  for (UnitStep* unit_step = unit_steps_.data(); unit_step != end; ++unit_step) {
+  UnitStep* unit_step = stepped != nullptr ? stepped : unit_steps_.data();
+  for (; unit_step != end; ++unit_step) {
     const bool is_plain = may_be_plain & unit_step->is_plain;
     const bool is_in_row = may_be_in_row & unit_step->begins_row && reached == interval.to;
     const bool is_done =
-        is_in_row ? step_row(unit_step, interval) : is_plain && step_plainly(*unit_step, interval);
+        unit_step != stepped && (is_in_row ? step_rows({unit_step->row, 1}, unit_step, interval)
+                                           : is_plain && step_plainly(*unit_step, interval));
     if (!is_done) [[unlikely]] {
       if (!is_plain) unit_step->outcome = attempt_timed(*unit_step, interval);
       reached = reached_by(*unit_step, interval, reached);

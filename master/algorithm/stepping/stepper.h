@@ -126,6 +126,7 @@ class Stepper {
     std::span<UnitStep> steps;
     std::uint64_t whole_steps = 0;  ///< which each of them has made, beside its own
     std::uint64_t last = 0;         ///< in this communication step
+    UnitRow::Progress progress{};   ///< of the last step
   };
   /// The last unit that cut the present communication step short.
   struct EarlyStop {
@@ -146,7 +147,8 @@ class Stepper {
   Time make_passes(Time from, Time target);
   Time make_further_passes(const StepInterval& first, Time reached);
   Time make_pass(const StepInterval& interval, bool is_first);
-  Time step_one_by_one(const StepInterval& interval, bool is_first_pass);
+  Time step_one_by_one(const StepInterval& interval, bool is_first_pass,
+                       UnitStep* stepped = nullptr);
   Time step_stage(const Stage& stage, std::span<const ThreadShare> shares,
                   const StepInterval& interval);
   void step_together(std::span<const ThreadShare> shares, std::span<const ThreadShare> batches,
@@ -159,7 +161,8 @@ class Stepper {
   void note_outcome(UnitStep& unit_step, const StepInterval& interval);
   void form_rows();
   void form_rows(std::size_t first, std::span<const StepsInARow::Member> members);
-  bool step_row(UnitStep*& first, const StepInterval& interval);
+  bool step_rows(std::span<Row> rows, UnitStep*& last, const StepInterval& interval);
+  void note_plain_ones(Row& row, const StepInterval& interval);
   void note_step(UnitStep& unit_step, const StepResult& result);
   void note_whole_rows(Time reached);
   void count_whole_rows();
@@ -210,9 +213,10 @@ class Stepper {
   Time stop_;         ///< of the run
   Duration minimum_;  ///< no shorter step is tried after a rejection
   const std::vector<StepOrderEntry>& order_;
-  std::vector<UnitStep> unit_steps_;             ///< in that order
-  std::vector<Stage> stages_;                    ///< of them
-  std::vector<Row> rows_;                        ///< likewise
+  std::vector<UnitStep> unit_steps_;  ///< in that order
+  std::vector<Stage> stages_;         ///< of them
+  std::vector<Row> rows_;             ///< likewise
+  bool are_all_in_rows_ = false;
   bool has_concurrent_ = false;                  ///< whether units step elsewhere
   std::vector<std::size_t> index_of_;            ///< by component
   std::vector<std::chrono::nanoseconds> times_;  ///< by unit_step, of the present pass

@@ -21,10 +21,13 @@ void Stepper::form_rows() {
       members.clear();
     }
   }
+  std::size_t in_rows = 0;
   for (Row& row : rows_) {
     row.steps.front().begins_row = true;
     for (UnitStep& unit_step : row.steps) unit_step.row = &row;
+    in_rows += row.steps.size();
   }
+  are_all_in_rows_ = in_rows == unit_steps_.size();
 }
 
 /// `first`: the position of the first of the members.
@@ -42,35 +45,40 @@ void Stepper::form_rows(std::size_t first, std::span<const StepsInARow::Member> 
   }
 }
 
-/// As step_plainly(), of the units of a row, up to the first one of which there is something to
-/// record. `first` is the last one that has stepped, then.
-bool Stepper::step_row(UnitStep*& first, const StepInterval& interval) {
-  Row& row = *first->row;
-  UnitRow::Progress progress;
-  const auto note_plain_ones = [&] {
-    for (UnitStep& unit_step : row.steps.first(progress.plain)) {
-      note_step(unit_step, {.reached = interval.to});
-      ++unit_step.steps;
-    }
-  };
+/// As step_plainly(), of the units of successive rows, up to the first one of which there is
+/// something to record: returns whether there is none. `last` is the last one that has stepped.
+bool Stepper::step_rows(std::span<Row> rows, UnitStep*& last, const StepInterval& interval) {
+  Row* row = rows.data();
+  Row* const end = row + rows.size();
   try {
-    row.units->step(interval, progress);
+    for (; row != end; ++row) {
+      row->progress.plain = 0;
+      if (!row->units->step(interval, row->progress)) [[unlikely]]
+        break;
+      ++row->whole_steps;
+      row->last = communication_step_;
+    }
   } catch (...) {
-    note_plain_ones();
+    note_plain_ones(*row, interval);
     throw;
   }
-  if (progress.plain == row.steps.size()) [[likely]] {
-    first = &row.steps.back();
-    ++row.whole_steps;
-    row.last = communication_step_;
+  if (row == end) [[likely]] {
+    last = &rows.back().steps.back();
     return true;
   }
-  note_plain_ones();
-  first = &row.steps[progress.plain];
-  note_step(*first, progress.result);
-  ++first->steps;
-  note_outcome(*first, interval);
+  note_plain_ones(*row, interval);
+  last = &row->steps[row->progress.plain];
+  note_step(*last, row->progress.result);
+  ++last->steps;
+  note_outcome(*last, interval);
   return false;
+}
+
+void Stepper::note_plain_ones(Row& row, const StepInterval& interval) {
+  for (UnitStep& unit_step : row.steps.first(row.progress.plain)) {
+    note_step(unit_step, {.reached = interval.to});
+    ++unit_step.steps;
+  }
 }
 
 void Stepper::note_step(UnitStep& unit_step, const StepResult& result) {

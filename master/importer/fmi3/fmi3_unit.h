@@ -120,7 +120,7 @@ class Fmi3Unit final
   core::StepResult step_behind_inputs(CallSequence& calls, const core::StepInterval& interval,
                                       const core::StepValues& all);
   bool do_step(CallSequence& calls, const core::StepInterval& interval, double size,
-               core::StepResult& result);
+               double tolerance, core::StepResult& result);
   core::StepResult evaluate(const core::StepInterval& interval, Status status,
                             const StepAnswer& answer);
 

@@ -62,7 +62,7 @@ core::StepResult Fmi3Unit::save_with_step(core::Unit& unit, const core::StepInte
     return {.reached = interval.to};
   }
   core::StepResult other;
-  const bool is_plain = do_step(calls, interval, size, other);
+  const bool is_plain = do_step(calls, interval, size, time_tolerance(interval), other);
   if (!is_plain && other.rejected) [[unlikely]]
     return other;
   for (const core::BoundValues& values : all.outputs) {
@@ -76,7 +76,8 @@ core::StepResult Fmi3Unit::save_with_step(core::Unit& unit, const core::StepInte
 /// Returns whether the step has just reached its end. If not, `result` is how it has ended.
 [[gnu::always_inline]] inline bool Fmi3Unit::do_step(CallSequence& calls,
                                                      const core::StepInterval& interval,
-                                                     double size, core::StepResult& result) {
+                                                     double size, double tolerance,
+                                                     core::StepResult& result) {
   StepAnswer answer{.last_successful = interval.end_seconds};
   step_point_ = interval.begin_seconds;
   // noSetFMUStatePriorToCurrentPoint
@@ -86,7 +87,7 @@ core::StepResult Fmi3Unit::save_with_step(core::Unit& unit, const core::StepInte
       &answer.terminate, &answer.early, &answer.last_successful);
   const bool is_plain = !(answer.needs_event | answer.terminate | answer.early) &&
                         status != Status::Discard && callback_failure_ == nullptr &&
-                        is_end(interval, answer.last_successful);
+                        is_end(interval, answer.last_successful, tolerance);
   if (!is_plain) [[unlikely]] {
     result = evaluate(interval, status, answer);
     if (result.rejected) return false;
@@ -120,7 +121,7 @@ class Fmi3Unit::Row final : public core::UnitRow {
   void add(Fmi3Unit& unit, const core::StepValues& values);
 
   std::size_t size() const override { return members_.size(); }
-  void step(const core::StepInterval& interval, Progress& progress) override;
+  bool step(const core::StepInterval& interval, Progress& progress) override;
 
  private:
   struct InRow {
@@ -132,10 +133,14 @@ class Fmi3Unit::Row final : public core::UnitRow {
     const double sum = interval.begin_seconds + interval.size_seconds;
     return !is_watched_ && interval.size_seconds > 0 && sum <= stop_seconds_;
   }
-  void step_quickly(const core::StepInterval& interval, Progress& progress);
-  void step_singly(const core::StepInterval& interval, Progress& progress);
-  void check_signals(const Progress& progress);
-  void restore_signals(std::span<const InRow> stepped);
+  static bool step_quickly(const InRow& member, const core::StepInterval& interval,
+                           double tolerance, core::StepResult& result);
+  bool step_singly(const core::StepInterval& interval, Progress& progress);
+  void conclude(const InRow* last, Progress& progress);
+  static bool has_usual_signals(const InRow& member) {
+    return member.unit->signals_ == member.unit->mode_.signals();
+  }
+  void restore_signals(std::size_t stepped);
 
   std::vector<InRow> members_;
   bool is_watched_ = true;   ///< some are closely watched, and step as if each were alone
@@ -148,19 +153,25 @@ void Fmi3Unit::Row::add(Fmi3Unit& unit, const core::StepValues& values) {
                       outputs.empty() ? nullptr : &outputs.front(), values});
 }
 
-void Fmi3Unit::Row::step(const core::StepInterval& interval, Progress& progress) {
+bool Fmi3Unit::Row::step(const core::StepInterval& interval, Progress& progress) {
   if (!is_quick(interval)) [[unlikely]]
     return step_singly(interval, progress);
+  const double tolerance = time_tolerance(interval);
+  const InRow* member = members_.data();
+  const InRow* const end = member + members_.size();
   try {
-    step_quickly(interval, progress);
+    while (member != end && step_quickly(*member, interval, tolerance, progress.result)) ++member;
   } catch (...) {
-    check_signals(progress);
+    conclude(member, progress);
     throw;
   }
-  check_signals(progress);
+  if (member == end && has_usual_signals(members_.back())) [[likely]]
+    return true;
+  conclude(member, progress);
+  return member == end;
 }
 
-void Fmi3Unit::Row::step_singly(const core::StepInterval& interval, Progress& progress) {
+bool Fmi3Unit::Row::step_singly(const core::StepInterval& interval, Progress& progress) {
   is_watched_ = false;
   stop_seconds_ = std::numeric_limits<double>::infinity();
   for (const InRow& member : members_) {
@@ -169,41 +180,42 @@ void Fmi3Unit::Row::step_singly(const core::StepInterval& interval, Progress& pr
   }
   for (const InRow& member : members_) {
     progress.result = member.unit->step(interval, member.values);
-    if (!progress.result.reached_without_request(interval.to)) return;
+    if (!progress.result.reached_without_request(interval.to)) return false;
     ++progress.plain;
   }
+  return true;
 }
 
-void Fmi3Unit::Row::step_quickly(const core::StepInterval& interval, Progress& progress) {
-  for (const InRow& member : members_) {
-    Fmi3Unit& unit = *member.unit;
-    unit.present_step_ = {interval.from, interval.to};
-    CallSequence calls(unit, "fmi3DoStep", interval.from, CallSequence::Kind::InRow);
-    if (member.input != nullptr) unit.set_reals(calls, *member.input);
-    const bool is_plain = unit.do_step(calls, interval, interval.size_seconds, progress.result);
-    if (!is_plain && progress.result.rejected) [[unlikely]]
-      return;
-    if (member.output != nullptr) unit.get_reals(calls, *member.output);
-    if (!is_plain && !progress.result.reached_without_request(interval.to)) [[unlikely]]
-      return;
-    ++progress.plain;
-  }
+/// Returns whether the unit has just reached the end. If not, `result` is how its step has ended.
+[[gnu::always_inline]] inline bool Fmi3Unit::Row::step_quickly(const InRow& member,
+                                                               const core::StepInterval& interval,
+                                                               double tolerance,
+                                                               core::StepResult& result) {
+  Fmi3Unit& unit = *member.unit;
+  unit.present_step_ = {interval.from, interval.to};
+  CallSequence calls(unit, "fmi3DoStep", interval.from, CallSequence::Kind::InRow);
+  if (member.input != nullptr) unit.set_reals(calls, *member.input);
+  const bool is_plain = unit.do_step(calls, interval, interval.size_seconds, tolerance, result);
+  if (!is_plain && result.rejected) [[unlikely]]
+    return false;
+  if (member.output != nullptr) unit.get_reals(calls, *member.output);
+  return is_plain || result.reached_without_request(interval.to);
 }
 
-/// The units behind one that has changed them, and did not put them back, have them, too.
-inline void Fmi3Unit::Row::check_signals(const Progress& progress) {
+/// `last`: the unit at which the row ends.
+void Fmi3Unit::Row::conclude(const InRow* last, Progress& progress) {
+  progress.plain = static_cast<std::size_t>(last - members_.data());
   const std::size_t stepped = std::min(progress.plain + 1, members_.size());
-  const Fmi3Unit& last = *members_[stepped - 1].unit;
-  if (last.signals_ != last.mode_.signals()) [[unlikely]]
-    restore_signals(std::span(members_).first(stepped));
+  if (!has_usual_signals(members_[stepped - 1])) restore_signals(stepped);
 }
 
-void Fmi3Unit::Row::restore_signals(std::span<const InRow> stepped) {
-  const core::ProcessorMode& mode = stepped.front().unit->mode_;
+/// A unit that has changed them is named. Those behind it have had them, too.
+void Fmi3Unit::Row::restore_signals(std::size_t stepped) {
+  const core::ProcessorMode& mode = members_.front().unit->mode_;
   const core::ProcessorMode left = core::ProcessorMode::present();
   mode.set();
   core::ProcessorMode::Signals before = mode.signals();
-  for (const InRow& member : stepped) {
+  for (const InRow& member : std::span(members_).first(stepped)) {
     const core::ProcessorMode::Signals behind = member.unit->signals_;
     if (behind != before && behind != mode.signals()) {
       member.unit->warn_of_mode("fmi3DoStep", left);
@@ -217,7 +229,7 @@ bool Fmi3Unit::can_be_in_row(const Member& member) const {
     return values.block->type() != core::ValueType::Float64;
   };
   const auto [inputs, outputs] = member.values;
-  return options_.call_note == nullptr && mode_.is_usual() && fmi_.SetFloat64 != nullptr &&
+  return !present_.has_note() && mode_.is_usual() && fmi_.SetFloat64 != nullptr &&
          fmi_.GetFloat64 != nullptr && fmi_.DoStep != nullptr && inputs.size() <= 1 &&
          outputs.size() <= 1 && std::ranges::none_of(inputs, has_other_type) &&
          std::ranges::none_of(outputs, has_other_type);

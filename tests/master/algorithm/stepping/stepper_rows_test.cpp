@@ -39,13 +39,14 @@ class RowUnit : public ScriptedUnit, public StepsInARow {
     RowUnit* first;
 
     std::size_t size() const override { return members.size(); }
-    void step(const StepInterval& interval, Progress& progress) override {
+    bool step(const StepInterval& interval, Progress& progress) override {
       ++first->rows;
       for (const Member& member : members) {
         progress.result = member.unit->step(interval, member.values);
-        if (!progress.result.reached_without_request(interval.to)) return;
+        if (!progress.result.reached_without_request(interval.to)) return false;
         ++progress.plain;
       }
+      return true;
     }
   };
 
