@@ -1,4 +1,5 @@
-// Units that step in rows: the same bytes, counts and failures as where each steps by itself.
+// Units that step in rows, and communication steps that are made in stretches: the same bytes,
+// counts and failures as where each is made by itself.
 #include <array>
 #include <random>
 
@@ -7,6 +8,7 @@
 
 #include "tests/error_of.h"
 #include "tests/master/importer/support.h"
+#include "tests/property/random_interventions.h"
 #include "tests/property/random_system.h"
 
 using namespace stride;
@@ -31,17 +33,26 @@ struct RunOutcome {
   Results results;
 };
 
-RunOutcome run_in(const Assembly& system, bool steps_in_rows) {
-  core::RunOptions options = fixed_steps(kRowsStep, kRowsStop);
-  options.steps_in_rows = steps_in_rows;
+/// How steps are made, and up to when.
+struct Manner {
+  bool in_rows, in_stretches;
+  Time stop = kRowsStop;
+};
+
+RunOutcome run_in(const Assembly& system, const Manner& manner) {
+  core::RunOptions options = fixed_steps(kRowsStep, manner.stop);
+  options.steps_in_rows = manner.in_rows;
+  options.steps_in_stretches = manner.in_stretches;
+  options.interventions = random_interventions(system, 7);
+  options.measure_time = false;  // else most of the first steps are measured, each by itself
   RunOutcome ending;
   ending.error = error_of([&] { ending.results = run(system, options); });
   return ending;
 }
 
-RunOutcome check_same_without_rows(const Assembly& singly, const Assembly& in_rows) {
-  const RunOutcome expected = run_in(singly, false);
-  const RunOutcome ending = run_in(in_rows, true);
+RunOutcome check_same_singly(const Assembly& singly, const Assembly& other, const Manner& manner) {
+  const RunOutcome expected = run_in(singly, {false, false, manner.stop});
+  const RunOutcome ending = run_in(other, manner);
   CHECK(ending.error == expected.error);
   check_same_bytes(ending.results, expected.results);
   const core::RunStatistics &counted = ending.results.statistics,
@@ -128,11 +139,13 @@ fs::path raw_fmu(const Scratch& scratch) {
 
 }  // namespace
 
-TEST_CASE("rows change neither results nor counts of random systems") {
+TEST_CASE("rows and stretches change neither results nor counts of random systems") {
   for (unsigned seed = 0; seed < kRowsSystems / 4; ++seed) {
-    const Assembly system = random_system(seed, Wiring::Continuous);
+    const Assembly system =
+        random_system(seed, seed % 3 == 0 ? Wiring::EventsOnly : Wiring::Continuous);
     INFO("seed " << seed << "\n" << system.text());
-    check_same_without_rows(system, system);
+    check_same_singly(system, system,
+                      {seed % 4 != 3, true, Time(seed % 2 == 0 ? 200ms : 199700us)});
   }
 }
 
@@ -141,11 +154,12 @@ TEST_CASE("rows change nothing where most units are in rows, nor how a unit fail
   std::uint64_t events = 0;
   for (unsigned seed = 0; seed < kRowsSystems; ++seed) {
     // not shared, since a unit that fails fatally spoils its library
-    const Scratch scratch, other;
+    const Scratch scratch, other_scratch;
     const RowMixture singly(seed, importer::Fmu::load(raw_fmu(scratch)));
-    const RowMixture in_rows(seed, importer::Fmu::load(raw_fmu(other)));
+    const RowMixture other(seed, importer::Fmu::load(raw_fmu(other_scratch)));
     INFO("seed " << seed << "\n" << singly.assembly().text());
-    const RunOutcome ending = check_same_without_rows(singly.assembly(), in_rows.assembly());
+    const RunOutcome ending =
+        check_same_singly(singly.assembly(), other.assembly(), {seed % 4 != 3, seed % 4 != 2});
     failures += ending.error != "(no error)";
     events += ending.results.statistics.event_iterations;
   }

@@ -58,7 +58,7 @@ class RowUnit : public ScriptedUnit, public StepsInARow {
 /// A ring of units that are never saved: a row of two, one by itself, and another row of two.
 struct Rows : ScriptedSystem {
   explicit Rows(bool steps_in_rows) {
-    options.steps_in_rows = steps_in_rows;
+    options.steps_in_rows = options.steps_in_stretches = steps_in_rows;
     const auto description =
         Describe("unit").input("u").output("y").exact().event_mode().depends_on({}).done();
     for (const char* name : {"a", "b"}) add<RowUnit>(name, description);
