@@ -23,7 +23,7 @@
 #include "master/algorithm/stepping/input_extrapolator.h"
 #include "master/algorithm/stepping/step_order.h"
 #include "master/algorithm/stepping/stepper.h"
-#include "master/algorithm/stepping/stretch.h"
+#include "master/algorithm/stretch.h"
 #include "master/algorithm/time_sampling.h"
 #include "master/algorithm/unit_counters.h"
 #include "master/util/state_archive.h"

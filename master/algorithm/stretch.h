@@ -1,6 +1,6 @@
 // Communication steps between which there is nothing to do.
-#ifndef STRIDE_MASTER_ALGORITHM_STEPPING_STRETCH_H
-#define STRIDE_MASTER_ALGORITHM_STEPPING_STRETCH_H
+#ifndef STRIDE_MASTER_ALGORITHM_STRETCH_H
+#define STRIDE_MASTER_ALGORITHM_STRETCH_H
 
 #include <csignal>
 #include <cstdint>

@@ -1,4 +1,4 @@
-#include "master/algorithm/stepping/stretch.h"
+#include "master/algorithm/stretch.h"
 
 #include <algorithm>
 
