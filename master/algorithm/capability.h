@@ -21,6 +21,7 @@ enum class CapabilityId : unsigned {
   UnitDiagnostics,
   HostDiagnostics,
   ConcurrentSteps,
+  StepsInARow,
   End,  ///< no capability
 };
 

@@ -20,6 +20,8 @@ class Pauses {
   void begin(Time now) { choose(now); }
   /// Whether make() may have something to do: one comparison where nothing is to come.
   bool may_be_due(Time now) const { return now >= may_be_due_from_; }
+  /// From when on it may be so.
+  Time may_be_due_from() const { return may_be_due_from_; }
   /// At a communication point: those that are due. `next_target()` returns the target of the next
   /// step, or the least time where there is none.
   template <class NextTarget>

@@ -143,7 +143,9 @@ struct RunOptions {
   IdleOptions idle{};                  ///< as far as may_skip_idle_time()
   std::vector<VariableId> recorded{};  ///< the default signals of observers, in order
   std::vector<VariableId> watched{};   ///< further signals that observers may request
-  bool measure_time = true;            ///< wall-clock time per unit and phase (TimeSampling)
+  bool steps_in_rows = true;           ///< for tests: else each unit steps by itself
+  bool steps_in_stretches = true;  ///< for tests: else each communication step is made by itself
+  bool measure_time = true;        ///< wall-clock time per unit and phase (TimeSampling)
   /// The run ends at its next communication point after this is no longer 0.
   const volatile std::sig_atomic_t* interrupted = nullptr;
 };

@@ -23,6 +23,7 @@
 #include "master/algorithm/stepping/input_extrapolator.h"
 #include "master/algorithm/stepping/step_order.h"
 #include "master/algorithm/stepping/stepper.h"
+#include "master/algorithm/stretch.h"
 #include "master/algorithm/time_sampling.h"
 #include "master/algorithm/unit_counters.h"
 #include "master/util/state_archive.h"
@@ -282,6 +283,10 @@ class Simulation::Run {
       if (pauses_.may_be_due(time_)) [[unlikely]]
         make_pauses();
       if (!should_continue()) break;
+      if (const std::uint64_t steps = stretch_.steps_from(time_); steps != 0) {
+        make_stretch(steps);
+        continue;
+      }
       sampling_.begin_step();
       communication_step();
       sampling_.end_step();
@@ -343,8 +348,19 @@ class Simulation::Run {
     return false;
   }
 
+  void make_stretch(std::uint64_t steps) {
+    const Time began = time_;
+    const std::optional<Time> reached = stretch_.make(time_, steps);
+    if (time_ != began) stalled_steps_ = 0;
+    if (reached) conclude_step(*reached);
+  }
+
   void communication_step() {
-    const Time reached = clock_.timed(statistics_.phases.steps, [&] { return advance(); });
+    conclude_step(clock_.timed(statistics_.phases.steps, [&] { return advance(); }));
+  }
+
+  /// When all units have reached this time.
+  void conclude_step(Time reached) {
     if (stepper_.has_requests()) note_requested_end();
     if (reached == time_) {
       if (statistics_.end == RunEnd::EndedByUnit) return;  // this point has been observed
@@ -451,6 +467,9 @@ class Simulation::Run {
   Time time_{};
   std::uint32_t stalled_steps_ = 0;
   Pauses pauses_;
+  Stretch stretch_{context_,
+                   {*step_policy_, event_handler_, interventions_, pauses_, stepper_, sampling_},
+                   inputs_ == nullptr&& idle_ == nullptr};
 };
 
 Simulation::Simulation(const System& system, std::vector<std::unique_ptr<Unit>> units,

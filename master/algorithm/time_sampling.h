@@ -2,6 +2,7 @@
 #ifndef STRIDE_MASTER_ALGORITHM_TIME_SAMPLING_H
 #define STRIDE_MASTER_ALGORITHM_TIME_SAMPLING_H
 
+#include <algorithm>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
@@ -42,6 +43,11 @@ class TimeSampling {
     if (step_ == block_end_) [[unlikely]]
       end_block();
   }
+  /// How many of the next steps need neither of the two, but pass_step().
+  std::uint64_t unmeasured_steps() const {
+    return std::min(measured_ < step_ ? block_end_ : measured_, block_end_ - 1) - step_;
+  }
+  void pass_step() { ++step_; }
   /// The times are those of the whole run from here on.
   void end() { scale(statistics_); }
   /// Likewise, those of a copy of the statistics.

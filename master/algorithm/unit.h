@@ -28,11 +28,14 @@ struct StepInterval {
       : StepInterval(step_from, to_seconds(step_from), step_to) {}
   /// For a beginning whose value in seconds is known.
   StepInterval(Time step_from, double from_seconds, Time step_to)
+      : StepInterval(step_from, from_seconds, step_to, to_seconds(step_to - step_from)) {}
+  /// Likewise, and for a size.
+  StepInterval(Time step_from, double from_seconds, Time step_to, double regular_seconds)
       : from(step_from),
         to(step_to),
         begin_seconds(from_seconds),
         end_seconds(to_seconds(step_to)),
-        size_seconds(to_seconds(step_to - step_from)) {
+        size_seconds(regular_seconds) {
     const double difference = end_seconds - begin_seconds;
     if (std::abs(size_seconds - difference) > 1e-6 * size_seconds) size_seconds = difference;
   }

@@ -30,15 +30,6 @@ bool is_of_interpreter(const std::string& change) {
 
 constexpr std::size_t kMaxMessages = 8;
 
-/// How far the unit's idea of where a step ended may be from ours.
-double time_tolerance(const core::StepInterval& interval) {
-  constexpr double kPicosecond = 1e-12;
-  constexpr double kShareOfStep = 1e-6;
-  const double end = interval.end_seconds;
-  const double rounding = 4 * std::numeric_limits<double>::epsilon() * std::abs(end);
-  return kPicosecond + rounding + kShareOfStep * (end - interval.begin_seconds);
-}
-
 template <class Predicate>
 bool has_variable(const core::UnitDescription& unit, Predicate&& predicate) {
   return std::ranges::any_of(unit.variables, predicate);
@@ -88,6 +79,7 @@ bool FmuInstance::declares(core::CapabilityId id) const {
     case CapabilityId::MessageText:
     case CapabilityId::HostDiagnostics:
     case CapabilityId::ConcurrentSteps:
+    case CapabilityId::StepsInARow:
     case CapabilityId::End:
       return false;
   }
@@ -101,6 +93,16 @@ Status FmuInstance::check_status(const char* name, Status status) {
   if (status != Status::Ok && status != Status::Warning) fail_call(name, status);
   if (has_messages()) drop_messages();
   return status;
+}
+
+Status FmuInstance::check_left(const char* name, Status status) {
+  if (is_copy_of_process()) leave_fork(name);
+  return check_status(name, status);
+}
+
+void FmuInstance::check_left_by_whole_call(const char* name, Status status) {
+  status = check_left(name, status);
+  if (status == Status::Discard || status == Status::Pending) fail_call(name, status);
 }
 
 void FmuInstance::fail_not_callable(const char* name) const {
@@ -208,6 +210,10 @@ void FmuInstance::leave_fork(const char* function) const {
 void FmuInstance::restore_mode(const char* function) {
   const core::ProcessorMode left = core::ProcessorMode::present();
   mode_.set();
+  warn_of_mode(function, left);
+}
+
+void FmuInstance::warn_of_mode(const char* function, const core::ProcessorMode& left) {
   if (std::exchange(has_mode_warning_, true)) return;
   warn(
       fmt::format("{} left another mode of the processor behind ({}); it is put back, here and "
@@ -462,10 +468,6 @@ void FmuInstance::fail_discarded(const core::StepInterval& interval, const char*
                    core::to_text(interval.to), how_far, why,
                    rejection_reason_.empty() ? "" : "; message of the unit: ", rejection_reason_),
        other_step.empty() ? hint : other_step);
-}
-
-bool FmuInstance::is_end(const core::StepInterval& interval, double seconds) {
-  return std::abs(seconds - interval.end_seconds) <= time_tolerance(interval);
 }
 
 }  // namespace stride::importer

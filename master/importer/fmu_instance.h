@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <cstddef>
 #include <cstdint>
@@ -159,9 +160,16 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics, public Call
   /// depend on. Other calls of the unit meanwhile belong to the sequence.
   class CallSequence {
    public:
+    enum class Kind : std::uint8_t {
+      Single,
+      /// Its functions are there and can be called, no other process has a note of it, its first
+      /// calls are over, and `signals_` is looked at behind the row.
+      InRow,
+    };
+
     /// From this time on. `function` is named if the mode is another one.
     /// Throws if no function can be called.
-    CallSequence(FmuInstance& unit, const char* function, Time time);
+    CallSequence(FmuInstance& unit, const char* function, Time time, Kind kind = Kind::Single);
     ~CallSequence();
     CallSequence(const CallSequence&) = delete;
     CallSequence& operator=(const CallSequence&) = delete;
@@ -179,9 +187,15 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics, public Call
     }
 
    private:
+    template <class Function, class... Arguments>
+    Status make_call(const char* name, Function* function, Arguments... arguments);
+
     FmuInstance& unit_;
     const char* function_;
+    const Kind kind_;
   };
+  /// Warns that a call of this function has left another mode behind, once.
+  void warn_of_mode(const char* function, const core::ProcessorMode& left);
   /// After a call of this function: see InstanceOptions::process.
   void restore_process(const char* function);
   [[gnu::always_inline]] void check_callable(const char* name) const {
@@ -193,6 +207,9 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics, public Call
   /// What a status other than OK, or a message of a failure, means for the call that has just
   /// ended.
   Status check_status(const char* name, Status status);
+  /// Likewise, and of all else that it may have left; also of one that must not answer Discard.
+  Status check_left(const char* name, Status status);
+  void check_left_by_whole_call(const char* name, Status status);
   [[noreturn]] void fail_call(const char* function, Status status);
   /// Within a handler of what left the unit's function.
   [[noreturn]] void fail_thrown(const char* function);
@@ -299,10 +316,24 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics, public Call
     const bool is_beyond = sum > stop_seconds_ && interval.end_seconds <= stop_seconds_;
     return is_beyond ? interval.end_seconds - interval.begin_seconds : interval.size_seconds;
   }
+  /// How far the unit's idea of where a step ended may be from ours.
+  [[gnu::always_inline]] static double time_tolerance(const core::StepInterval& interval) {
+    constexpr double kPicosecond = 1e-12;
+    constexpr double kShareOfStep = 1e-6;
+    const double end = interval.end_seconds;
+    const double rounding = 4 * std::numeric_limits<double>::epsilon() * std::abs(end);
+    return kPicosecond + rounding + kShareOfStep * (end - interval.begin_seconds);
+  }
   /// Whether a time that the unit names is one of the step, the rounding of doubles aside, and what
   /// a unit that adds up its own internal steps may have drifted.
   static bool is_within(const core::StepInterval& interval, double seconds);
-  static bool is_end(const core::StepInterval& interval, double seconds);
+  [[gnu::always_inline]] static bool is_end(const core::StepInterval& interval, double seconds,
+                                            double tolerance) {
+    return std::abs(seconds - interval.end_seconds) <= tolerance;
+  }
+  static bool is_end(const core::StepInterval& interval, double seconds) {
+    return is_end(interval, seconds, time_tolerance(interval));
+  }
   /// The instant of the step that the unit names; nothing if it is not in the step, or not known.
   std::optional<Time> instant_within(const core::StepInterval& interval,
                                      std::optional<double> seconds, const char* what) const;
@@ -331,6 +362,7 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics, public Call
   bool is_repeating_ = false;             ///< what it logs has been logged before
   int watched_calls_ = 0;  ///< so many of the next ones are followed by restore_process()
   const core::ProcessorMode mode_ = core::ProcessorMode::present();
+  core::ProcessorMode::Signals signals_;  ///< behind its last step in a row
   std::optional<Time> time_;
   double stop_seconds_ = std::numeric_limits<double>::infinity();
   struct {
@@ -370,6 +402,13 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics, public Call
       restore_mode(function);
     if (calls_ < kCloselyWatched) [[unlikely]]
       check_registers(function);
+    core::ProcessorMode::empty_registers();
+  }
+  /// Likewise, of what costs least to be seen: all but the signals, which are noted.
+  [[gnu::always_inline]] void check_mode_in_row(const char* function) {
+    signals_.note();
+    if (!mode_.is_almost_present()) [[unlikely]]
+      restore_mode(function);
     core::ProcessorMode::empty_registers();
   }
   void restore_mode(const char* function);

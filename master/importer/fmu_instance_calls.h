@@ -53,44 +53,59 @@ template <class Function, class... Arguments>
 
 [[gnu::always_inline]] inline FmuInstance::CallSequence::CallSequence(FmuInstance& unit,
                                                                       const char* function,
-                                                                      Time time)
-    : unit_(unit), function_(function) {
-  unit.check_callable(function);
+                                                                      Time time, Kind kind)
+    : unit_(unit), function_(function), kind_(kind) {
+  if (kind_ != Kind::InRow) unit.check_callable(function);
   unit.time_ = time;
   unit.present_.begin_sequence(time);
   core::ForkMark::set();
 }
 
 [[gnu::always_inline]] inline FmuInstance::CallSequence::~CallSequence() {
-  unit_.check_mode(function_);
-  unit_.present_.end_sequence();
+  if (kind_ == Kind::InRow) {
+    unit_.check_mode_in_row(function_);
+    unit_.present_.end_sequence_without_note();
+  } else {
+    unit_.check_mode(function_);
+    unit_.present_.end_sequence();
+  }
+}
+
+template <class Function, class... Arguments>
+[[gnu::always_inline]] inline Status FmuInstance::CallSequence::make_call(const char* name,
+                                                                          Function* function,
+                                                                          Arguments... arguments) {
+  if (kind_ != Kind::InRow) unit_.require(name, function, "values of this type");
+  ++unit_.calls_;
+  if (kind_ == Kind::InRow) {
+    unit_.present_.begin_next_without_note(name);
+  } else {
+    unit_.present_.begin_next(name);
+  }
+  try {
+    return static_cast<Status>(function(unit_.instance_, arguments...));
+  } catch (...) {
+    unit_.fail_thrown(name);
+  }
 }
 
 template <class Function, class... Arguments>
 [[gnu::always_inline]] inline Status FmuInstance::CallSequence::call_discardable(
     const char* name, Function* function, Arguments... arguments) {
-  unit_.require(name, function, "values of this type");
-  ++unit_.calls_;
-  unit_.present_.begin_next(name);
-  Status status{};
-  try {
-    status = static_cast<Status>(function(unit_.instance_, arguments...));
-  } catch (...) {
-    unit_.fail_thrown(name);
-  }
+  const Status status = make_call(name, function, arguments...);
   if (status == Status::Ok && unit_.is_quiet()) [[likely]]
     return status;
-  if (unit_.is_copy_of_process()) unit_.leave_fork(name);
-  return unit_.check_status(name, status);
+  return unit_.check_left(name, status);
 }
 
 template <class Function, class... Arguments>
 [[gnu::always_inline]] inline void FmuInstance::CallSequence::call(const char* name,
                                                                    Function* function,
                                                                    Arguments... arguments) {
-  const Status status = call_discardable(name, function, arguments...);
-  if (status == Status::Discard || status == Status::Pending) [[unlikely]]
-    unit_.fail_call(name, status);
+  const Status status = make_call(name, function, arguments...);
+  if (status == Status::Ok && unit_.is_quiet()) [[likely]]
+    return;
+  unit_.check_left_by_whole_call(name, status);
 }
 
 template <class Function, class... Arguments>

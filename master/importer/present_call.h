@@ -74,10 +74,15 @@ class PresentCall {
   [[gnu::always_inline]] void set_time(Time time) noexcept { left_->time = time; }
   /// One of a sequence; no end() is needed between them.
   [[gnu::always_inline]] void begin_next(const char* function) noexcept {
-    left_->function.store(function, std::memory_order_relaxed);
+    begin_next_without_note(function);
     if (note_ != nullptr) [[unlikely]]
       note_->write(function, left_->time);
   }
+  /// Likewise, where has_note() is false.
+  [[gnu::always_inline]] void begin_next_without_note(const char* function) noexcept {
+    left_->function.store(function, std::memory_order_relaxed);
+  }
+  bool has_note() const noexcept { return note_ != nullptr; }
   /// The value of which variable is read; must outlive the call.
   void read_value_of(const core::ValueReference* variable) noexcept {
     variable_.store(variable, std::memory_order_relaxed);
@@ -88,9 +93,13 @@ class PresentCall {
     if (!is_in_sequence()) return end_sequence();
     if (note_ != nullptr) note_->clear();
   }
-  [[gnu::always_inline]] void end_sequence() noexcept {
+  /// Where has_note() is false.
+  [[gnu::always_inline]] void end_sequence_without_note() noexcept {
     extent_.store(Extent::None, std::memory_order_relaxed);
     left_->is_unfinished.store(false, std::memory_order_relaxed);
+  }
+  [[gnu::always_inline]] void end_sequence() noexcept {
+    end_sequence_without_note();
     if (note_ != nullptr) [[unlikely]]
       note_->clear();
   }

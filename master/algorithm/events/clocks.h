@@ -46,10 +46,11 @@ class Clocks {
 
   /// The next tick, after the last due().
   const std::optional<Time>& next() const { return next_; }
+  /// Whether nothing is due before that.
+  bool is_settled() const { return !is_stale_ && due_.empty(); }
   /// The components of which a clock ticks at `time`, in order.
   std::span<const std::size_t> due(Time time) {
-    const bool is_sure = !is_stale_ && due_.empty();
-    if (is_sure && (!next_ || *next_ > time)) return {};
+    if (is_settled() && (!next_ || *next_ > time)) return {};
     return find_due(time);
   }
   /// Sets the clocks that are due, in the order of their descriptions; their units are in Event

@@ -78,6 +78,12 @@ Time EventHandler::next_event(Time target) const {
   return messages_.has_delivery(target) ? messages_.next_delivery() : target;
 }
 
+Time EventHandler::quiet_until() const {
+  const bool may_be_any = idle_ != nullptr || !discrete_units_.empty() || has_active_ ||
+                          had_any_event_ || !clocks_.is_settled();
+  return may_be_any ? Time::min() : next_event(Time::max());
+}
+
 void EventHandler::begin_instant(Time time) {
   if (time != time_) index_ = 0;
   time_ = time;

@@ -59,6 +59,16 @@ class EventHandler : private OrderedEvaluation::Participants,
   /// settle after 1000 iterations.
   void handle_events();
 
+  /// After handle_events(): until when nothing is to be done at a communication point but
+  /// pass_quietly(); the least time where a unit may have an event at any of them.
+  Time quiet_until() const;
+  /// Instead of begin_instant() and handle_events(), at a communication point before that.
+  void pass_quietly(Time time) {
+    index_ = 0;
+    time_ = time;
+    exchange_.route(time);
+  }
+
   /// At the communication point `now`, after its events.
   void persist(StateArchive& state, Time start, Time now);
 

@@ -248,7 +248,7 @@ bool Exchange::any_discrete_change(std::size_t component) const {
 }
 
 void Exchange::write_inputs(std::size_t component, Unit& unit) {
-  ports_[component].written_route = route_;
+  ports_[component].written_route = written_alone_ = route_;
   for (const BoundValues& input : ports_[component].values.inputs) {
     unit.set(input.references, *input.block);
   }

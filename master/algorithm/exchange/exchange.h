@@ -61,6 +61,14 @@ class Exchange {
   }
   /// Writes a unit's continuous inputs, and the discrete ones if they changed.
   void write_inputs(std::size_t component, Unit& unit);
+  /// Whether no unit's inputs were written by themselves since something was routed.
+  bool has_all_to_write() const { return written_alone_ != route_; }
+  /// What with_step_values() passes on then, if it is all that belongs to a step of the unit.
+  const StepValues* fixed_step_values(std::size_t component) const {
+    return ports_[component].has_discrete_inputs ? nullptr : &ports_[component].values;
+  }
+  /// A step with these has been made.
+  void mark_written(std::size_t component) { ports_[component].written_route = route_; }
   /// Likewise, if something was routed since the unit's inputs were written.
   void write_routed_inputs(std::size_t component, Unit& unit) {
     if (ports_[component].written_route != route_) write_inputs(component, unit);
@@ -269,6 +277,7 @@ class Exchange {
   std::vector<Port> ports_;                ///< by component
   std::vector<BoundValues> bound_values_;  ///< of them
   std::uint64_t route_ = 1;                ///< counts the calls of route()
+  std::uint64_t written_alone_ = 0;        ///< behind which of them write_inputs() was called last
   std::vector<Forced> forced_;
   std::vector<VariableId> new_outputs_;
   std::array<std::vector<Copy<std::byte>>, 4> numbers_;  // of 1, 2, 4 and 8 bytes

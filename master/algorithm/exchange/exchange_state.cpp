@@ -21,7 +21,9 @@ void Exchange::persist(StateArchive& state) {
   state.fixed(ports_, [&](Port& port) {
     bool is_written = port.written_route == route_;
     state.value(is_written);
-    if (state.is_reading()) port.written_route = is_written ? route_ : 0;
+    if (!state.is_reading()) return;
+    port.written_route = is_written ? route_ : 0;
+    if (is_written) written_alone_ = route_;
   });
   persist_forced(state);
 }

@@ -21,7 +21,7 @@ void SystemOutputs::connect(Exchange& exchange) {
   for (Output& output : outputs_) output.source = exchange.signal(output.output->from);
 }
 
-void SystemOutputs::update() {
+void SystemOutputs::update_all() {
   for (Output& output : outputs_) {
     const std::size_t first = output.source.first + output.output->from_first;
     copy_elements(output.block, 0, *output.source.block, first, output.block.size(),

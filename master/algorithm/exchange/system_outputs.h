@@ -21,11 +21,15 @@ class SystemOutputs {
   /// Connects the outputs with their sources. The exchange must outlive this object.
   void connect(Exchange& exchange);
   /// Copies the values from the exchange.
-  void update();
+  void update() {
+    if (!outputs_.empty()) update_all();
+  }
   /// The signal of an observed variable, which may be an output of the system or another variable.
   Signal signal(VariableId id, Exchange& exchange) const;
 
  private:
+  void update_all();
+
   struct Output {
     VariableId id;
     const SystemOutput* output;

@@ -32,6 +32,11 @@ class FixedSteps : public StepPolicy {
     return grid_point_;
   }
 
+  Duration regular_size(Time now) const override {
+    const bool is_on_grid = now == grid_point_ || (now - limits_.start()) % size_ == Duration{};
+    return is_on_grid && size_ <= limits_.maximum().value_or(size_) ? size_ : Duration{};
+  }
+
  private:
   StepLimits limits_;
   Duration size_;

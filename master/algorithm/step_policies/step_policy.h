@@ -29,6 +29,10 @@ class StepPolicy {
   /// the last point of the grid that is not later than that.
   virtual Time next_while_idle(Time now, Time /*quiet_until*/) { return next(now); }
 
+  /// The size of the next steps, where all of them have the same up to the stop time, or else 0:
+  /// those from a point of the grid on.
+  virtual Duration regular_size(Time /*now*/) const { return {}; }
+
   /// Whether the step is accepted. If not, it is undone, and next() chooses a nearer point. Called
   /// where StepPolicyType::controls_error only. Throws Error (Run) where no shorter step is
   /// allowed.

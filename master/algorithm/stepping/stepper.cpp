@@ -66,6 +66,7 @@ Stepper::Stepper(RunContext& context, const std::vector<StepOrderEntry>& order,
     unit_step.can_save_with_step = inputs == nullptr;
   }
   form_stages();
+  if (context.options.steps_in_rows) form_rows();
 }
 
 void Stepper::form_stages() {
@@ -126,6 +127,21 @@ Time Stepper::advance(Time from, Time target) {
   return reached;
 }
 
+Time Stepper::advance_regularly(const StepInterval& interval) {
+  ++communication_step_;
+  early_stop_.by = nullptr;
+  has_requests_ = was_parallel_ = is_short_end_ = false;
+  step_clock_.measure(false);
+  UnitStep* last = nullptr;
+  const bool are_in_rows = are_all_in_rows_ && exchange_.has_all_to_write();
+  if (are_in_rows && step_rows(rows_, last, interval)) [[likely]]
+    return interval.to;
+  const Time reached = step_one_by_one(interval, true, last);
+  if (reached == interval.to && !has_requests_) [[likely]]
+    return reached;
+  return make_further_passes(interval, reached);
+}
+
 Time Stepper::make_timed_passes(Time from, Time target) {
   const auto began = WallClock::Source::now();
   const Time reached = make_passes(from, target);
@@ -135,6 +151,7 @@ Time Stepper::make_timed_passes(Time from, Time target) {
 
 void Stepper::persist(StateArchive& state) {
   state.mark("steps");
+  count_whole_rows();
   state.fixed(unit_steps_, [&](UnitStep& unit_step) { state.value(unit_step.steps); });
 }
 
@@ -149,15 +166,23 @@ void Stepper::undo(Time from) {
 Time Stepper::make_passes(Time from, Time target) {
   was_parallel_ = balancer_.is_parallel();
   if (from != last_end_) last_end_seconds_ = to_seconds(from);
-  const double from_seconds = last_end_seconds_;
-  for (bool is_first = true;; is_first = false) {
-    const StepInterval interval(from, from_seconds, target);
-    last_end_ = target;
+  const StepInterval interval(from, last_end_seconds_, target);
+  return make_further_passes(interval, make_pass(interval, true));
+}
+
+/// Behind the first one, with which the units have `reached` a time, until all are at the same.
+Time Stepper::make_further_passes(const StepInterval& first, Time reached) {
+  if (reached != first.to || has_requests_) [[unlikely]]
+    note_whole_rows(first.to);
+  last_end_ = first.to;
+  last_end_seconds_ = first.end_seconds;
+  while (reached != last_end_) {
+    const StepInterval interval(first.from, first.begin_seconds, reached);
+    last_end_ = interval.to;
     last_end_seconds_ = interval.end_seconds;
-    const Time reached = make_pass(interval, is_first);
-    if (reached == target) return target;
-    target = reached;
+    reached = make_pass(interval, false);
   }
+  return reached;
 }
 
 /// Returns the target if all units have reached it, else the nearer one for the next pass.
@@ -171,21 +196,27 @@ inline Time Stepper::make_pass(const StepInterval& interval, bool is_first) {
   return interval.to;
 }
 
-/// To the end of the stage in which one of the units stopped.
-inline Time Stepper::step_one_by_one(const StepInterval& interval, bool is_first_pass) {
+/// To the end of the stage in which one of the units stopped. `stepped`: the units up to this one
+/// have stepped in rows, and of it there is something to record; or null.
+Time Stepper::step_one_by_one(const StepInterval& interval, bool is_first_pass, UnitStep* stepped) {
   const bool may_be_plain =
       is_first_pass && !step_clock_.measures() && interval.from != interval.to;
+  const bool may_be_in_row = may_be_plain && exchange_.has_all_to_write();
   Time reached = interval.to;
-  for (UnitStep& unit_step : unit_steps_) {
-    const bool is_plain = may_be_plain & unit_step.is_plain;
-    if (is_plain && step_plainly(unit_step, interval)) [[likely]] {
-      if (reached == interval.to) [[likely]]
-        continue;
-    } else {
-      if (!is_plain) unit_step.outcome = attempt_timed(unit_step, interval);
-      reached = reached_by(unit_step, interval, reached);
+  UnitStep* const end = unit_steps_.data() + unit_steps_.size();
+  UnitStep* unit_step = stepped != nullptr ? stepped : unit_steps_.data();
+  for (; unit_step != end; ++unit_step) {
+    const bool is_plain = may_be_plain & unit_step->is_plain;
+    const bool is_in_row = may_be_in_row & unit_step->begins_row && reached == interval.to;
+    const bool is_done =
+        unit_step != stepped && (is_in_row ? step_rows({unit_step->row, 1}, unit_step, interval)
+                                           : is_plain && step_plainly(*unit_step, interval));
+    if (!is_done) [[unlikely]] {
+      if (!is_plain) unit_step->outcome = attempt_timed(*unit_step, interval);
+      reached = reached_by(*unit_step, interval, reached);
     }
-    if (unit_step.ends_stage && reached != interval.to) break;
+    if (reached != interval.to && unit_step->ends_stage) [[unlikely]]
+      break;
   }
   if (reached != interval.to) check_minimum(interval, reached);
   return reached;
@@ -281,6 +312,12 @@ inline bool Stepper::step_plainly(UnitStep& unit_step, const StepInterval& inter
   ++unit_step.steps;
   if (unit_step.result.reached_without_request(interval.to)) [[likely]]
     return true;
+  note_outcome(unit_step, interval);
+  return false;
+}
+
+/// Of a plain step that did not just reach its end.
+void Stepper::note_outcome(UnitStep& unit_step, const StepInterval& interval) {
   unit_step.steps -= unit_step.result.rejected;
   unit_step.rolled_back = false;
   unit_step.outcome = unit_step.result.rejected ? Outcome::Rejected : Outcome::Stepped;
@@ -288,7 +325,6 @@ inline bool Stepper::step_plainly(UnitStep& unit_step, const StepInterval& inter
     unit_step.possible = unit_step.result.reached;
     unit_step.result = {.reached = interval.from};
   }
-  return false;
 }
 
 inline Stepper::Outcome Stepper::attempt_timed(UnitStep& unit_step, const StepInterval& interval) {

@@ -13,6 +13,7 @@
 #include <stride/time.h>
 
 #include "master/algorithm/capabilities/concurrent_steps.h"
+#include "master/algorithm/capabilities/steps_in_a_row.h"
 #include "master/algorithm/idle/idle_scheduler.h"
 #include "master/algorithm/parallel/load_balancer.h"
 #include "master/algorithm/run_context.h"
@@ -33,6 +34,8 @@ class StateArchive;
 /// Units that compute elsewhere (ConcurrentSteps) step at the same time, and beside the others: all
 /// of a stage, or with Gauss-Seidel all of a batch, begin before the first of them is waited for.
 ///
+/// Units that can step in a row (StepsInARow) do so where nothing else is to be done for them.
+///
 /// The outcome of each unit's step is recorded in the step order, whichever thread made it, so
 /// results, statistics and errors do not depend on the threads. Where several units of a stage
 /// fail, the error of the first one is thrown, after all threads have finished. Concurrent steps of
@@ -51,6 +54,14 @@ class Stepper {
   /// than the minimum was rejected, or a unit stopped when another could not go back.
   Time advance(Time from, Time target);
 
+  /// Whether advance_regularly() can be used now: all units step here, on one thread.
+  bool may_be_regular() const {
+    return !has_concurrent_ && !balancer_.is_deciding() && balancer_.threads() == 1;
+  }
+  /// As advance() to the end of an interval, of a step of the regular size that does not end at the
+  /// stop time, and in which the clock does not measure.
+  Time advance_regularly(const StepInterval& interval);
+
   /// Takes all units back to `from`, where the last advance() began. Their states must have been
   /// saved, as they are with an error-controlled step.
   void undo(Time from);
@@ -63,7 +74,8 @@ class Stepper {
   bool has_requests() const { return has_requests_; }
   /// How many steps the unit has made, redone ones included.
   std::uint64_t steps(std::size_t component) const {
-    return unit_steps_[index_of_[component]].steps;
+    const UnitStep& unit_step = unit_steps_[index_of_[component]];
+    return unit_step.steps + (unit_step.row != nullptr ? unit_step.row->whole_steps : 0);
   }
 
   /// Between two communication steps.
@@ -73,6 +85,7 @@ class Stepper {
   bool was_parallel() const { return was_parallel_; }
 
  private:
+  struct Row;
   enum class Outcome : std::uint8_t { Idle, Pending, Stepped, Rejected, TooFar, Failed };
 
   /// The step of one unit in the present communication step. Written by the thread that steps the
@@ -91,6 +104,7 @@ class Stepper {
     bool saves_state;
     bool can_vary_step;
     bool is_plain = false;  ///< it needs nothing but the step itself
+    bool begins_row = false;
     bool ends_stage = false;
     std::uint32_t rejections = 0;  ///< in the present communication step
 
@@ -103,6 +117,16 @@ class Stepper {
     Time undone{};    ///< the time that it had reached before
     const StepOrderEntry* entry;
     ConcurrentSteps* concurrent;  ///< null if it steps here
+    Row* row = nullptr;           ///< in which it can step
+  };
+  /// Successive ones that can step in a row. What is noted of a unit is noted of the row where all
+  /// of them have just reached the end of a step.
+  struct Row {
+    std::unique_ptr<UnitRow> units;
+    std::span<UnitStep> steps;
+    std::uint64_t whole_steps = 0;  ///< which each of them has made, beside its own
+    std::uint64_t last = 0;         ///< in this communication step
+    UnitRow::Progress progress{};   ///< of the last step
   };
   /// The last unit that cut the present communication step short.
   struct EarlyStop {
@@ -121,8 +145,10 @@ class Stepper {
 
   Time make_timed_passes(Time from, Time target);
   Time make_passes(Time from, Time target);
+  Time make_further_passes(const StepInterval& first, Time reached);
   Time make_pass(const StepInterval& interval, bool is_first);
-  Time step_one_by_one(const StepInterval& interval, bool is_first_pass);
+  Time step_one_by_one(const StepInterval& interval, bool is_first_pass,
+                       UnitStep* stepped = nullptr);
   Time step_stage(const Stage& stage, std::span<const ThreadShare> shares,
                   const StepInterval& interval);
   void step_together(std::span<const ThreadShare> shares, std::span<const ThreadShare> batches,
@@ -132,6 +158,14 @@ class Stepper {
   bool succeeds(UnitStep& unit_step, Attempt&& attempt) noexcept;
   StepResult save_and_step(UnitStep& unit_step, const StepInterval& interval);
   bool step_plainly(UnitStep& unit_step, const StepInterval& interval);
+  void note_outcome(UnitStep& unit_step, const StepInterval& interval);
+  void form_rows();
+  void form_rows(std::size_t first, std::span<const StepsInARow::Member> members);
+  bool step_rows(std::span<Row> rows, UnitStep*& last, const StepInterval& interval);
+  void note_plain_ones(Row& row, const StepInterval& interval);
+  void note_step(UnitStep& unit_step, const StepResult& result);
+  void note_whole_rows(Time reached);
+  void count_whole_rows();
   Outcome attempt_timed(UnitStep& unit_step, const StepInterval& interval);
   Outcome attempt(UnitStep& unit_step, const StepInterval& interval);
   Outcome begin_timed(UnitStep& unit_step, const StepInterval& interval);
@@ -179,8 +213,10 @@ class Stepper {
   Time stop_;         ///< of the run
   Duration minimum_;  ///< no shorter step is tried after a rejection
   const std::vector<StepOrderEntry>& order_;
-  std::vector<UnitStep> unit_steps_;             ///< in that order
-  std::vector<Stage> stages_;                    ///< of them
+  std::vector<UnitStep> unit_steps_;  ///< in that order
+  std::vector<Stage> stages_;         ///< of them
+  std::vector<Row> rows_;             ///< likewise
+  bool are_all_in_rows_ = false;
   bool has_concurrent_ = false;                  ///< whether units step elsewhere
   std::vector<std::size_t> index_of_;            ///< by component
   std::vector<std::chrono::nanoseconds> times_;  ///< by unit_step, of the present pass

@@ -5,8 +5,6 @@
 
 #include <fmt/format.h>
 
-#include "master/util/time_text.h"
-
 namespace stride::importer {
 namespace {
 
@@ -34,12 +32,6 @@ std::vector<core::ValueReference> intermediate_inputs(const core::UnitDescriptio
     if (is_input && variable.intermediate_update) references.push_back(variable.reference);
   }
   return references;
-}
-
-/// Either of the two that a double may be after the step.
-bool is_exact_end(const core::StepInterval& interval, double seconds) {
-  const double sum = interval.begin_seconds + interval.size_seconds;
-  return seconds == interval.end_seconds || seconds == sum;
 }
 
 }  // namespace
@@ -78,6 +70,7 @@ void Fmi3Unit::free() {
 
 core::Capability* Fmi3Unit::find_capability(core::CapabilityId id) {
   const bool has_text = library_->describe_functions().DescribeMessage != nullptr;
+  if (id == core::StepsInARow::kId) return implemented(id);
   if (id == core::MessageText::kId ? !has_text : !declares(id)) return nullptr;
   return id == core::UnitDiagnostics::kId ? diagnostics() : implemented(id);
 }
@@ -138,21 +131,6 @@ void Fmi3Unit::on_log(fmi3InstanceEnvironment environment, fmi3Status status, fm
 }
 
 // ---- Values ----
-
-// Most values are of this type.
-[[gnu::always_inline]] inline void Fmi3Unit::get(CallSequence& calls,
-                                                 const core::BoundValues& values) {
-  if (values.float64s.empty()) return get(values.references, *values.block);
-  calls.call("fmi3GetFloat64", fmi_.GetFloat64, values.references.data(), values.references.size(),
-             values.float64s.data(), values.float64s.size());
-}
-
-[[gnu::always_inline]] inline void Fmi3Unit::set(CallSequence& calls,
-                                                 const core::BoundValues& values) {
-  if (values.float64s.empty()) return set(values.references, *values.block);
-  calls.call("fmi3SetFloat64", fmi_.SetFloat64, values.references.data(), values.references.size(),
-             values.float64s.data(), values.float64s.size());
-}
 
 void Fmi3Unit::get(References references, core::ValueBlock& values) {
   if (values.type() == core::ValueType::Clock) {
@@ -236,124 +214,7 @@ void Fmi3Unit::get_directional_derivative(References unknowns, References knowns
        sensitivity.size());
 }
 
-// ---- Steps and events ----
-
-core::StepResult Fmi3Unit::step(const core::StepInterval& interval,
-                                const core::StepValues& values) {
-  CallSequence calls(*this, "fmi3DoStep", interval.from);
-  for (const core::BoundValues& input : values.inputs) set(calls, input);
-  return make_step(calls, interval, values.outputs);
-}
-
-core::StepResult Fmi3Unit::save_with_step(core::Unit& unit, const core::StepInterval& interval,
-                                          const core::StepValues& values) {
-  if (&unit != this) return StateSaving::save_with_step(unit, interval, values);
-  CallSequence calls(*this, "fmi3DoStep", interval.from);
-  for (const core::BoundValues& input : values.inputs) set(calls, input);
-  Fmi3Unit::save_state();
-  return make_step(calls, interval, values.outputs);
-}
-
-/// Behind its inputs: the step, and its outputs.
-[[gnu::always_inline]] inline core::StepResult Fmi3Unit::make_step(
-    CallSequence& calls, const core::StepInterval& interval,
-    std::span<const core::BoundValues> outputs) {
-  const double size = size_of(interval);
-  if (!(size > 0)) [[unlikely]] {  // to the unit, whose time is a double, it is the same instant
-    calls.set_time(interval.to);
-    return {.reached = interval.to};
-  }
-  StepAnswer answer{.last_successful = interval.end_seconds};
-  step_point_ = interval.begin_seconds;
-  // noSetFMUStatePriorToCurrentPoint
-  const fmi3Boolean never_goes_back = !(options_.may_go_back || interval.may_go_back_before);
-  const Status status = calls.call_discardable(
-      "fmi3DoStep", fmi_.DoStep, interval.begin_seconds, size, never_goes_back, &answer.needs_event,
-      &answer.terminate, &answer.early, &answer.last_successful);
-  core::StepResult result{.reached = interval.to};
-  const bool has_more = answer.needs_event || answer.terminate || answer.early ||
-                        callback_failure_ != nullptr || status == Status::Discard ||
-                        !is_exact_end(interval, answer.last_successful);
-  if (has_more) [[unlikely]] {
-    result = evaluate(interval, status, answer);
-    if (result.rejected) return result;
-  }
-  was_restored_ = false;
-  calls.set_time(result.reached);
-  for (const core::BoundValues& output : outputs) get(calls, output);
-  return result;
-}
-
-/// Of a step that did not just reach its end.
-core::StepResult Fmi3Unit::evaluate(const core::StepInterval& interval, Status status,
-                                    const StepAnswer& answer) {
-  rethrow_callback_failure();
-  if (status == Status::Discard) {
-    take_rejection_reason("fmi3DoStep");
-    return {.rejected = true, .reached = interval.from};
-  }
-  if (answer.needs_event && !parts_.description->has_event_mode)
-    fail("fmi3DoStep returned eventHandlingNeeded, and the unit has no Event Mode (hasEventMode)");
-  const bool is_exact = is_exact_end(interval, answer.last_successful);
-  if (!answer.early && !is_exact) compare_times(interval, answer.last_successful);
-  return {.early_return = answer.early,
-          .event_handling_needed = answer.needs_event,
-          .terminate_simulation = answer.terminate,
-          .reached = answer.early ? reached_early(interval, answer.last_successful) : interval.to};
-}
-
-// ---- Inputs within a step ----
-
-void Fmi3Unit::on_intermediate_update(fmi3InstanceEnvironment environment, fmi3Float64 time,
-                                      fmi3Boolean set_requested, fmi3Boolean, fmi3Boolean,
-                                      fmi3Boolean, fmi3Boolean* early_return_requested,
-                                      fmi3Float64*) {
-  if (early_return_requested != nullptr) *early_return_requested = fmi3False;
-  if (!set_requested) return;
-  if (auto* const unit = find_caller<Fmi3Unit>(environment)) unit->update_inputs(time);
-}
-
-/// Nothing may cross the unit's C code: step() throws what goes wrong here.
-void Fmi3Unit::update_inputs(double time) noexcept {
-  if (!input_update_ || callback_failure_) return;
-  const core::ProcessorModeScope mode(mode_);  // the unit may have one for its step
-  try {
-    input_update_(time - step_point_);
-  } catch (...) {
-    callback_failure_ = std::current_exception();
-  }
-  write_note("fmi3DoStep");  // which goes on, whatever was called meanwhile
-}
-
-/// FMI 3.0, 4.2: a unit with a fixed internal step may end at another time than that of the step.
-void Fmi3Unit::compare_times(const core::StepInterval& interval, double last_successful) {
-  if (is_end(interval, last_successful)) return;
-  checked_time(last_successful, "lastSuccessfulTime");
-  if (std::exchange(has_time_warning_, true)) return;
-  const auto& internal_step = parts_.description->fixed_internal_step;
-  warn(fmt::format(
-      "the step to {} s ended at the unit's own time {} s (lastSuccessfulTime) without "
-      "an early return{}; its outputs are taken as those at {} s, here and in later "
-      "steps",
-      core::to_text(interval.to), last_successful,
-      internal_step
-          ? fmt::format(", since its fixedInternalStepSize is {} s", core::to_text(*internal_step))
-          : "",
-      core::to_text(interval.to)));
-}
-
-Time Fmi3Unit::reached_early(const core::StepInterval& interval, double last_successful) const {
-  if (is_exact_end(interval, last_successful)) return interval.to;
-  if (!options_.early_return_allowed) {
-    fail("fmi3DoStep returned early, which was not allowed at its instantiation");
-  }
-  if (!is_within(interval, last_successful)) {
-    fail(fmt::format("fmi3DoStep returned early at {} s, which is outside of the step to {} s",
-                     last_successful, core::to_text(interval.to)));
-  }
-  return std::clamp(checked_time(last_successful, "lastSuccessfulTime"), interval.from,
-                    interval.to);
-}
+// ---- Events ----
 
 void Fmi3Unit::enter_event_mode() { call("fmi3EnterEventMode", fmi_.EnterEventMode); }
 

@@ -19,6 +19,7 @@
 #include "master/algorithm/capabilities/resetting.h"
 #include "master/algorithm/capabilities/state_saving.h"
 #include "master/algorithm/capabilities/state_serialization.h"
+#include "master/algorithm/capabilities/steps_in_a_row.h"
 #include "master/importer/fmi3/fmi3_library.h"
 #include "master/importer/fmu_instance_calls.h"
 #include "master/importer/saved_states.h"
@@ -41,7 +42,7 @@ class Fmi3Unit final
       public core::Capabilities<core::ConfigurationMode, core::StateSaving,
                                 core::StateSerialization, core::Resetting, core::IdlePromises,
                                 core::DirectionalDerivatives, core::ClockIntervals,
-                                core::InputsWithinStep, core::MessageText> {
+                                core::InputsWithinStep, core::MessageText, core::StepsInARow> {
  public:
   /// Throws core::Error of the kind Run, with the unit's messages, if it cannot be instantiated.
   Fmi3Unit(std::string name, std::shared_ptr<const Fmi3Library> library, UnitParts parts,
@@ -61,6 +62,9 @@ class Fmi3Unit final
   using FmuInstance::step;
   core::StepResult step(const core::StepInterval& interval,
                         const core::StepValues& values) override;
+  /// Of units in this process that exchange one block of inputs and one of outputs at most, of the
+  /// type Float64.
+  std::unique_ptr<core::UnitRow> make_row(std::span<const Member> members) override;
   void save_state() override;
   core::StepResult save_with_step(core::Unit& unit, const core::StepInterval& interval,
                                   const core::StepValues& values) override;
@@ -102,15 +106,21 @@ class Fmi3Unit final
   static void on_log(fmi3InstanceEnvironment environment, fmi3Status status, fmi3String category,
                      fmi3String message);
 
-  void get(CallSequence& calls, const core::BoundValues& values);
-  void set(CallSequence& calls, const core::BoundValues& values);
+  class Row;
+  bool can_be_in_row(const Member& member) const;
+
+  void get_reals(CallSequence& calls, const core::BoundValues& values);
+  void set_reals(CallSequence& calls, const core::BoundValues& values);
+  void set(CallSequence& calls, const core::StepValues& all);
   /// What fmi3DoStep returns beside its status.
   struct StepAnswer {
     bool needs_event = false, terminate = false, early = false;
     double last_successful;
   };
-  core::StepResult make_step(CallSequence& calls, const core::StepInterval& interval,
-                             std::span<const core::BoundValues> outputs);
+  core::StepResult step_behind_inputs(CallSequence& calls, const core::StepInterval& interval,
+                                      const core::StepValues& all);
+  bool do_step(CallSequence& calls, const core::StepInterval& interval, double size,
+               double tolerance, core::StepResult& result);
   core::StepResult evaluate(const core::StepInterval& interval, Status status,
                             const StepAnswer& answer);
 

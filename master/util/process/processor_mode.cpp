@@ -73,6 +73,10 @@ bool ProcessorMode::goes_backward() const noexcept { return false; }
 bool ProcessorMode::needs_alignment() const noexcept { return false; }
 #endif
 
+bool ProcessorMode::is_usual() const noexcept {
+  return rounding() == FE_TONEAREST && !flushes_to_zero();
+}
+
 std::string ProcessorMode::differences(const ProcessorMode& other) const {
   std::string text;
   const auto add = [&](const char* difference) {

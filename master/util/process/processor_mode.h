@@ -42,6 +42,50 @@ class ProcessorMode {
     return present() == *this;
 #endif
   }
+  /// Whether is_almost_present() can be used: it rounds to nearest and keeps subnormal numbers.
+  bool is_usual() const noexcept;
+  /// As is_present(), in a third of the time: from what becomes of numbers. What it does not see
+  /// are Signals, unless exceptions of x87 raise signals, too; those of inexact results and
+  /// subnormal numbers are raised by it.
+  [[gnu::always_inline]] bool is_almost_present() const noexcept {
+#if defined(__x86_64__)
+    std::uint16_t x87;
+    asm volatile("fnstcw %0" : "=m"(x87));
+    const std::uint64_t flags = __builtin_ia32_readeflags_u64();
+    double one = 1, small = 0x1p-60, least = 0x1p-1074;
+    asm volatile("" : "+x"(one), "+x"(small), "+x"(least));  // computed here, not by the compiler
+    const bool is_same =
+        (std::uint32_t(x87 ^ x87_) | ((flags ^ flags_) & (kBackward | kAligned))) == 0;
+    return is_same && one + small == one && one - small == one && least + least != 0;
+#else
+    return is_present();
+#endif
+  }
+  /// What is_almost_present() does not see: which exceptions of SSE raise signals.
+  class Signals {
+   public:
+    /// Those of the calling thread. Costs less than to read and compare them at once.
+    [[gnu::always_inline]] void note() noexcept {
+#if defined(__x86_64__)
+      asm volatile("stmxcsr %0" : "=m"(sse_));
+#endif
+    }
+    bool operator==(const Signals& other) const noexcept {
+      return ((sse_ ^ other.sse_) & kMasks) == 0;
+    }
+
+   private:
+    friend ProcessorMode;
+    static constexpr std::uint32_t kMasks = 0x1f80;  ///< Intel's manual, volume 1, 10.2.3
+    std::uint32_t sse_ = 0;
+  };
+  Signals signals() const noexcept {
+    Signals signals;
+#if defined(__x86_64__)
+    signals.sse_ = sse_;
+#endif
+    return signals;
+  }
   /// Gives it to the calling thread.
   void set() const noexcept;
   /// Empties the registers of the x87 unit, which are those of MMX, too: a function that returns

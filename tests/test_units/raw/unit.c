@@ -7,6 +7,9 @@
  *   drifts   its time is a little off          refuses  it cannot be instantiated
  *   arrives  it says early of a step that it made to its end
  *   thirds   its next event is at 1/3 s     needs    it wants Event Mode after each step
+ *   ends     it requests the end after each step
+ *   signals  it leaves a mode in which divisions by zero (SSE) raise signals
+ *   crashes  it writes where nothing is
  *   pending  it returns 5, a status of FMI 2.0
  *   unheard  it returns 77, which is no status
  *   babbles  it logs 300 warnings              mumbles  it logs a message with the status 77
@@ -16,13 +19,19 @@
  *   large    likewise 1 TiB
  *   insists  it rejects what is not the next step of raw_step picoseconds by its own count
  *
+ * "error@40" does so from its 41st step on.
+ *
  * With WITH_FAULTS it commits a fault of faults/faults.h, in any call, and has a state, without
  * content.
  */
 #include <math.h>
 #include <signal.h>
 #include <stdint.h>
+#include <stdlib.h>
 #include <string.h>
+#if defined(__x86_64__)
+#include <xmmintrin.h>
+#endif
 
 #include <stride/fmi3.h>
 
@@ -30,6 +39,7 @@ typedef struct {
   bool is_used;
   char name[32];
   long long steps;
+  long long calm_steps; /* it does nothing special in the first ones */
   char resources[512];
   fmi3InstanceEnvironment environment;
   fmi3LogMessageCallback log;
@@ -99,6 +109,11 @@ fmi3Instance fmi3InstantiateCoSimulation(fmi3String name, fmi3String token, fmi3
   }
   memset(instance, 0, sizeof *instance);
   strncpy(instance->name, name, sizeof instance->name - 1);
+  char* const at = strchr(instance->name, '@');
+  if (at != NULL) {
+    instance->calm_steps = atoll(at + 1);
+    *at = '\0';
+  }
   strncpy(instance->resources, resources != NULL ? resources : "NULL",
           sizeof instance->resources - 1);
   instance->environment = environment;
@@ -171,10 +186,12 @@ fmi3Status fmi3DoStep(fmi3Instance handle, fmi3Float64 point, fmi3Float64 size,
   if (is(instance, "insists") && !is_next_step(instance, point, size)) return fmi3Discard;
   ++instance->steps;
   RETURN_FAULT("step")
-  *terminate = false;
-  *event = is(instance, "needs");
-  *early = is(instance, "early") || is(instance, "arrives");
+  *event = *terminate = *early = false;
   *reached = point + size;
+  if (instance->steps <= instance->calm_steps) return fmi3OK;
+  *event = is(instance, "needs");
+  *terminate = is(instance, "ends");
+  *early = is(instance, "early") || is(instance, "arrives");
   if (is(instance, "lies") || is(instance, "early")) *reached = point + size / 2;
   if (is(instance, "drifts")) *reached = point + size * (1 + 1e-9);
   if (is(instance, "warning")) {
@@ -188,6 +205,10 @@ fmi3Status fmi3DoStep(fmi3Instance handle, fmi3Float64 point, fmi3Float64 size,
   if (is(instance, "mumbles")) {
     instance->log(instance->environment, (fmi3Status)77, "logStatusWarning", "something is up");
   }
+  if (is(instance, "crashes")) *(volatile int*)NULL = 1;
+#if defined(__x86_64__)
+  if (is(instance, "signals")) _mm_setcsr(_mm_getcsr() & ~(unsigned)_MM_MASK_DIV_ZERO);
+#endif
   if (is(instance, "fatal")) {
     instance->log(instance->environment, fmi3Fatal, "logStatusFatal", "the heap is gone");
     return fmi3Fatal;

@@ -38,6 +38,34 @@ TEST_CASE("a mode is put back, and what another one does is said") {
   CHECK(usual.differences(usual).empty());
 }
 
+TEST_CASE("the quick comparison sees all that changes numbers") {
+  const ProcessorMode usual = ProcessorMode::present();
+  CHECK(usual.is_usual());
+  CHECK(usual.is_almost_present());
+  for (const int rounding : {FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO}) {
+    std::fesetround(rounding);
+    const bool is_seen = !usual.is_almost_present();
+    const bool is_usual = ProcessorMode::present().is_usual();
+    usual.set();
+    CHECK(is_seen);
+    CHECK_FALSE(is_usual);
+  }
+#if defined(__x86_64__)
+  // of SSE alone: rounding up, down, and to zero; results that become 0, and arguments
+  for (const unsigned bits : {0x4000U, 0x2000U, 0x6000U, 0x8000U, 0x0040U}) {
+    __builtin_ia32_ldmxcsr(__builtin_ia32_stmxcsr() | bits);
+    const bool is_seen = !usual.is_almost_present();
+    usual.set();
+    INFO(bits);
+    CHECK(is_seen);
+  }
+  ::feenableexcept(FE_DIVBYZERO);
+  const bool is_seen = !usual.is_almost_present();
+  usual.set();
+  CHECK(is_seen);
+#endif
+}
+
 #if defined(__x86_64__)
 TEST_CASE("registers that are left in use are emptied") {
   volatile long double one = 1, three = 3;
@@ -74,8 +102,10 @@ TEST_CASE("the direction of string instructions and the check of alignment are p
   const ProcessorMode usual = ProcessorMode::present();
   __builtin_ia32_writeeflags_u64(__builtin_ia32_readeflags_u64() | bit);
   const ProcessorMode left = ProcessorMode::present();
+  const bool is_almost_present = usual.is_almost_present();
   usual.set();
   CHECK(usual.is_present());
+  CHECK_FALSE(is_almost_present);
   CHECK(usual.differences(left) == words);
 }
 

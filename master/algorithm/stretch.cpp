@@ -1,0 +1,54 @@
+#include "master/algorithm/stretch.h"
+
+#include <algorithm>
+
+namespace stride::core {
+
+Stretch::Stretch(RunContext& context, const Parts& parts, bool is_possible)
+    : context_(context),
+      parts_(parts),
+      is_possible_(is_possible && context.options.steps_in_stretches),
+      size_(context.options.step.size),
+      interrupted_(context.options.interrupted) {}
+
+/// The steps end before that.
+Time Stretch::free_until() const {
+  const Time event = std::min(context_.options.stop, parts_.event_handler.quiet_until());
+  return std::min(parts_.interventions.next(event), parts_.pauses.may_be_due_from());
+}
+
+std::uint64_t Stretch::steps_from(Time now) const {
+  if (!is_possible_ || !parts_.stepper.may_be_regular()) return 0;
+  const std::uint64_t unmeasured = parts_.sampling.unmeasured_steps();
+  if (unmeasured == 0) return 0;
+  const Time end = free_until();
+  if (end <= now || end - now <= size_ || parts_.policy.regular_size(now) != size_) return 0;
+  const Duration rest = end - now - Duration(1);
+  return std::min(unmeasured, static_cast<std::uint64_t>(rest / size_));
+}
+
+std::optional<Time> Stretch::make(Time& time, std::uint64_t steps) {
+  const double size_seconds = to_seconds(size_);
+  double seconds = to_seconds(time);
+  for (std::uint64_t made = 0; made < steps && !is_interrupted(); ++made) {
+    parts_.sampling.pass_step();
+    const StepInterval interval(time, seconds, time + size_, size_seconds);
+    const Time reached = parts_.stepper.advance_regularly(interval);
+    if (reached != interval.to || parts_.stepper.has_requests()) [[unlikely]]
+      return reached;
+    time = reached;
+    seconds = interval.end_seconds;
+    parts_.event_handler.pass_quietly(time);
+    observe(time);
+  }
+  return std::nullopt;
+}
+
+inline void Stretch::observe(Time time) {
+  ++context_.statistics.communication_steps;
+  context_.statistics.reached = time;
+  context_.outputs.update();
+  for (Observer* observer : context_.observers) observer->on_communication_point(time);
+}
+
+}  // namespace stride::core
