@@ -27,8 +27,15 @@ namespace fs = std::filesystem;
 /// Digits of a name that are its place in its folder.
 constexpr std::size_t kPlaces = 3;
 
-/// That a case may need for its files [byte].
-constexpr std::size_t kRoom = 64 << 10;
+/// That a case may need for its first files, and for all of them [byte].
+constexpr off_t kRoom = off_t{64} << 10;
+constexpr off_t kAmpleRoom = off_t{64} << 20;
+
+std::error_code make_file(const fs::path& path, off_t size) {
+  const core::Descriptor file(::open(path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0600));
+  const int error = file.is_open() ? ::posix_fallocate(file.number(), 0, size) : errno;
+  return {error, std::generic_category()};
+}
 
 core::Descriptor opened(const fs::path& folder) {
   return core::Descriptor(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
@@ -57,7 +64,8 @@ void move(const fs::path& from, const fs::path& to) {
   if (!error) fs::rename(from, to, error);
   if (!error) return;
   core::fail_run({.where = {to.string(), 0}},
-                 fmt::format("cannot put a result of the campaign here: {}", error.message()));
+                 fmt::format("cannot put a result of the campaign here: {}", error.message()),
+                 "see to the folder and its disk, and run the campaign again: it goes on");
 }
 
 }  // namespace
@@ -127,24 +135,16 @@ void CaseScratch::keep_results(std::uint64_t index) const {
   move(results(index), to);
 }
 
-std::optional<std::string> CaseScratch::why_unusable() const {
+std::optional<std::string> CaseScratch::why_unusable(bool amply) const {
   const fs::path probe = file(fmt::format("probe_{}", ::getpid()));  // forks look, too
-  const std::string some(kRoom, ' ');
-  std::optional<std::string> reason;
-  try {
-    fs::create_directory(probe);
-    core::OutputFile output(probe / "file");
-    output.write(some);
-    output.close();
-  } catch (const fs::filesystem_error& error) {
-    reason =
-        fmt::format("no folder can be made in {}: {}", folder_.string(), error.code().message());
-  } catch (const core::Error& error) {
-    reason = fmt::format("nothing can be written in {}: {}", folder_.string(), error.message());
-  }
+  std::error_code error;
+  fs::create_directory(probe, error);
+  if (!error) error = make_file(probe / "file", amply ? kAmpleRoom : kRoom);
   std::error_code ignored;
   fs::remove_all(probe, ignored);
-  return reason;
+  if (!error) return std::nullopt;
+  return fmt::format("no {} KiB can be written in {}: {}", (amply ? kAmpleRoom : kRoom) >> 10,
+                     folder_.string(), error.message());
 }
 
 void CaseScratch::write(std::uint64_t index, const std::string& line) const {

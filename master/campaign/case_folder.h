@@ -64,9 +64,9 @@ class CaseScratch {
   /// Moves them to their place. To be called before write().
   void keep_results(std::uint64_t index) const;
 
-  /// Why nothing more can be written here, if that is so: "the disk is full". A case fails by that
-  /// without being to blame.
-  std::optional<std::string> why_unusable() const;
+  /// Why nothing more can be written here, if that is so: a case fails by that without being to
+  /// blame. `amply`: much more, such as all results of a case.
+  std::optional<std::string> why_unusable(bool amply = false) const;
 
   /// The record is there as a whole or not at all. Throws core::Error (Run).
   void write(std::uint64_t index, const std::string& line) const;

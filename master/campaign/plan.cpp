@@ -24,15 +24,22 @@ namespace {
 
 using Role = PlanColumn::Role;
 
-/// Of cases.csv, beside those of each plan; others that are not parameters have a colon.
+/// Of cases.csv, beside those of each plan.
 constexpr std::string_view kColumnsOfResults[] = {"outcome",   "reason", "reached",
                                                   "wall_time", "began",  "host"};
+constexpr std::string_view kPrefixesOfResults[] = {"check", "margin", "verdict", "aggregate"};
 
 void refuse_column_of_results(const Parameter& parameter) {
-  if (std::ranges::find(kColumnsOfResults, parameter.name) == std::end(kColumnsOfResults)) return;
+  const std::string prefix = parameter.name.substr(0, parameter.name.find(':'));
+  const bool has_prefix =
+      prefix.size() != parameter.name.size() &&
+      std::ranges::find(kPrefixesOfResults, prefix) != std::end(kPrefixesOfResults);
+  const bool is_taken =
+      std::ranges::find(kColumnsOfResults, parameter.name) != std::end(kColumnsOfResults);
+  if (!has_prefix && !is_taken) return;
   core::fail_input(
       {.where = parameter.where},
-      fmt::format("'{}' is the name of a column that each table of cases has", parameter.name),
+      fmt::format("'{}' is the name of a column that a table of cases may have", parameter.name),
       "choose another name");
 }
 

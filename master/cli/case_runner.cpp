@@ -21,6 +21,8 @@
 #include "master/cli/output_paths.h"
 #include "master/cli/provenance.h"
 #include "master/cli/report_page.h"
+#include "master/importer/fmu.h"
+#include "master/isolation/process/keeper.h"
 #include "master/util/error.h"
 #include "master/util/host_name.h"
 #include "master/util/input_file.h"
@@ -73,6 +75,15 @@ bool may_be_killed_from_outside(const isolation::ChildOutcome& outcome) {
   throw std::runtime_error(in_words(lack));
 }
 
+void add_libraries(core::FileStamps& libraries, const importer::Fmu& fmu) {
+  if (fmu.folder().empty()) return libraries.add(fmu.path());
+  std::error_code none;
+  for (fs::recursive_directory_iterator entry(fmu.folder() / "binaries", none), end;
+       !none && entry != end; entry.increment(none)) {
+    if (core::is_file(entry->path())) libraries.add(entry->path());
+  }
+}
+
 void add_files(core::FileStamps& files, const scenario::LoadedScenario& loaded) {
   for (const KeptPath& input : inputs_of(loaded)) {
     if (core::is_file(input.path)) files.add(input.path);
@@ -99,6 +110,7 @@ CaseRunner::CaseRunner(const campaign::Plan& plan, const campaign::CampaignScena
   }
   provenance_of(scenario.loaded(), digests_);
   add_files(files_, scenario.loaded());
+  for (const auto& [path, fmu] : *scenario.units()) add_libraries(libraries_, *fmu);
   for (const auto& alternative : scenario.alternatives()) {
     provenance_of(alternative.loaded, digests_);
     add_files(files_, alternative.loaded);
@@ -198,7 +210,7 @@ std::string CaseRunner::run_together(const campaign::SharedBeginning& shared, st
     CaseRun run(request, plan_.campaign().aggregates, results);
     Fork fork(shared.until, [&] {
       deadline.reset();
-      if (!run.prepare_rest()) return;
+      if (!run.prepare_rest() || isolation::is_keeper_limited()) return;
       // the beginning is a part of each
       const auto beginning = std::chrono::steady_clock::now() - began;
       isolation::ChildOptions rest = options;
@@ -287,6 +299,7 @@ std::optional<CaseResult> CaseRunner::conclude(const CasePool::Ended& ended) con
     scratch_.drop_results(ended.index);
     return std::nullopt;
   }
+  require_libraries(ended.index);
   if (!is_complete(*result)) require_circumstances(ended, *result);
   result->wall_time = ended.wall_time.count();
   result->began = utc_text(ended.began);
@@ -296,7 +309,14 @@ std::optional<CaseResult> CaseRunner::conclude(const CasePool::Ended& ended) con
       plan_.campaign().keep.are_kept_anyway(ended.index) || result->outcome != Outcome::Passed;
   result->has_results = is_wanted && core::is_folder(scratch_.results(ended.index));
   if (result->has_results) {
-    warn_of_failure([&] { complete_results(ended.index, *result); });
+    try {
+      complete_results(ended.index, *result);
+    } catch (const std::exception& failure) {
+      if (core::is_of_environment(failure)) {
+        fail_case(ended.index, "its results cannot be completed", in_words(failure), "make room");
+      }
+      print_warnings({{in_words(failure)}});
+    }
     scratch_.keep_results(ended.index);
   } else {
     scratch_.drop_results(ended.index);
@@ -305,27 +325,41 @@ std::optional<CaseResult> CaseRunner::conclude(const CasePool::Ended& ended) con
   return result;
 }
 
+void CaseRunner::fail_case(std::uint64_t index, const std::string& why, const std::string& because,
+                           const std::string& hint) {
+  core::fail_run({},
+                 fmt::format("{}, so case {} is not done: {}", why, index,
+                             because.substr(0, because.find('\n'))),
+                 hint + ", and run the campaign again: it goes on");
+}
+
+/// A case with another one may pass, too.
+void CaseRunner::require_libraries(std::uint64_t index) const {
+  if (const auto file = libraries_.changed()) {
+    fail_case(index, fmt::format("'{}' is not what it was when the campaign began", file->string()),
+              "it may have loaded another library", "leave the file alone");
+  }
+}
+
 /// What a record says is a function of the plan only if these are as they should be.
 void CaseRunner::require_circumstances(const CasePool::Ended& ended,
                                        const CaseResult& result) const {
+  const bool lacked_something = ended.outcome.end == End::Threw;
   const auto fail = [&](const std::string& why, const std::string& hint) {
-    core::fail_run({},
-                   fmt::format("{}, so case {} is not done: {}", why, ended.index,
-                               result.reason.substr(0, result.reason.find('\n'))),
-                   hint);
+    fail_case(ended.index, why, result.reason, hint);
   };
-  if (scratch_.why_unusable()) scratch_.drop_results(ended.index);  // its own may have filled it
-  if (const auto reason = scratch_.why_unusable()) {
-    fail(*reason, "mend that, and run the campaign again: it goes on");
-  }
+  if (lacked_something || scratch_.why_unusable()) scratch_.drop_results(ended.index);
+  if (const auto reason = scratch_.why_unusable(lacked_something)) fail(*reason, "mend that");
   if (const auto file = files_.changed()) {
     fail(fmt::format("'{}' is not what it was when the campaign began", file->string()),
-         "put it back, and run the campaign again: it goes on");
+         "put it back");
   }
-  if (ended.outcome.end != End::Threw) return;
-  if (const auto lack = find_machine_lack()) {
-    fail(lack->what, lack->hint + ", and run the campaign again: it goes on");
+  if (!(isolation::ProcessLimits() == limits_)) {
+    fail("some unit has changed the limits of the campaign's own process",
+         "leave that unit out, or run it in a process of its own (<stride:Host>)");
   }
+  if (!lacked_something) return;
+  if (const auto lack = find_machine_lack()) fail(lack->what, lack->hint);
 }
 
 /// What the process of the case could not do itself.

@@ -15,6 +15,7 @@
 #include "master/campaign/shared_beginnings.h"
 #include "master/cli/case_pool.h"
 #include "master/cli/case_run.h"
+#include "master/isolation/process/process_limits.h"
 #include "master/util/file_stamps.h"
 
 namespace stride::cli {
@@ -56,6 +57,9 @@ class CaseRunner {
   std::optional<campaign::CaseResult> result_of(const CasePool::Ended& ended) const;
   void require_circumstances(const CasePool::Ended& ended,
                              const campaign::CaseResult& result) const;
+  [[noreturn]] static void fail_case(std::uint64_t index, const std::string& why,
+                                     const std::string& because, const std::string& hint);
+  void require_libraries(std::uint64_t index) const;
   void complete_results(std::uint64_t index, const campaign::CaseResult& result) const;
   std::string with_lasting_paths(std::uint64_t index, std::string text) const;
 
@@ -63,7 +67,9 @@ class CaseRunner {
   const campaign::CampaignScenario& scenario_;
   const campaign::CaseScratch& scratch_;
   mutable core::FileDigests digests_;
+  core::FileStamps libraries_;  ///< which each case loads
   core::FileStamps files_;
+  isolation::ProcessLimits limits_;
 };
 
 }  // namespace stride::cli

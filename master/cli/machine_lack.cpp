@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <sys/resource.h>
 
+#include "master/cli/memory_limits.h"
 #include "master/isolation/process/child.h"
 
 namespace stride::cli {
@@ -14,6 +15,11 @@ namespace {
 
 constexpr rlim_t kUsualFiles = 1024;
 constexpr int kThreads = 16;
+
+bool is_memory_limited() {
+  rlimit limit{};
+  return ::getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY;
+}
 
 bool can_have_processes() {
   const auto start_threads = [] {
@@ -35,6 +41,9 @@ std::optional<MachineLack> find_machine_lack() {
   if (::getrlimit(RLIMIT_NOFILE, &files) == 0 && files.rlim_cur < kUsualFiles) {
     return MachineLack{fmt::format("a process may have {} open files here", files.rlim_cur),
                        fmt::format("raise the limit (ulimit -n {})", kUsualFiles)};
+  }
+  if (!can_have_processes() && is_memory_limited()) {
+    return MachineLack{"there is not enough memory for a process with some threads", memory_hint()};
   }
   if (!can_have_processes()) {
     return MachineLack{"there can be no more processes or threads",

@@ -42,7 +42,8 @@ struct Mistake {
 Mistake mistake_of(int error) {
   if (error == ENOENT || error == ENOTDIR) return {"the file does not exist", "check its path"};
   const std::string message = fmt::format("cannot read the file: {}", reason(error));
-  if (is_shortage(error)) return {message, "", true};
+  if (is_shortage(error))
+    return {message, "raise the limit of open files (ulimit -n), or end other programs", true};
   if (error == ELOOP) return {message, kLinkLoopHint};
   return {message, "check that it is a file that you may read"};
 }

@@ -13,9 +13,13 @@ namespace stride::cli {
 namespace {
 
 /// What the script says itself, and what would keep it from being run; by name and by letter.
-constexpr std::array<std::string_view, 14> kOwnOptions{
-    "array", "a", "chdir", "D", "cpus-per-task", "c",    "output",
-    "o",     "W", "wait",  "Q", "parsable",      "wrap", "test-only"};
+constexpr std::array<std::string_view, 29> kOwnOptions{
+    "array",   "a",        "chdir",    "D",         "cpus-per-task",
+    "c",       "output",   "o",        "W",         "wait",
+    "Q",       "parsable", "wrap",     "test-only", "help",
+    "h",       "usage",    "job-name", "J",         "partition",
+    "p",       "time",     "t",        "licenses",  "L",
+    "account", "A",        "nodes",    "ntasks"};
 
 void refuse_line_ends(const std::string& text) {
   if (text.find_first_of("\n\r") == std::string::npos) return;
@@ -53,9 +57,10 @@ std::string further_option(const std::string& text) {
   const std::string name = option.substr(0, option.find_first_of("= "));
   if (name.empty()) core::fail_input({}, fmt::format("--sbatch '{}' names no option", text));
   if (std::ranges::find(kOwnOptions, name) != kOwnOptions.end()) {
-    core::fail_input({}, fmt::format("--sbatch cannot give '{}', which stride gives itself", name),
-                     "see --jobs, --chunk and --wait; --dry-run prints the script, which can be "
-                     "changed and submitted by hand");
+    core::fail_input(
+        {}, fmt::format("--sbatch cannot give '{}', which stride gives itself", name),
+        "see --help for the options of submit; --dry-run prints the script, which can be "
+        "changed and submitted by hand");
   }
   const std::size_t behind = option.find_first_not_of(' ', name.size());
   if (behind != name.size() && behind != std::string::npos && option[behind] == '=') {

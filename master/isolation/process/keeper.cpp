@@ -1,17 +1,15 @@
 #include "master/isolation/process/keeper.h"
 
-#include <algorithm>
 #include <csignal>
 #include <cstring>
-#include <iterator>
 
 #include <sys/prctl.h>
-#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include "master/isolation/process/children.h"
 #include "master/isolation/process/descriptor.h"
+#include "master/isolation/process/process_limits.h"
 #include "master/isolation/process/sibling.h"
 #include "master/isolation/process/surroundings.h"
 #include "master/util/outliving_memory.h"
@@ -27,23 +25,12 @@ struct Report {
 };
 constexpr char kMark[sizeof Report::mark] = "\0KEPT\0";
 
-class Limits {
- public:
-  Limits() {
-    for (int resource = 0; resource < RLIM_NLIMITS; ++resource) {
-      ::getrlimit(static_cast<__rlimit_resource>(resource), &limits_[resource]);
-    }
-  }
-  bool operator==(const Limits& other) const {
-    return std::equal(std::begin(limits_), std::end(limits_), std::begin(other.limits_),
-                      [](const rlimit& one, const rlimit& two) {
-                        return one.rlim_cur == two.rlim_cur && one.rlim_max == two.rlim_max;
-                      });
-  }
-
- private:
-  rlimit limits_[RLIM_NLIMITS]{};
+/// Of the process that keeps this one.
+struct Keeper {
+  pid_t process;
+  ProcessLimits limits;
 };
+std::optional<Keeper> own_keeper;
 
 /// All that can be: what a case sends to its parent is not for this one.
 void block_signals() {
@@ -102,15 +89,18 @@ pid_t go_on_kept(pid_t parent, int report) {
   ::prctl(PR_SET_CHILD_SUBREAPER, 1);
   block_signals();
   end_with(parent, SIGTERM);
-  const Limits limits;
-  const pid_t self = ::getpid();
+  own_keeper = {::getpid(), ProcessLimits()};
   const pid_t kept = ::fork();
   if (kept < 0) fail("fork");
-  if (kept == 0) return self;
+  if (kept == 0) return own_keeper->process;
   const auto how = await_end(kept, parent);
   end_all_that_is_left();
-  if (how) write_report(report, *how, !(Limits() == limits));
+  if (how) write_report(report, *how, is_keeper_limited());
   ::_exit(0);
+}
+
+bool is_keeper_limited() {
+  return own_keeper && !(ProcessLimits(own_keeper->process) == own_keeper->limits);
 }
 
 std::optional<int> take_report(std::string& text) {

@@ -17,6 +17,10 @@ namespace stride::isolation {
 /// Throws std::system_error if there can be no fork.
 pid_t go_on_kept(pid_t parent, int report);
 
+/// In a process that is kept: whether the limits of its keeper are not what they were. A fork that
+/// is kept by another one has that one.
+bool is_keeper_limited();
+
 /// How what was kept has ended, as waitpid() has it: takes the keeper's report away from the end of
 /// what was written there. Nothing if there is none, for the keeper was killed, or if the keeper
 /// found itself limited (setrlimit), as by what it kept.

@@ -170,7 +170,7 @@ TEST_CASE("what no plan can be made of") {
                                                value_range("a.y", "0", "1", "9999")))),
              Contains("which is more than 10000000"));
   CHECK_THAT(error(campaign_text(deterministic(value_set("host", {"1"})))),
-             Contains("c.xosc:6: 'host' is the name of a column that each table of cases has"));
+             Contains("c.xosc:6: 'host' is the name of a column that a table of cases may have"));
   CHECK_THAT(
       error(campaign_text(deterministic(value_range("a.x", "0", "1", "1e15") +
                                         value_range("a.y", "0", "1", "1e15")))),

@@ -96,7 +96,7 @@ export class CaseTable {
     const table = h(
       "table.cases",
       {},
-      h("thead", {}, h("tr", {}, ...this.heads.slice(0, 2), actions, ...this.heads.slice(2), reason, command)),
+      h("thead", {}, h("tr", {}, ...this.heads.slice(0, 2), actions, reason, ...this.heads.slice(2), command)),
       this.body,
     );
     const folder = this.report.working_folder;
@@ -172,8 +172,8 @@ export class CaseTable {
       h("td.number", {}, numberText(cases.indices[row])),
       h("td.outcome-name", {}, h("span.dot", { style: { background: `var(${color})` } }), name),
       h("td.actions", {}, resultsLink(cases.links[row]), copyButton(cases.commands[row], code)),
-      ...this.columns.slice(2).map(value),
       h("td.reason", { title: cases.reasons[row] }, cases.reasons[row].split("\n")[0]),
+      ...this.columns.slice(2).map(value),
       h("td.command", { title: ranText(cases, row) }, code),
     );
   }
