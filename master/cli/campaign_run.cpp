@@ -122,7 +122,8 @@ void run_missing(const CampaignRunArguments& arguments, const CampaignInput& inp
   const campaign::CaseFolder cases(input.plan(), input.folder());
   const campaign::CaseScratch scratch(cases);
   const Interruption interruption;
-  MissingCases(input, cases, scratch, missing_options(arguments, input)).run();
+  MissingCases(input.plan(), input.scenario(), cases, scratch, missing_options(arguments, input))
+      .run();
   const campaign::CaseSummary summary =
       write_case_tables(input.plan(), cases, scratch, kShownFailures);
   if (!arguments.junit.empty()) {
@@ -138,7 +139,8 @@ void run_range(const CampaignRunArguments& arguments, const CampaignInput& input
   const campaign::CaseFolder cases(input.plan(), input.folder());
   const campaign::CaseScratch scratch(cases);
   const Interruption interruption;
-  MissingCases missing(input, cases, scratch, missing_options(arguments, input));
+  MissingCases missing(input.plan(), input.scenario(), cases, scratch,
+                       missing_options(arguments, input));
   missing.run();
   const campaign::CaseTotals& totals = missing.totals();
   if (!arguments.quiet) {

@@ -66,4 +66,8 @@ std::vector<Text> SearchSpace::values(const Point& point) const {
   return values;
 }
 
+std::vector<Text> SearchSpace::nominal() const {
+  return std::vector<Text>(campaign_.parameters.size());
+}
+
 }  // namespace stride::search

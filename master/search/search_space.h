@@ -23,6 +23,8 @@ class SearchSpace {
   std::size_t dimensions() const { return dimensions_; }
   /// One for each of Campaign::parameters.
   std::vector<campaign::Text> values(const Point& point) const;
+  /// The case without any of them: all as in the scenario.
+  std::vector<campaign::Text> nominal() const;
 
  private:
   const campaign::Campaign& campaign_;
