@@ -23,7 +23,8 @@ Search::Search(const Request& request, const SearchSpace& space, Cases& cases)
 
 /// Again for each failure that is disregarded, which makes the function another one.
 void Search::begin_method() {
-  method_.emplace(request_.method, space_.dimensions(), request_.seed + found_.size());
+  method_.emplace(request_.method, space_.dimensions(), request_.seed + found_.size(),
+                  request_.make_optimiser);
 }
 
 bool Search::run(const std::function<void(std::uint64_t index)>& on_case) {

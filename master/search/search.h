@@ -38,6 +38,7 @@ struct Request {
   std::uint64_t runs = 200;  ///< at most, 1 at least
   std::string check{};       ///< whose margin alone is minimised; empty: all
   bool finds_all = false;    ///< it goes on behind the first failure, and looks for others
+  MakeOptimiser* make_optimiser = nullptr;  ///< see SearchMethod
 };
 
 /// Case 0 is the nominal one, without any value of the campaign. The others are functions of the

@@ -8,10 +8,9 @@
 #include <span>
 #include <vector>
 
-namespace stride::search {
+#include "master/search/optimiser.h"
 
-/// Of the unit cube, its faces included.
-using Point = std::vector<double>;
+namespace stride::search {
 
 enum class Method {
   CmaEs,                  ///< covariance matrix adaptation (Hansen 2006), with restarts of larger
@@ -27,11 +26,9 @@ inline constexpr Method kMethods[] = {Method::CmaEs, Method::DifferentialEvoluti
 /// the same time.
 class SearchMethod {
  public:
-  /// There is a dimension at least.
-  SearchMethod(Method method, std::size_t dimensions, std::uint64_t seed);
-  ~SearchMethod();
-  SearchMethod(SearchMethod&&) noexcept;
-  SearchMethod& operator=(SearchMethod&&) noexcept;
+  /// There is a dimension at least. `make`: of the library with the optimisers; the random method
+  /// needs none.
+  SearchMethod(Method method, std::size_t dimensions, std::uint64_t seed, MakeOptimiser* make);
 
   /// New points, one at least, and a generation at most.
   std::vector<Point> ask();
@@ -39,8 +36,14 @@ class SearchMethod {
   void tell(std::span<const double> values);
 
  private:
-  class Generations;
-  std::unique_ptr<Generations> generations_;
+  std::vector<Point> first_points() const;
+
+  Method method_;
+  std::size_t dimensions_;
+  std::uint64_t seed_;
+  MakeOptimiser* make_;
+  unsigned restarts_ = 0;
+  std::unique_ptr<Optimiser> optimiser_;  ///< null where the first points are asked for
 };
 
 }  // namespace stride::search

@@ -8,7 +8,12 @@
 
 #include <catch2/catch.hpp>
 
+#include "tests/error_of.h"
+#include "tests/master/search/optimisers.h"
+
 using namespace stride::search;
+using namespace stride::tests;
+using Catch::Matchers::Contains;
 
 namespace {
 
@@ -53,7 +58,7 @@ double planted(const Point& point) {
 /// How many evaluations are needed for a value below the goal; `most` if it is not found.
 std::size_t evaluations_to(double goal, const Function& function, Method method,
                            std::size_t dimensions, std::uint64_t seed, std::size_t most) {
-  SearchMethod search(method, dimensions, seed);
+  SearchMethod search(method, dimensions, seed, make_optimiser());
   std::size_t count = 0;
   while (count < most) {
     std::vector<double> values;
@@ -107,7 +112,8 @@ TEST_CASE("a search needs fewer values than random points, over 20 seeds") {
 TEST_CASE("points are in the unit cube, are new, and depend on the seed and the values alone") {
   for (const Method method : kMethods) {
     CAPTURE(name(method));
-    SearchMethod first(method, 3, 7), second(method, 3, 7), other(method, 3, 8);
+    MakeOptimiser* const make = make_optimiser();
+    SearchMethod first(method, 3, 7, make), second(method, 3, 7, make), other(method, 3, 8, make);
     CHECK(first.ask() != other.ask());
     std::set<Point> seen;
     for (int generation = 0; generation < 300; ++generation) {
@@ -133,7 +139,7 @@ TEST_CASE("a function without a trend is searched all the same") {
     CAPTURE(name(method));
     for (const double value :
          {1.0, std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()}) {
-      SearchMethod search(method, 1, 1);
+      SearchMethod search(method, 1, 1, make_optimiser());
       std::size_t count = 0;
       for (int generation = 0; generation < 100; ++generation) {
         const std::size_t asked = search.ask().size();
@@ -143,4 +149,9 @@ TEST_CASE("a function without a trend is searched all the same") {
       CHECK(count >= 100);
     }
   }
+}
+
+TEST_CASE("a library with optimisers that cannot be loaded is an error") {
+  CHECK_THAT(error_of([] { load_optimisers("/no/such/library.so"); }),
+             Contains("cannot be loaded: /no/such/library.so") && Contains("libpagmo8"));
 }

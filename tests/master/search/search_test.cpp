@@ -7,6 +7,7 @@
 
 #include "tests/error_of.h"
 #include "tests/master/campaign/support.h"
+#include "tests/master/search/optimisers.h"
 
 using namespace stride::tests;
 using namespace stride::search;
@@ -69,9 +70,9 @@ struct Run {
   std::vector<Search::Found> found;
   bool is_complete = false;
 
-  explicit Run(const Request& request, const Plan& plan = continuous(),
-               std::size_t most = 1'000'000)
+  explicit Run(Request request, const Plan& plan = continuous(), std::size_t most = 1'000'000)
       : device(most) {
+    request.make_optimiser = make_optimiser();
     const SearchSpace space(plan.campaign(), plan.kinds());
     Search search(request, space, device);
     std::uint64_t next = 0;
