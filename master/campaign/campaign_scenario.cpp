@@ -231,6 +231,16 @@ std::optional<double> CampaignScenario::scenario_value(std::size_t column) const
   return number_of(word_at(loaded_.system().variable(element.id).start, element.first));
 }
 
+std::string CampaignScenario::unit_of_measure(std::size_t column) const {
+  for (const StartTarget& target : targets_) {
+    if (target.column != column) continue;
+    if (!target.declaration.unit.name.empty()) return target.declaration.unit.name;
+    const auto elements = elements_of(column);
+    return loaded_.system().variable(elements.front().parts.front().id).unit;
+  }
+  return "";
+}
+
 /// A source replaces a start value, and one of two values for a variable the other.
 void CampaignScenario::check_effects(const std::vector<PlanColumn>& columns) const {
   const core::System& system = loaded_.system();

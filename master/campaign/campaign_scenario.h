@@ -48,6 +48,8 @@ class CampaignScenario {
   /// unit. Nothing for what is no number, and for a connector whose value is another one than its
   /// variable's.
   std::optional<double> scenario_value(std::size_t column) const;
+  /// In which a start value is given; empty if it has none.
+  std::string unit_of_measure(std::size_t column) const;
   const Fingerprints& fingerprints() const { return fingerprints_; }
   /// Of the files that the fingerprints are made of.
   const core::FileDigests& digests() const { return digests_; }

@@ -1,206 +1,214 @@
 #include "master/cli/campaign_search.h"
 
 #include <algorithm>
-#include <chrono>
-#include <limits>
-#include <map>
+#include <cstdint>
 #include <memory>
 #include <optional>
-#include <set>
 #include <string>
-#include <thread>
-#include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-#include <fmt/ranges.h>
-#include <nlohmann/json.hpp>
 
-#include "master/campaign/campaign_page.h"
 #include "master/campaign/case_table.h"
 #include "master/campaign/plan_check.h"
-#include "master/campaign/plan_json.h"
+#include "master/campaign/plan_folder.h"
 #include "master/cli/campaign_input.h"
-#include "master/cli/campaign_run.h"
+#include "master/cli/campaign_progress.h"
+#include "master/cli/case_options.h"
+#include "master/cli/crash_guard.h"
 #include "master/cli/interruption.h"
 #include "master/cli/listed_cases.h"
 #include "master/cli/output.h"
-#include "master/cli/progress.h"
-#include "master/cli/report_page.h"
-#include "master/cli/table.h"
+#include "master/cli/search_folder.h"
+#include "master/cli/search_summary.h"
 #include "master/recorders/results_folder.h"
-#include "master/search/objective.h"
-#include "master/search/search_method.h"
-#include "master/search/search_space.h"
+#include "master/search/search.h"
 #include "master/util/error.h"
 #include "master/util/input_file.h"
-#include "master/util/replacement.h"
+#include "master/util/suggest.h"
 
 namespace stride::cli {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
 
-constexpr const char* kSearchFile = "search.json";
+constexpr std::uint64_t kMostRuns = 100'000;
 
 struct SearchArguments {
   CampaignArguments campaign;
-  search::Method method = search::Method::CmaEs;
-  std::uint64_t runs = 200;
-  std::uint64_t seed = 1;
-  std::string check;  ///< empty: all
-  bool all = false;   ///< goes on behind the first failure
-  std::size_t jobs = 0;
+  search::Request request;
+  std::size_t jobs = 0;  ///< 0: as many as there are cores
+  std::optional<ProgressStyle> progress;
   bool quiet = false;
 };
 
-/// A failure that was found, by the first case that has it.
-struct Found {
-  std::string failure;
-  std::uint64_t index = 0;
-};
-
-/// What a search was asked for, so that it goes on as the same one.
-Json settings_json(const SearchArguments& arguments, const campaign::Plan& plan) {
-  return {{"plan", campaign::plan_identity(plan)},
-          {"method", search::name(arguments.method)},
-          {"seed", arguments.seed},
-          {"check", arguments.check},
-          {"all", arguments.all}};
+/// The campaign itself, and the folder of the search.
+CampaignArguments searched(const CampaignArguments& named) {
+  const bool is_folder = core::is_folder(named.file);
+  const fs::path file = is_folder ? campaign::campaign_of(named.file) : named.file;
+  return {file, named.out.empty() ? default_search_folder(file) : named.out};
 }
 
-/// The folder has this search, or none.
-void require_same_search(const fs::path& folder, const Json& settings) {
-  const fs::path file = folder / kSearchFile;
-  if (!core::is_file(file)) return;
-  Json before;
-  try {
-    before = Json::parse(core::read_input(file, "", 64U << 20)).at("settings");
-  } catch (const Json::exception&) {
-    core::fail_input({.where = {file.string(), 0}}, "this is not what a search has written",
-                     "name another folder: --out");
-  }
-  for (const auto& [name, value] : settings.items()) {
-    if (before.contains(name) && before[name] == value) continue;
-    core::fail_input({.where = {folder.string(), 0}},
-                     fmt::format("this folder belongs to another search: it differs by '{}'", name),
-                     "name another folder (--out), or remove this one");
-  }
-}
-
-class Search {
+/// A search through a campaign, in its folder, which is locked.
+class CampaignSearch {
  public:
-  Search(const SearchArguments& arguments, const CampaignInput& input, const fs::path& folder)
+  CampaignSearch(const SearchArguments& arguments, const CampaignInput& input)
       : arguments_(arguments),
         input_(input),
         space_(input.plan().campaign(), input.plan().kinds()),
-        method_(arguments.method, space_.dimensions(), arguments.seed),
-        cases_(input.plan(), input.scenario(), folder, arguments.jobs),
-        form_(Progress::form(arguments.quiet ? ProgressStyle::None : ProgressStyle::Auto)) {}
+        cases_(input.plan(), input.scenario(), seeds_of(input.plan(), input.plan().at(0)),
+               input.folder(), jobs_or_cores(arguments.jobs)),
+        search_(arguments.request, space_, cases_),
+        totals_{.cases = arguments.request.runs},
+        progress_(chosen_style(arguments.progress, arguments.quiet), totals_) {}
 
-  /// The nominal case, and then the others. False if it was interrupted.
-  bool run() {
-    if (!cases_.add({nominal_row()})) return false;
-    objective_.emplace(arguments_.check, nominal());
-    require_check();
-    note(0);
-    while (!is_over()) {
-      if (!run_generation()) return false;
+  void run() {
+    const bool is_complete = search_.run([&](std::uint64_t index) { show(index); });
+    progress_.end(totals_, is_complete ? "completed" : "interrupted");
+    if (cases_.size() > 0) {
+      write_tables();
+      if (!arguments_.quiet) print();
     }
-    return true;
+    if (!is_complete) {
+      core::fail_run({},
+                     fmt::format("the search was interrupted; {} of at most {} cases are done",
+                                 cases_.size(), arguments_.request.runs),
+                     "it goes on with the same command");
+    }
+    if (!search_.found().empty()) fail();
   }
-
-  const ListedCases& cases() const { return cases_; }
-  const std::vector<Found>& found() const { return found_; }
-  const campaign::CaseResult& nominal() const { return cases_.result(0); }
 
  private:
-  /// Seeds are those of the campaign's first case, so that parameters alone make a difference.
-  ListedRow with_seeds(std::vector<campaign::Text> values) const {
-    const campaign::Case first = input_.plan().at(0);
-    const auto parameters = static_cast<std::ptrdiff_t>(values.size());
-    values.insert(values.end(), first.values.begin() + parameters, first.values.end());
-    return values;
-  }
-  ListedRow nominal_row() const {
-    return with_seeds(std::vector<campaign::Text>(input_.plan().campaign().parameters.size()));
+  void show(std::uint64_t index) {
+    totals_.add(cases_.result(index).outcome);
+    const std::size_t found = search_.found().size();
+    progress_.show(totals_, found == 0 ? "" : failures_text(found) + " found");
   }
 
-  void require_check() const {
-    if (arguments_.check.empty()) return;
-    std::vector<std::string> names;
-    for (const auto& verdict : nominal().verdicts) names.push_back(verdict.name);
-    if (std::ranges::find(names, arguments_.check) != names.end()) return;
-    core::fail_input({}, fmt::format("--check: no check is called '{}'", arguments_.check),
-                     fmt::format("its checks are '{}'", fmt::join(names, "', '")));
+  void write_tables() const {
+    const campaign::CaseFolder folder(cases_.plan(), cases_.folder());
+    const campaign::CaseScratch scratch(folder);
+    write_case_tables(cases_.plan(), folder, scratch, 0);
   }
 
-  bool is_over() const {
-    if (cases_.size() >= arguments_.runs) return true;
-    if (found_.empty()) return false;
-    return !arguments_.all || objective_->is_exhausted(nominal());
+  static std::string failures_text(std::size_t count) {
+    return count == 1 ? "1 failure" : fmt::format("{} failures", count);
   }
 
-  bool run_generation() {
-    const std::vector<search::Point> points = method_.ask();
-    std::vector<std::uint64_t> indices;
-    std::vector<ListedRow> fresh;
-    for (const search::Point& point : points) {
-      ListedRow row = with_seeds(space_.values(point));
-      const std::uint64_t next = cases_.size() + fresh.size();
-      const auto [place, is_new] = known_.emplace(row, next);
-      if (is_new && next == arguments_.runs) break;  // the budget
-      if (is_new) fresh.push_back(std::move(row));
-      indices.push_back(place->second);
+  void print() const {
+    const search::Request& request = arguments_.request;
+    const std::size_t found = search_.found().size();
+    print_text("{}: {} found in {} by {}, seed {}{}\n",
+               input_.plan().campaign().file.stem().string(),
+               found == 0 ? "no failure" : failures_text(found),
+               cases_.size() == 1 ? "1 case" : fmt::format("{} cases", cases_.size()),
+               search::name(request.method), request.seed,
+               request.check.empty() ? "" : fmt::format(", of the check '{}'", request.check));
+    print_text("{}", search_tables(search_, cases_, input_.scenario()));
+    print_text("\nTable in {}: {} {} {}\n", cases_.folder().string(), campaign::kCaseTable,
+               campaign::kCaseLines, campaign::kSearchDescription);
+  }
+
+  [[noreturn]] void fail() const {
+    const auto& [failure, index] = search_.found().front();
+    if (index == 0) {
+      core::fail_run({},
+                     fmt::format("the scenario itself fails, without any value of the campaign: {}",
+                                 failure),
+                     fmt::format("repeat it with: {}", cases_.plan().command(cases_.plan().at(0))));
     }
-    const std::uint64_t first = cases_.size();
-    if (!fresh.empty() && !cases_.add(std::move(fresh))) return false;
-    for (std::uint64_t i = first; i < cases_.size(); ++i) note(i);
-    repeated_ = cases_.size() == first ? repeated_ + 1 : 0;
-    if (indices.size() == points.size()) tell(indices);
-    return true;
-  }
-
-  void tell(const std::vector<std::uint64_t>& indices) {
-    std::vector<double> values;
-    for (const std::uint64_t index : indices) {
-      values.push_back(objective_->value(cases_.result(index)));
-    }
-    method_.tell(values);
-  }
-
-  void note(std::uint64_t index) {
-    const campaign::CaseResult& result = cases_.result(index);
-    least_ = std::min(least_, objective_->value(result));
-    for (const std::string& failure : objective_->failures_in(result)) {
-      found_.push_back({failure, index});
-      if (arguments_.all) objective_->disregard(failure);
-    }
-    if (form_ == Progress::Form::None) return;
-    print_progress(index);
-  }
-
-  void print_progress(std::uint64_t index) {
-    if (index + 1 != arguments_.runs && (index + 1) % 20 != 0) return;
-    fmt::print(stderr, "{} of {} runs, {}\n", index + 1, arguments_.runs,
-               found_.empty() ? fmt::format("least margin {:.3g} of the nominal one", least_)
-                              : fmt::format("{} found", found_.size()));
+    core::fail_run({},
+                   fmt::format("{} found, the first one in case {}: {}",
+                               failures_text(search_.found().size()), index, failure),
+                   fmt::format("see what of it is needed: stride campaign shrink {} --case {}",
+                               cases_.folder().string(), index));
   }
 
   const SearchArguments& arguments_;
   const CampaignInput& input_;
-  search::SearchSpace space_;
-  search::SearchMethod method_;
+  const search::SearchSpace space_;
   ListedCases cases_;
-  Progress::Form form_;
-  std::optional<search::Objective> objective_;
-  std::map<ListedRow, std::uint64_t> known_;
-  std::vector<Found> found_;
-  double least_ = std::numeric_limits<double>::infinity();
-  int repeated_ = 0;  ///< generations without a new case, one after the other
+  search::Search search_;
+  campaign::CaseTotals totals_;
+  CampaignProgress progress_;
 };
 
+void search_campaign(SearchArguments arguments) {
+  const CrashGuard guard;
+  const CampaignInput input(searched(arguments.campaign));
+  using namespace campaign;
+  input.refuse_inputs({kSearchDescription, kCaseTable, kCaseLines, kCases, kRunning});
+  require_check(input.scenario(), arguments.request.check);
+  check_plan(input.plan(), input.scenario());
+  if (arguments.request.method != search::Method::Random) {
+    arguments.request.make_optimiser = &search::load_optimisers(search::optimiser_library());
+  }
+  begin_search_folder(input.folder(), arguments.request, input.plan());
+  const recorders::ResultsLock lock(input.folder());
+  const Interruption interruption;
+  CampaignSearch(arguments, input).run();
+}
+
+void add_request_options(CLI::App& command, search::Request& request) {
+  command
+      .add_option("--runs", request.runs,
+                  "How many cases are run at most, the scenario itself included; 200 otherwise. A "
+                  "search goes on with more of them, where it was")
+      ->type_name("N")
+      ->check(CLI::Range(std::uint64_t{1}, kMostRuns));
+  command
+      .add_option_function<std::string>(
+          "--method",
+          [&request](const std::string& text) {
+            for (const search::Method method : search::kMethods) {
+              if (text == search::name(method)) return void(request.method = method);
+            }
+            throw CLI::ValidationError("--method",
+                                       "'" + text + "' is none of cma-es, de and random");
+          },
+          "How it searches: by adaptation of a covariance matrix (the default), by differential "
+          "evolution, or at random, to compare with")
+      ->type_name("cma-es|de|random");
+  command
+      .add_option("--seed", request.seed, "Of the search's random numbers; 1 otherwise")
+      ->type_name("N");
+  command
+      .add_option("--check", request.check,
+                  "Minimise the margin of this check alone, and take nothing else for a failure; "
+                  "otherwise the least of all")
+      ->type_name("NAME");
+  command.add_flag("--all", request.finds_all,
+                   "Go on behind the first failure, and look for others");
+}
+
 }  // namespace
+
+void require_check(const campaign::CampaignScenario& scenario, const std::string& name) {
+  const auto& checks = scenario.loaded().checks();
+  if (checks.empty()) {
+    core::fail_input({.where = {scenario.loaded().scenario().path.string(), 0}},
+                     "this scenario has no checks, so there are no margins to be minimised",
+                     "demand something of it in <stride:Checks>");
+  }
+  std::vector<std::string> names;
+  for (const checks::Definition& check : checks) names.push_back(check.name);
+  if (name.empty() || std::ranges::find(names, name) != names.end()) return;
+  core::fail_input({}, fmt::format("--check: no check is called '{}'", name),
+                   core::suggestion(name, names));
+}
+
+void add_campaign_search(CLI::App& group) {
+  CLI::App* command = group.add_subcommand(
+      "search", "Look for the case that fails, led by the margins of the scenario's checks");
+  const auto arguments = std::make_shared<SearchArguments>();
+  add_campaign_options(*command, arguments->campaign);
+  command->get_option("--out")->description(
+      "Folder of the search; otherwise campaigns/ and the name of FILE with .search");
+  add_request_options(*command, arguments->request);
+  add_jobs_option(*command, arguments->jobs);
+  add_progress_options(*command, arguments->progress, arguments->quiet);
+  command->callback([arguments] { search_campaign(*arguments); });
+}
+
 }  // namespace stride::cli

@@ -12,29 +12,25 @@
 #include "master/campaign/case_folder.h"
 #include "master/campaign/case_record.h"
 #include "master/campaign/plan.h"
+#include "master/search/search.h"
 
 namespace stride::cli {
 
-/// Values of Campaign::parameters, and then of Campaign::seeds.
-using ListedRow = std::vector<campaign::Text>;
-
-/// A growing campaign whose cases are listed, with records in a folder of its own: what has one is
-/// not run again. The scenario, and what `origin` refers to, must outlive it.
-class ListedCases {
+/// A growing campaign whose cases are listed, with records in a folder: what has one is not run
+/// again. The scenario, and what `origin` refers to, must outlive it.
+class ListedCases final : public search::Cases {
  public:
-  /// `origin`: the plan whose parameters, seeds and settings the cases have.
+  /// `origin`: the plan whose parameters and settings the cases have. `seeds`: the values of its
+  /// seeds, the same in all cases, so that parameters alone make a difference.
   ListedCases(const campaign::Plan& origin, const campaign::CampaignScenario& scenario,
-              std::filesystem::path folder, std::size_t jobs);
+              search::Row seeds, std::filesystem::path folder, std::size_t jobs);
 
-  std::size_t size() const { return rows_.size(); }
-  const ListedRow& row(std::uint64_t index) const { return rows_[index]; }
-  const campaign::CaseResult& result(std::uint64_t index) const { return results_[index]; }
+  /// Runs them, at the same time as far as there are jobs.
+  bool add(std::vector<search::Row> rows) override;
+  std::size_t size() const override { return rows_.size(); }
+  const campaign::CaseResult& result(std::uint64_t index) const override { return results_[index]; }
 
-  /// Runs further cases, at the same time as far as there are jobs. False if it was interrupted:
-  /// then they are not there.
-  bool add(std::vector<ListedRow> rows);
-
-  /// All of them, as of a campaign. There has to be one.
+  /// All of them, as of a campaign whose seeds are parameters, too. There has to be one.
   const campaign::Plan& plan() const { return *plan_; }
   const std::filesystem::path& folder() const { return folder_; }
 
@@ -43,12 +39,16 @@ class ListedCases {
 
   const campaign::Plan& origin_;
   const campaign::CampaignScenario& scenario_;
-  std::filesystem::path folder_;
-  std::size_t jobs_;
-  std::vector<ListedRow> rows_;
+  const search::Row seeds_;
+  const std::filesystem::path folder_;
+  const std::size_t jobs_;
+  std::vector<search::Row> rows_;  ///< with the seeds
   std::vector<campaign::CaseResult> results_;
   std::unique_ptr<const campaign::Plan> plan_;
 };
+
+/// The values of the seeds in a case of the plan.
+search::Row seeds_of(const campaign::Plan& plan, const campaign::Case& row);
 
 }  // namespace stride::cli
 

@@ -15,9 +15,14 @@ namespace stride::search {
 /// of a case that did not come to its end, its outcome.
 std::set<std::string> failures_of(const campaign::CaseResult& result);
 
+/// Whether there are verdicts: of another case nothing is known but that it has failed.
+bool came_to_its_end(const campaign::CaseResult& result);
+
 /// The least of the margins, each divided by that of the nominal case: they have different units of
-/// measure, and in the nominal case each is 1. Margins that are 0 there, infinite or unknown are
-/// not divided.
+/// measure, and in the nominal case each is 1. Margins that are infinite or unknown there are not
+/// divided. A check whose margin is 0 there is at its limit without being near a failure (a number
+/// of messages that is exact, a value that begins at its bound): it counts only where it has failed,
+/// unless no check with another margin is left; then it is not divided.
 class Objective {
  public:
   /// `check`: its margin alone; empty: those of all checks.
@@ -38,8 +43,12 @@ class Objective {
     return (check_.empty() || name == check_) && !disregarded_.contains(name);
   }
 
+  bool has_scale() const;
+  double distance(const campaign::CaseVerdict& verdict, bool counts_at_limit) const;
+
   std::string check_;
   std::map<std::string, double> scales_;  ///< by names of checks
+  std::set<std::string> at_limit_;        ///< in the nominal case
   std::set<std::string> disregarded_;
 };
 

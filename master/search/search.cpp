@@ -31,7 +31,13 @@ bool Search::run(const std::function<void(std::uint64_t index)>& on_case) {
   const Row nominal = space_.nominal();
   if (!cases_.add({nominal})) return false;
   known_.emplace(nominal, 0);
-  objective_.emplace(request_.check, cases_.result(0));
+  const campaign::CaseResult& result = cases_.result(0);
+  if (!came_to_its_end(result)) {
+    found_.push_back({name(result.outcome), 0});
+    on_case(0);
+    return true;
+  }
+  objective_.emplace(request_.check, result);
   require_check();
   note(0);
   on_case(0);
@@ -91,10 +97,15 @@ bool Search::run_generation(const std::function<void(std::uint64_t index)>& on_c
 
 void Search::note(std::uint64_t index) {
   const campaign::CaseResult& result = cases_.result(index);
-  least_ = std::min(least_, objective_->value(result));
+  const double value = objective_->value(result);
+  if (found_.empty() && value < least_) {
+    least_ = value;
+    nearest_ = index;
+  }
   for (const std::string& failure : objective_->failures_in(result)) {
     found_.push_back({failure, index});
     objective_->disregard(failure);
+    nearest_.reset();
   }
 }
 

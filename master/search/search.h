@@ -54,13 +54,15 @@ class Search {
   Search(const Request& request, const SearchSpace& space, Cases& cases);
 
   /// Until a failure is found, or all that can be, or the runs are used up, or all cases that there
-  /// are have been run. Calls `on_case` behind each. False if it was interrupted. Throws
+  /// are have been run. A nominal case that does not come to its end is a failure that ends it,
+  /// whatever the check. Calls `on_case` behind each. False if it was interrupted. Throws
   /// core::Error (Input) if there is no such check.
   bool run(const std::function<void(std::uint64_t index)>& on_case);
 
   const std::vector<Found>& found() const { return found_; }
-  /// The least value of the objective in all cases so far.
-  double least() const { return least_; }
+  /// The case that is the nearest to a failure; nothing once one is found, and where none is nearer
+  /// than another.
+  const std::optional<std::uint64_t>& nearest() const { return nearest_; }
 
  private:
   void begin_method();
@@ -76,7 +78,8 @@ class Search {
   std::optional<SearchMethod> method_;
   std::map<Row, std::uint64_t> known_;
   std::vector<Found> found_;
-  double least_ = std::numeric_limits<double>::infinity();
+  double least_ = std::numeric_limits<double>::infinity();  ///< of the objective
+  std::optional<std::uint64_t> nearest_;
   int generations_without_case_ = 0;
 };
 

@@ -48,6 +48,20 @@ TEST_CASE("margins that are 0, infinite or unknown in the nominal case are not d
   }
 }
 
+TEST_CASE("a check that is at its limit in the nominal case counts where it has failed") {
+  const CaseResult nominal = result({verdict("count", true, 0.0), verdict("time", true, 0.5)});
+  const Objective all("", nominal);
+  CHECK(all.value(nominal) == 1);
+  CHECK(all.value(result({verdict("count", false, -2), verdict("time", true, 0.5)},
+                         Outcome::Failed)) == -2);
+  Objective without_time("", nominal);
+  without_time.disregard("time");
+  for (const Objective& alone : {Objective("count", nominal), without_time}) {
+    CHECK(alone.value(nominal) == 0);
+    CHECK(alone.value(result({verdict("count", true, 3)})) == 3);
+  }
+}
+
 TEST_CASE("the sign of the value is that of the verdict") {
   const Objective objective("", kNominal);
   CHECK(objective.value(result({verdict("voltage", false, 0.0)}, Outcome::Failed)) < 0);
