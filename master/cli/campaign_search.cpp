@@ -113,10 +113,10 @@ class CampaignSearch {
   [[noreturn]] void fail() const {
     const auto& [failure, index] = search_.found().front();
     if (index == 0) {
-      core::fail_run({},
-                     fmt::format("the scenario itself fails, without any value of the campaign: {}",
-                                 failure),
-                     fmt::format("repeat it with: {}", cases_.plan().command(cases_.plan().at(0))));
+      core::fail_run(
+          {},
+          fmt::format("the scenario itself fails, without any value of the campaign: {}", failure),
+          fmt::format("repeat it with: {}", cases_.plan().command(cases_.plan().at(0))));
     }
     core::fail_run({},
                    fmt::format("{} found, the first one in case {}: {}",
@@ -170,8 +170,7 @@ void add_request_options(CLI::App& command, search::Request& request) {
           "How it searches: by adaptation of a covariance matrix (the default), by differential "
           "evolution, or at random, to compare with")
       ->type_name("cma-es|de|random");
-  command
-      .add_option("--seed", request.seed, "Of the search's random numbers; 1 otherwise")
+  command.add_option("--seed", request.seed, "Of the search's random numbers; 1 otherwise")
       ->type_name("N");
   command
       .add_option("--check", request.check,

@@ -72,8 +72,8 @@ class ShrinkingCase {
         input_(input),
         values_(values_of(input, *arguments.index)),
         ways_(search::ways_of(input.plan(), input.scenario(), values_, arguments.tolerance)),
-        cases_(input.plan(), input.scenario(),
-               seeds_of(input.plan(), {.values = values_}), folder, 1) {}
+        cases_(input.plan(), input.scenario(), seeds_of(input.plan(), {.values = values_}), folder,
+               1) {}
 
   void run() {
     failure_ = find_failure();
@@ -123,8 +123,8 @@ class ShrinkingCase {
     for (const campaign::CaseVerdict& verdict : itself.verdicts) {
       if (verdict.passed == false) return verdict.name;
     }
-    core::fail_input({}, fmt::format("--case {}: this case passes, so there is nothing to shrink",
-                                     index));
+    core::fail_input(
+        {}, fmt::format("--case {}: this case passes, so there is nothing to shrink", index));
   }
 
   bool is_needed(std::size_t i) const { return shrunk_.failing[i] != 0; }

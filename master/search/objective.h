@@ -21,8 +21,8 @@ bool came_to_its_end(const campaign::CaseResult& result);
 /// The least of the margins, each divided by that of the nominal case: they have different units of
 /// measure, and in the nominal case each is 1. Margins that are infinite or unknown there are not
 /// divided. A check whose margin is 0 there is at its limit without being near a failure (a number
-/// of messages that is exact, a value that begins at its bound): it counts only where it has failed,
-/// unless no check with another margin is left; then it is not divided.
+/// of messages that is exact, a value that begins at its bound): it counts only where it has
+/// failed, unless no check with another margin is left; then it is not divided.
 class Objective {
  public:
   /// `check`: its margin alone; empty: those of all checks.

@@ -1,5 +1,6 @@
-// An optimiser of pagmo. It is in a library of its own, which a program loads when it searches: with
-// pagmo it would begin 20 ms later, and have 16 MiB more to share with each case that it forks.
+// An optimiser of pagmo. It is in a library of its own, which a program loads when it searches:
+// with pagmo it would begin 27 ms later, and have 16 MiB more to share with each case that it
+// forks.
 #ifndef STRIDE_MASTER_SEARCH_OPTIMISER_H
 #define STRIDE_MASTER_SEARCH_OPTIMISER_H
 

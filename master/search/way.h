@@ -15,8 +15,8 @@ namespace stride::search {
 
 class Way {
  public:
-  /// `nominal`: the number that the parameter has where no case gives one; nothing if it is none, or
-  /// is not known. `tolerance`: a share of the way, above 0.
+  /// `nominal`: the number that the parameter has where no case gives one; nothing if it is none,
+  /// or is not known. `tolerance`: a share of the way, above 0.
   Way(const campaign::ValueKind& kind, std::optional<double> nominal, campaign::Text failing,
       double tolerance);
 

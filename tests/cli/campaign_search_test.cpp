@@ -251,9 +251,8 @@ TEST_CASE("units, interventions and sets are searched, too") {
 }
 
 TEST_CASE("a scenario that fails by itself needs no search") {
-  const Searches space(
-      planted_campaign(),
-      planted_filters("<stride:Final name='high' signal='second.y' min='9'/>"));
+  const Searches space(planted_campaign(),
+                       planted_filters("<stride:Final name='high' signal='second.y' min='9'/>"));
   const Outcome outcome = space.search("out");
   INFO(outcome.err);
   CHECK(outcome.exit_code == 1);

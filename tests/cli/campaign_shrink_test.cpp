@@ -70,9 +70,9 @@ TEST_CASE("a failing case is shrunk to what it needs, at a boundary that a dense
   CHECK_FALSE(space.fails(passes));
   CHECK(space.run({"-q", "--parameters", "out/shrunk/000004.ssv"}).exit_code == 1);
 
-  space.scratch().write(
-      "scan.xosc", campaign_text(deterministic(value_range("first.u", "0.02", "0.02", "5")),
-                                 kNoResults, "test.ssd"));
+  space.scratch().write("scan.xosc",
+                        campaign_text(deterministic(value_range("first.u", "0.02", "0.02", "5")),
+                                      kNoResults, "test.ssd"));
   CHECK(space.stride({"campaign", "run", "scan.xosc", "-q", "--out", "scan"}).exit_code == 1);
   std::istringstream rows(space.table("scan"));
   double first = 0;
@@ -139,8 +139,7 @@ TEST_CASE("what cannot be shrunk is refused") {
   check_refused("4", {"--tolerance", "0"}, "--tolerance");
   check_refused("4", {"--check", "bounden"}, "did you mean 'bounded'?");
   CHECK(space.stride({"campaign", "search", "c.xosc", "-q", "--runs", "1"}).exit_code == 0);
-  const Outcome unknown =
-      space.stride({"campaign", "shrink", "campaigns/c.search", "--case", "1"});
+  const Outcome unknown = space.stride({"campaign", "shrink", "campaigns/c.search", "--case", "1"});
   CHECK(unknown.exit_code == 2);
   CHECK_THAT(unknown.err, Contains("--case 1: the search has run no such case"));
   CHECK(space.stride({"campaign", "shrink", "c.xosc", "--case", "1"}).exit_code == 2);
