@@ -171,7 +171,8 @@ void add_request_options(CLI::App& command, search::Request& request) {
           "evolution, or at random, to compare with")
       ->type_name("cma-es|de|random");
   command.add_option("--seed", request.seed, "Of the search's random numbers; 1 otherwise")
-      ->type_name("N");
+      ->type_name("N")
+      ->check(CLI::NonNegativeNumber);
   command
       .add_option("--check", request.check,
                   "Minimise the margin of this check alone, and take nothing else for a failure; "

@@ -182,12 +182,34 @@ TEST_CASE("options of a search that are wrong are refused before anything runs")
   check_refused(space, {"--check", "bounder"}, "did you mean 'bounded'?");
   check_refused(space, {"--method", "luck"}, "'luck' is none of cma-es, de and random");
   check_refused(space, {"--runs", "0"}, "--runs");
+  check_refused(space, {"--seed", "-1"}, "--seed");
   CHECK_FALSE(fs::exists(space / "out"));
   const Searches unchecked(planted_campaign(), two_filters());
   check_refused(unchecked, {}, "test.ssd: this scenario has no checks");
   const Searches fixed(
       campaign_text(deterministic(""), "<stride:Seed variables='first.u'/>", "test.ssd"));
   check_refused(fixed, {}, "nothing varies in this campaign");
+}
+
+TEST_CASE("seeds are those of the campaign's first case in all cases of a search") {
+  Parts parts = planted_filters();
+  parts.components += component("noise", "minimal.fmu");
+  const Searches space(
+      planted_campaign("<stride:Keep results='none'/><stride:Seed variables='noise.u'/>"), parts);
+  CHECK(space.search("out", {"--runs", "4"}).exit_code == 0);
+  CHECK(space.stride({"campaign", "plan", "c.xosc", "--out", "plan"}).exit_code == 0);
+  const auto seed_in = [](const std::string& table, int row) {
+    std::istringstream lines(table);
+    std::string line, field;
+    for (int i = 0; i <= row + 1; ++i) std::getline(lines, line);
+    std::istringstream fields(line);
+    for (int i = 0; i < 5; ++i) std::getline(fields, field, ',');
+    return field;
+  };
+  const std::string first = seed_in(space.file("plan/plan.csv"), 0);
+  CHECK(std::stod(first) >= 1);
+  CHECK(seed_in(space.file("plan/plan.csv"), 1) != first);
+  for (int i = 0; i < 4; ++i) CHECK(seed_in(space.table("out"), i) == first);
 }
 
 TEST_CASE("without --out a search is beside the folder of its campaign") {
