@@ -109,6 +109,8 @@ TEST_CASE("the case of a search is shrunk from its folder, and nothing is run tw
   const Outcome fine = space.stride(finer);
   CHECK(fine.exit_code == 0);
   CHECK(space.stride(arguments).out == one.out);
+  fs::remove_all(space / "found/shrunk");
+  CHECK(space.stride(finer).out == fine.out);
 }
 
 TEST_CASE("an intervention is shrunk, and its unit of measure is shown") {
