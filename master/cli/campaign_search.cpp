@@ -34,6 +34,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::uint64_t kMostRuns = 100'000;
+constexpr std::uint64_t kMostSeed = 1'000'000'000;
 
 struct SearchArguments {
   CampaignArguments campaign;
@@ -172,7 +173,7 @@ void add_request_options(CLI::App& command, search::Request& request) {
       ->type_name("cma-es|de|random");
   command.add_option("--seed", request.seed, "Of the search's random numbers; 1 otherwise")
       ->type_name("N")
-      ->check(CLI::NonNegativeNumber);
+      ->check(CLI::Range(std::uint64_t{0}, kMostSeed));
   command
       .add_option("--check", request.check,
                   "Minimise the margin of this check alone, and take nothing else for a failure; "
