@@ -2,6 +2,8 @@
 #ifndef STRIDE_MASTER_CLI_CAMPAIGN_SEARCH_H
 #define STRIDE_MASTER_CLI_CAMPAIGN_SEARCH_H
 
+#include <string>
+
 namespace CLI {
 class App;
 }

@@ -19,7 +19,7 @@ std::optional<double> nominal_number(const campaign::Plan& plan,
   const campaign::PlanColumn& of = plan.columns()[column];
   if (of.role == Role::Start) return scenario.scenario_value(column);
   if (of.role == Role::Swap) return std::nullopt;
-  const auto text = part_text(plan.campaign().interventions[of.item].declared, of.part);
+  const auto text = campaign::part_text(plan.campaign().interventions[of.item].declared, of.part);
   return text ? campaign::number_of(*text) : std::nullopt;
 }
 
