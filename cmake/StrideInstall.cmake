@@ -4,6 +4,8 @@ include(CMakePackageConfigHelpers)
 set(package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/stride")
 
 install(TARGETS stride_cli EXPORT stride RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+# lib, whatever the libraries' folder is called here: the program looks in ../lib/stride beside itself
+install(TARGETS stride_optimisers LIBRARY DESTINATION lib/stride)
 if(TARGET stride_robot)
   install(TARGETS stride_robot RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 endif()
@@ -40,7 +42,7 @@ install(FILES
   interfaces/unit/exports.map
   DESTINATION ${package_dir})
 
-# lib, whatever the libraries' folder is called here: the program looks for units in ../lib/stride/units beside itself
+# likewise: it looks for units in ../lib/stride/units
 get_property(fmus GLOBAL PROPERTY STRIDE_FMUS)
 foreach(fmu IN LISTS fmus)
   cmake_path(GET fmu PARENT_PATH folder)

@@ -54,6 +54,28 @@ Type type_of(const core::Variable& variable) {
   }
 }
 
+double number_at(const core::ValueBlock& block, std::size_t element) {
+  return core::visit(block, [&](auto values) {
+    using T = typename decltype(values)::value_type;
+    if constexpr (std::is_arithmetic_v<T>) return static_cast<double>(values[element]);
+    return std::numeric_limits<double>::quiet_NaN();
+  });
+}
+
+/// Of a list with blanks between its words; one without more is that of all elements.
+std::string_view word_at(std::string_view list, std::size_t place) {
+  constexpr std::string_view kBlanks = " \t\n\r";
+  std::string_view word;
+  for (std::size_t i = 0; i <= place; ++i) {
+    const std::size_t begin = list.find_first_not_of(kBlanks);
+    if (begin == list.npos) break;
+    const std::size_t end = std::min(list.find_first_of(kBlanks, begin), list.size());
+    word = list.substr(begin, end - begin);
+    list.remove_prefix(end);
+  }
+  return word;
+}
+
 bool is_number(Type type) { return type != Type::Text; }
 
 /// The greatest whole number of the type; of Float64, that has no gap below it.
@@ -188,6 +210,35 @@ std::vector<core::ConnectorElements> CampaignScenario::elements_of(std::size_t c
     found.push_back(std::move(*elements));
   }
   return found;
+}
+
+std::optional<double> CampaignScenario::scenario_value(std::size_t column) const {
+  if (!is_number(kinds_[column].type)) return std::nullopt;
+  const auto is_direct = [&](const StartTarget& target) {
+    const core::StartDeclaration& declared = target.declaration;
+    return declared.via.empty() && declared.unit.name.empty();
+  };
+  for (const StartTarget& target : targets_) {
+    if (target.column == column && !is_direct(target)) return std::nullopt;
+  }
+  const auto elements = elements_of(column);
+  if (elements.size() != 1 || elements.front().size() != 1) return std::nullopt;
+  const core::ElementRange& element = elements.front().parts.front();
+  for (const core::StartValue& start : loaded_.system().start_values()) {
+    if (start.id != element.id || std::ranges::count(start.kept, element.first) > 0) continue;
+    return number_at(start.value, element.first);
+  }
+  return number_of(word_at(loaded_.system().variable(element.id).start, element.first));
+}
+
+std::string CampaignScenario::unit_of_measure(std::size_t column) const {
+  for (const StartTarget& target : targets_) {
+    if (target.column != column) continue;
+    if (!target.declaration.unit.name.empty()) return target.declaration.unit.name;
+    const auto elements = elements_of(column);
+    return loaded_.system().variable(elements.front().parts.front().id).unit;
+  }
+  return "";
 }
 
 /// A source replaces a start value, and one of two values for a variable the other.

@@ -3,6 +3,7 @@
 #define STRIDE_MASTER_CAMPAIGN_CAMPAIGN_SCENARIO_H
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -43,6 +44,12 @@ class CampaignScenario {
   const std::vector<LoadedAlternative>& alternatives() const { return alternatives_; }
   /// Of the columns of the campaign's plan.
   const std::vector<ValueKind>& kinds() const { return kinds_; }
+  /// The number that a start value has where the case gives none: of the scenario, or else of the
+  /// unit. Nothing for what is no number, and for a connector whose value is another one than its
+  /// variable's.
+  std::optional<double> scenario_value(std::size_t column) const;
+  /// In which a start value is given; empty if it has none.
+  std::string unit_of_measure(std::size_t column) const;
   const Fingerprints& fingerprints() const { return fingerprints_; }
   /// Of the files that the fingerprints are made of.
   const core::FileDigests& digests() const { return digests_; }

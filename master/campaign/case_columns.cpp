@@ -1,7 +1,6 @@
 #include "master/campaign/case_columns.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -15,13 +14,6 @@ namespace {
 static_assert(static_cast<std::uint8_t>(Outcome::TimedOut) + 1 == kMissing);
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-
-std::optional<double> number_of(std::string_view text) {
-  double number = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-  return number;
-}
 
 /// The first index that was not taken yet, of blocks of equal size.
 class Choice {

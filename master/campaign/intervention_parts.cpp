@@ -67,6 +67,14 @@ void set_part(scenario::InterventionDeclaration& declared, const std::string& pa
   }
 }
 
+std::optional<std::string> part_text(const scenario::InterventionDeclaration& declared,
+                                     const std::string& part) {
+  if (part == "value" || part == "time") return declared.value;
+  if (part == "at" || part == "from") return core::to_text(declared.from);
+  if (part == "until" && declared.until) return core::to_text(*declared.until);
+  return std::nullopt;
+}
+
 std::pair<std::string, std::string> option_of(const scenario::InterventionDeclaration& declared) {
   const std::string& variable = declared.variable;
   const std::string interval = interval_text(declared);

@@ -2,6 +2,7 @@
 #ifndef STRIDE_MASTER_CAMPAIGN_INTERVENTION_PARTS_H
 #define STRIDE_MASTER_CAMPAIGN_INTERVENTION_PARTS_H
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -20,6 +21,11 @@ std::vector<std::string> parts_of(core::Intervention::Kind kind);
 /// was expected.
 void set_part(scenario::InterventionDeclaration& declared, const std::string& part,
               const std::string& text);
+
+/// The text of one of these that is a number by itself: not of kEnabledPart, of a corruption, or of
+/// a value that is not given.
+std::optional<std::string> part_text(const scenario::InterventionDeclaration& declared,
+                                     const std::string& part);
 
 /// The option of `stride run` that makes the intervention, and its value.
 std::pair<std::string, std::string> option_of(const scenario::InterventionDeclaration& declared);

@@ -63,6 +63,10 @@ std::optional<std::string> description_text(const fs::path& folder, const char* 
 }
 
 void refuse_other_plan(const Plan& plan, const fs::path& folder) {
+  if (core::path_exists(folder / kSearchDescription)) {
+    core::fail_input({.where = {folder.string(), 0}}, "this folder belongs to a search",
+                     "choose another folder with --out");
+  }
   const auto other = identity_in(folder);
   if (!other || *other == plan_identity(plan)) return;
   core::fail_input({.where = {folder.string(), 0}},
@@ -94,7 +98,7 @@ std::string parameter_set(const Plan& plan, const Case& row) {
   writer.attribute("name", fmt::format("case {}", row.index));
   writer.open("ssv:Parameters");
   for (std::size_t i = 0; i < row.values.size(); ++i) {
-    if (!row.values[i]) continue;
+    if (!row.values[i] || plan.columns()[i].role != PlanColumn::Role::Start) continue;
     writer.open("ssv:Parameter");
     writer.attribute("name", plan.columns()[i].parameter.name);
     write_value(writer, plan.kinds()[i], *row.values[i]);
@@ -168,6 +172,10 @@ void write_parameter_sets(const Plan& plan, const fs::path& folder) {
   for (std::uint64_t i = 0; i < plan.size(); ++i) {
     write_whole(folder / parameter_set_name(plan, i), parameter_set(plan, plan.at(i)));
   }
+}
+
+void write_parameter_set(const Plan& plan, const Case& row, const fs::path& file) {
+  write_whole(file, parameter_set(plan, row));
 }
 
 }  // namespace stride::campaign

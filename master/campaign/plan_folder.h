@@ -13,6 +13,8 @@ namespace stride::campaign {
 inline constexpr const char* kPlanTable = "plan.csv";
 inline constexpr const char* kPlanDescription = "campaign.json";
 inline constexpr const char* kParameterSets = "parameters";
+/// What a search is, in its folder: a campaign has another one.
+inline constexpr const char* kSearchDescription = "search.json";
 
 /// campaigns/ and the name of the campaign's file.
 std::filesystem::path default_folder(const std::filesystem::path& campaign);
@@ -50,6 +52,9 @@ std::filesystem::path parameter_set_name(const Plan& plan, std::uint64_t index);
 void refuse_parameter_sets_of(const Plan& plan);
 /// Writes the values of each case as a parameter set (SSP 2.0). Throws likewise.
 void write_parameter_sets(const Plan& plan, const std::filesystem::path& folder);
+
+/// Writes the start values of one case as such a set. What it cannot hold is left out.
+void write_parameter_set(const Plan& plan, const Case& row, const std::filesystem::path& file);
 
 }  // namespace stride::campaign
 

@@ -1,5 +1,6 @@
 #include "master/campaign/value_kind.h"
 
+#include <charconv>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -20,6 +21,13 @@ std::string number_text(const ValueKind& kind, double number) {
     default:
       return fmt::format("{}", number);
   }
+}
+
+std::optional<double> number_of(std::string_view text) {
+  double number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  const bool is_number = error == std::errc() && end == text.data() + text.size();
+  return is_number ? std::optional(number) : std::nullopt;
 }
 
 std::string drawn_text(const ValueKind& kind, const Distribution& distribution, double u) {

@@ -3,7 +3,9 @@
 #define STRIDE_MASTER_CAMPAIGN_VALUE_KIND_H
 
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <string_view>
 
 #include "master/campaign/distribution.h"
 
@@ -29,6 +31,9 @@ struct ValueKind {
 /// The shortest text that reads back as the same value of this kind, which is no Text. A whole
 /// number is the nearest one; an instant, too.
 std::string number_text(const ValueKind& kind, double number);
+
+/// The number that the text is, as a whole.
+std::optional<double> number_of(std::string_view text);
 
 /// The value of this kind for a point of the unit interval, see quantile(): of a uniform
 /// distribution of whole numbers each has the same probability.

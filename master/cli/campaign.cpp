@@ -15,6 +15,8 @@
 #include "master/cli/campaign_input.h"
 #include "master/cli/campaign_report.h"
 #include "master/cli/campaign_run.h"
+#include "master/cli/campaign_search.h"
+#include "master/cli/campaign_shrink.h"
 #include "master/cli/campaign_submit.h"
 #include "master/cli/commands.h"
 #include "master/cli/crash_guard.h"
@@ -151,6 +153,8 @@ void add_campaign(CLI::App& app) {
   add_campaign_submit(*group);
   add_campaign_status(*group);
   add_campaign_report(*group);
+  add_campaign_search(*group);
+  add_campaign_shrink(*group);
 }
 
 }  // namespace stride::cli

@@ -29,10 +29,10 @@ bool CampaignProgress::is_due(const campaign::CaseTotals& totals, Clock::time_po
   return silence >= kMostSilence || (silence >= kLeastSilence && tenth(totals) != shown_tenth_);
 }
 
-void CampaignProgress::show(const campaign::CaseTotals& totals) {
+void CampaignProgress::show(const campaign::CaseTotals& totals, const std::string& note) {
   const auto now = Clock::now();
   if (form_ == Progress::Form::Nothing || !is_due(totals, now)) return;
-  put(totals, nullptr);
+  put(totals, nullptr, note);
   shown_ = now;
   shown_done_ = totals.done();
   shown_tenth_ = tenth(totals);
@@ -51,10 +51,12 @@ std::optional<double> CampaignProgress::left(const campaign::CaseTotals& totals)
   return elapsed() / static_cast<double>(done) * static_cast<double>(totals.missing());
 }
 
-void CampaignProgress::put(const campaign::CaseTotals& totals, const std::string* outcome) const {
+void CampaignProgress::put(const campaign::CaseTotals& totals, const std::string* outcome,
+                           const std::string& note) const {
   if (form_ == Progress::Form::Json) return put_json(totals, outcome);
   std::string line =
       fmt::format("{} of {} cases done, {} failed", totals.done(), totals.cases, totals.failed);
+  if (!note.empty()) line += ", " + note;
   const auto seconds = outcome == nullptr ? left(totals) : std::nullopt;
   if (seconds) line += fmt::format(", {} left", duration_text(*seconds));
   Progress::put(form_ == Progress::Form::Rewritten ? fmt::format("\r{}\033[K", line) : line + "\n");

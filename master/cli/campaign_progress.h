@@ -18,7 +18,8 @@ class CampaignProgress {
   /// `totals` has what was done before.
   CampaignProgress(ProgressStyle style, const campaign::CaseTotals& totals);
 
-  void show(const campaign::CaseTotals& totals);
+  /// `note` is for people, and follows the numbers.
+  void show(const campaign::CaseTotals& totals, const std::string& note = "");
   /// No further case is run. `outcome` is for programs.
   void end(const campaign::CaseTotals& totals, const std::string& outcome);
 
@@ -27,7 +28,8 @@ class CampaignProgress {
 
   bool is_due(const campaign::CaseTotals& totals, Clock::time_point now) const;
   std::optional<double> left(const campaign::CaseTotals& totals) const;
-  void put(const campaign::CaseTotals& totals, const std::string* outcome) const;
+  void put(const campaign::CaseTotals& totals, const std::string* outcome,
+           const std::string& note = "") const;
   void put_json(const campaign::CaseTotals& totals, const std::string* outcome) const;
   double elapsed() const;
 

@@ -1,11 +1,9 @@
 #include "master/cli/campaign_run.h"
 
-#include <algorithm>
 #include <chrono>
 #include <memory>
 #include <optional>
 #include <string>
-#include <thread>
 #include <utility>
 #include <vector>
 
@@ -20,6 +18,7 @@
 #include "master/campaign/plan_folder.h"
 #include "master/cli/campaign_input.h"
 #include "master/cli/campaign_report.h"
+#include "master/cli/case_options.h"
 #include "master/cli/case_pool.h"
 #include "master/cli/case_runner.h"
 #include "master/cli/crash_guard.h"
@@ -101,11 +100,9 @@ namespace {
 
 MissingCases::Options missing_options(const CampaignRunArguments& arguments,
                                       const CampaignInput& input) {
-  const std::size_t cores = std::max<std::size_t>(std::thread::hardware_concurrency(), 1);
   return {.range = arguments.range.value_or(campaign::CaseRange{0, input.plan().size() - 1}),
-          .jobs = arguments.jobs != 0 ? arguments.jobs : cores,
-          .progress = arguments.progress.value_or(arguments.quiet ? ProgressStyle::None
-                                                                  : ProgressStyle::Auto)};
+          .jobs = jobs_or_cores(arguments.jobs),
+          .progress = chosen_style(arguments.progress, arguments.quiet)};
 }
 
 /// A page that cannot be written does not hide what became of the cases.
@@ -122,7 +119,8 @@ void run_missing(const CampaignRunArguments& arguments, const CampaignInput& inp
   const campaign::CaseFolder cases(input.plan(), input.folder());
   const campaign::CaseScratch scratch(cases);
   const Interruption interruption;
-  MissingCases(input, cases, scratch, missing_options(arguments, input)).run();
+  MissingCases(input.plan(), input.scenario(), cases, scratch, missing_options(arguments, input))
+      .run();
   const campaign::CaseSummary summary =
       write_case_tables(input.plan(), cases, scratch, kShownFailures);
   if (!arguments.junit.empty()) {
@@ -138,7 +136,8 @@ void run_range(const CampaignRunArguments& arguments, const CampaignInput& input
   const campaign::CaseFolder cases(input.plan(), input.folder());
   const campaign::CaseScratch scratch(cases);
   const Interruption interruption;
-  MissingCases missing(input, cases, scratch, missing_options(arguments, input));
+  MissingCases missing(input.plan(), input.scenario(), cases, scratch,
+                       missing_options(arguments, input));
   missing.run();
   const campaign::CaseTotals& totals = missing.totals();
   if (!arguments.quiet) {
@@ -216,12 +215,7 @@ void add_campaign_run(CLI::App& group) {
       "run", "Run the cases that have no record yet; the plan is made where there is none");
   const auto arguments = std::make_shared<CampaignRunArguments>();
   add_campaign_options(*command, arguments->campaign);
-  CLI::Option* jobs =
-      command
-          ->add_option("--jobs", arguments->jobs,
-                       "How many cases run at the same time; otherwise as many as there are cores")
-          ->type_name("N")
-          ->check(CLI::Range(1, kMostCaseJobs));
+  CLI::Option* jobs = add_jobs_option(*command, arguments->jobs);
   CLI::Option* only =
       add_case_option(*command, arguments->only,
                       "Run this case only, counted from 0, and make no table: for other runners, "
@@ -248,14 +242,7 @@ void add_campaign_run(CLI::App& group) {
       ->type_name("FILE")
       ->excludes(only)
       ->excludes(range);
-  command
-      ->add_option_function<std::string>(
-          "--progress",
-          [arguments](const std::string& text) { arguments->progress = read_progress_style(text); },
-          "How to show progress: automatically (on a terminal a line that is rewritten, elsewhere "
-          "a line now and then), in plain lines, in JSON objects for programs, or not at all")
-      ->type_name("auto|plain|json|none");
-  command->add_flag("--quiet,-q", arguments->quiet, "Print nothing but warnings and errors");
+  add_progress_options(*command, arguments->progress, arguments->quiet);
   command->callback([arguments] { run_campaign(*arguments); });
 }
 

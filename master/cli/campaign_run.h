@@ -12,8 +12,6 @@ namespace stride::cli {
 
 class CampaignInput;
 
-inline constexpr int kMostCaseJobs = 1024;
-
 /// Makes the table, and prints how many cases are done, and failures. Throws core::Error (Input)
 /// where there is no plan.
 campaign::CaseTotals print_status(const CampaignInput& input);

@@ -16,6 +16,7 @@
 #include "master/campaign/plan_folder.h"
 #include "master/cli/campaign_input.h"
 #include "master/cli/campaign_run.h"
+#include "master/cli/case_options.h"
 #include "master/cli/cluster/clusters.h"
 #include "master/cli/crash_guard.h"
 #include "master/cli/output.h"

@@ -25,13 +25,15 @@ isolation::ChildOptions case_options(const campaign::Campaign& campaign) {
   return options;
 }
 
-MissingCases::MissingCases(const CampaignInput& input, const campaign::CaseFolder& cases,
-                           const campaign::CaseScratch& scratch, const Options& options)
-    : input_(input),
+MissingCases::MissingCases(const campaign::Plan& plan, const campaign::CampaignScenario& scenario,
+                           const campaign::CaseFolder& cases, const campaign::CaseScratch& scratch,
+                           const Options& options)
+    : plan_(plan),
+      scenario_(scenario),
       cases_(cases),
       options_(options),
-      child_options_(case_options(input.plan().campaign())),
-      runner_(input.plan(), input.scenario(), scratch),
+      child_options_(case_options(plan.campaign())),
+      runner_(plan, scenario, scratch),
       pool_(options.jobs, child_options_),
       totals_(totals_before()),
       progress_(options.progress, totals_) {
@@ -68,9 +70,9 @@ void MissingCases::run() {
 }
 
 void MissingCases::run_some(const std::vector<std::uint64_t>& cases) {
-  const core::RunOptions& run = input_.scenario().loaded().options();
+  const core::RunOptions& run = scenario_.loaded().options();
   std::vector<campaign::SharedBeginning> groups =
-      shared_beginnings(input_.plan(), cases, {run.start, run.stop});
+      shared_beginnings(plan_, cases, {run.start, run.stop});
   const std::size_t at_once = std::clamp<std::size_t>(groups.size(), 1, options_.jobs);
   for (campaign::SharedBeginning& group : groups) {
     while (pool_.is_full() && !is_interrupted()) await_room();

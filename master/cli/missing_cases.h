@@ -9,12 +9,13 @@
 #include <optional>
 #include <vector>
 
+#include "master/campaign/campaign_scenario.h"
 #include "master/campaign/case_folder.h"
 #include "master/campaign/case_range.h"
 #include "master/campaign/case_record.h"
 #include "master/campaign/case_table.h"
+#include "master/campaign/plan.h"
 #include "master/campaign/shared_beginnings.h"
-#include "master/cli/campaign_input.h"
 #include "master/cli/campaign_progress.h"
 #include "master/cli/case_pool.h"
 #include "master/cli/case_runner.h"
@@ -35,9 +36,10 @@ class MissingCases {
     ProgressStyle progress = ProgressStyle::Auto;
   };
 
-  /// The first three must outlive it.
-  MissingCases(const CampaignInput& input, const campaign::CaseFolder& cases,
-               const campaign::CaseScratch& scratch, const Options& options);
+  /// All but the options must outlive it.
+  MissingCases(const campaign::Plan& plan, const campaign::CampaignScenario& scenario,
+               const campaign::CaseFolder& cases, const campaign::CaseScratch& scratch,
+               const Options& options);
 
   /// Until all are there, or the user interrupts it.
   void run();
@@ -58,7 +60,8 @@ class MissingCases {
   void count_shared();
   void end_together(std::uint64_t first);
 
-  const CampaignInput& input_;
+  const campaign::Plan& plan_;
+  const campaign::CampaignScenario& scenario_;
   const campaign::CaseFolder& cases_;
   const Options options_;
   const isolation::ChildOptions child_options_;

@@ -40,17 +40,6 @@ std::string faults(std::initializer_list<const char*> names, const std::string& 
                        extension, "test.ssd");
 }
 
-/// Each row without its last fields: the wall time, when, and where.
-std::string without_wall_times(const std::string& table) {
-  std::istringstream lines(table);
-  std::string text;
-  for (std::string line; std::getline(lines, line);) {
-    for (int field = 0; field < 3; ++field) line.erase(line.rfind(','));
-    text += line + "\n";
-  }
-  return text;
-}
-
 /// A folder with a scenario and the campaign c.xosc.
 struct CampaignRuns : Workspace {
   explicit CampaignRuns(const std::string& text, const Parts& parts = checked_filters())
@@ -91,16 +80,6 @@ struct CampaignRuns : Workspace {
     for (const auto& [outcome, reason] : rows) check_row(index++, outcome, reason);
   }
 };
-
-std::size_t records_in(const fs::path& folder) {
-  std::size_t count = 0;
-  std::error_code none;
-  for (fs::recursive_directory_iterator it(folder / "cases", none), end; it != end;
-       it.increment(none)) {
-    count += it->path().extension() == ".json" && it.depth() == 1 ? 1 : 0;
-  }
-  return count;
-}
 
 }  // namespace
 

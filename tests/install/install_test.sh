@@ -73,6 +73,12 @@ for scenario in "$work"/stride/share/stride/scenarios/*/*.ssd; do
   "$stride" run "$scenario" --out "$work/out" --stop 0.5 --quiet || [ $? -eq 1 ]
   grep -q '"outcome": "completed"' "$work/out/run.json" || fail "$scenario was not completed"
 done
+
+step "A search finds the installed optimisers, and the scenario itself passes"
+"$stride" campaign search "$work/stride/share/stride/scenarios/nfc_approach/nfc_approach.xosc" --runs 1 --quiet \
+  --out "$work/search" || fail "the search has failed"
+
+step "The installed units can be read"
 for unit in "$work"/stride/lib/stride/units/*.fmu; do
   "$stride" inspect "$unit" > /dev/null
 done

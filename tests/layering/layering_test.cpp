@@ -46,6 +46,7 @@ const std::map<std::string, std::set<std::string>> kAllowed = {
      {"stride/time.h", "master/scenario", "master/ssp", "master/report", "master/recorders",
       "master/algorithm", "master/model", "master/util", "boost/math", "boost/random", "Random123",
       "fmt", "nlohmann"}},
+    {"master/search", {"stride/time.h", "master/campaign", "master/util", "pagmo", "fmt"}},
     {"master/capture",
      {"stride/time.h", "master/recorders", "master/algorithm", "master/model", "master/util",
       "fmt"}},

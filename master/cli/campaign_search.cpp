@@ -1,0 +1,215 @@
+#include "master/cli/campaign_search.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "master/campaign/case_table.h"
+#include "master/campaign/plan_check.h"
+#include "master/campaign/plan_folder.h"
+#include "master/cli/campaign_input.h"
+#include "master/cli/campaign_progress.h"
+#include "master/cli/case_options.h"
+#include "master/cli/crash_guard.h"
+#include "master/cli/interruption.h"
+#include "master/cli/listed_cases.h"
+#include "master/cli/output.h"
+#include "master/cli/search_folder.h"
+#include "master/cli/search_summary.h"
+#include "master/recorders/results_folder.h"
+#include "master/search/search.h"
+#include "master/util/error.h"
+#include "master/util/input_file.h"
+#include "master/util/suggest.h"
+
+namespace stride::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uint64_t kMostRuns = 100'000;
+constexpr std::uint64_t kMostSeed = 1'000'000'000;
+
+struct SearchArguments {
+  CampaignArguments campaign;
+  search::Request request;
+  std::size_t jobs = 0;  ///< 0: as many as there are cores
+  std::optional<ProgressStyle> progress;
+  bool quiet = false;
+};
+
+/// The campaign itself, and the folder of the search.
+CampaignArguments searched(const CampaignArguments& named) {
+  const bool is_folder = core::is_folder(named.file);
+  const fs::path file = is_folder ? campaign::campaign_of(named.file) : named.file;
+  return {file, named.out.empty() ? default_search_folder(file) : named.out};
+}
+
+/// A search through a campaign, in its folder, which is locked.
+class CampaignSearch {
+ public:
+  CampaignSearch(const SearchArguments& arguments, const CampaignInput& input)
+      : arguments_(arguments),
+        input_(input),
+        space_(input.plan().campaign(), input.plan().kinds()),
+        cases_(input.plan(), input.scenario(), seeds_of(input.plan(), input.plan().at(0)),
+               input.folder(), jobs_or_cores(arguments.jobs)),
+        search_(arguments.request, space_, cases_),
+        totals_{.cases = arguments.request.runs},
+        progress_(chosen_style(arguments.progress, arguments.quiet), totals_) {}
+
+  void run() {
+    const bool is_complete = search_.run([&](std::uint64_t index) { show(index); });
+    progress_.end(totals_, is_complete ? "completed" : "interrupted");
+    if (cases_.size() > 0) {
+      write_tables();
+      if (!arguments_.quiet) print();
+    }
+    if (!is_complete) {
+      core::fail_run({},
+                     fmt::format("the search was interrupted; {} of at most {} cases are done",
+                                 cases_.size(), arguments_.request.runs),
+                     "it goes on with the same command");
+    }
+    if (!search_.found().empty()) fail();
+  }
+
+ private:
+  void show(std::uint64_t index) {
+    totals_.add(cases_.result(index).outcome);
+    const std::size_t found = search_.found().size();
+    progress_.show(totals_, found == 0 ? "" : failures_text(found) + " found");
+  }
+
+  void write_tables() const {
+    const campaign::CaseFolder folder(cases_.plan(), cases_.folder());
+    const campaign::CaseScratch scratch(folder);
+    write_case_tables(cases_.plan(), folder, scratch, 0);
+  }
+
+  static std::string failures_text(std::size_t count) {
+    return count == 1 ? "1 failure" : fmt::format("{} failures", count);
+  }
+
+  void print() const {
+    const search::Request& request = arguments_.request;
+    const std::size_t found = search_.found().size();
+    print_text("{}: {} found in {} by {}, seed {}{}\n",
+               input_.plan().campaign().file.stem().string(),
+               found == 0 ? "no failure" : failures_text(found),
+               cases_.size() == 1 ? "1 case" : fmt::format("{} cases", cases_.size()),
+               search::name(request.method), request.seed,
+               request.check.empty() ? "" : fmt::format(", of the check '{}'", request.check));
+    print_text("{}", search_tables(search_, cases_, input_.scenario()));
+    print_text("\nTable in {}: {} {} {}\n", cases_.folder().string(), campaign::kCaseTable,
+               campaign::kCaseLines, campaign::kSearchDescription);
+  }
+
+  [[noreturn]] void fail() const {
+    const auto& [failure, index] = search_.found().front();
+    if (index == 0) {
+      core::fail_run(
+          {},
+          fmt::format("the scenario itself fails, without any value of the campaign: {}", failure),
+          fmt::format("repeat it with: {}", cases_.plan().command(cases_.plan().at(0))));
+    }
+    core::fail_run({},
+                   fmt::format("{} found, the first one in case {}: {}",
+                               failures_text(search_.found().size()), index, failure),
+                   fmt::format("see what of it is needed: stride campaign shrink {} --case {}",
+                               cases_.folder().string(), index));
+  }
+
+  const SearchArguments& arguments_;
+  const CampaignInput& input_;
+  const search::SearchSpace space_;
+  ListedCases cases_;
+  search::Search search_;
+  campaign::CaseTotals totals_;
+  CampaignProgress progress_;
+};
+
+void search_campaign(SearchArguments arguments) {
+  const CrashGuard guard;
+  const CampaignInput input(searched(arguments.campaign));
+  using namespace campaign;
+  input.refuse_inputs({kSearchDescription, kCaseTable, kCaseLines, kCases, kRunning});
+  require_check(input.scenario(), arguments.request.check);
+  check_plan(input.plan(), input.scenario());
+  if (arguments.request.method != search::Method::Random) {
+    arguments.request.make_optimiser = &search::load_optimisers(search::optimiser_library());
+  }
+  begin_search_folder(input.folder(), arguments.request, input.plan());
+  const recorders::ResultsLock lock(input.folder());
+  const Interruption interruption;
+  CampaignSearch(arguments, input).run();
+}
+
+void add_request_options(CLI::App& command, search::Request& request) {
+  command
+      .add_option("--runs", request.runs,
+                  "How many cases are run at most, the scenario itself included; 200 otherwise. A "
+                  "search goes on with more of them, where it was")
+      ->type_name("N")
+      ->check(CLI::Range(std::uint64_t{1}, kMostRuns));
+  command
+      .add_option_function<std::string>(
+          "--method",
+          [&request](const std::string& text) {
+            for (const search::Method method : search::kMethods) {
+              if (text == search::name(method)) return void(request.method = method);
+            }
+            throw CLI::ValidationError("--method",
+                                       "'" + text + "' is none of cma-es, de and random");
+          },
+          "How it searches: by adaptation of a covariance matrix (the default), by differential "
+          "evolution, or at random, to compare with")
+      ->type_name("cma-es|de|random");
+  command.add_option("--seed", request.seed, "Of the search's random numbers; 1 otherwise")
+      ->type_name("N")
+      ->check(CLI::Range(std::uint64_t{0}, kMostSeed));
+  command
+      .add_option("--check", request.check,
+                  "Minimise the margin of this check alone, and take nothing else for a failure; "
+                  "otherwise the least of all")
+      ->type_name("NAME");
+  command.add_flag("--all", request.finds_all,
+                   "Go on behind the first failure, and look for others");
+}
+
+}  // namespace
+
+void require_check(const campaign::CampaignScenario& scenario, const std::string& name) {
+  const auto& checks = scenario.loaded().checks();
+  if (checks.empty()) {
+    core::fail_input({.where = {scenario.loaded().scenario().path.string(), 0}},
+                     "this scenario has no checks, so there are no margins to be minimised",
+                     "demand something of it in <stride:Checks>");
+  }
+  std::vector<std::string> names;
+  for (const checks::Definition& check : checks) names.push_back(check.name);
+  if (name.empty() || std::ranges::find(names, name) != names.end()) return;
+  core::fail_input({}, fmt::format("--check: no check is called '{}'", name),
+                   core::suggestion(name, names));
+}
+
+void add_campaign_search(CLI::App& group) {
+  CLI::App* command = group.add_subcommand(
+      "search", "Look for the case that fails, led by the margins of the scenario's checks");
+  const auto arguments = std::make_shared<SearchArguments>();
+  add_campaign_options(*command, arguments->campaign);
+  command->get_option("--out")->description(
+      "Folder of the search; otherwise campaigns/ and the name of FILE with .search");
+  add_request_options(*command, arguments->request);
+  add_jobs_option(*command, arguments->jobs);
+  add_progress_options(*command, arguments->progress, arguments->quiet);
+  command->callback([arguments] { search_campaign(*arguments); });
+}
+
+}  // namespace stride::cli

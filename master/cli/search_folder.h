@@ -1,0 +1,39 @@
+// The folder of a search: what it was asked for, and its cases.
+#ifndef STRIDE_MASTER_CLI_SEARCH_FOLDER_H
+#define STRIDE_MASTER_CLI_SEARCH_FOLDER_H
+
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+#include "master/campaign/definition.h"
+#include "master/campaign/plan.h"
+#include "master/search/search.h"
+
+namespace stride::cli {
+
+/// campaigns/ and the name of the campaign's file, with ".search".
+std::filesystem::path default_search_folder(const std::filesystem::path& campaign);
+
+/// Whether a search is in the folder.
+bool is_search_folder(const std::filesystem::path& folder);
+
+/// Writes search.json, unless it is there: what decides which cases the search has. How many of
+/// them are run, and whether it goes on behind a failure, does not, so a search may go on with
+/// others. Throws core::Error (Input) where there is another search, or a campaign.
+void begin_search_folder(const std::filesystem::path& folder, const search::Request& request,
+                         const campaign::Plan& plan);
+
+/// The file of the campaign that is searched. Throws core::Error (Input) for what is no search.
+std::filesystem::path campaign_of_search(const std::filesystem::path& folder);
+/// Throws core::Error (Input) where the search in the folder is one of another plan.
+void require_plan_of_search(const std::filesystem::path& folder, const campaign::Plan& plan);
+
+/// The values of a case that the search has run: those of the parameters, and then of the seeds.
+/// Throws core::Error (Input) if it has not.
+std::vector<campaign::Text> values_in_search(const std::filesystem::path& folder,
+                                             const campaign::Plan& plan, std::uint64_t index);
+
+}  // namespace stride::cli
+
+#endif

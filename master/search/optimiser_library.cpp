@@ -1,0 +1,32 @@
+#include <string>
+#include <system_error>
+
+#include <dlfcn.h>
+#include <fmt/format.h>
+
+#include "master/search/optimiser.h"
+#include "master/util/error.h"
+
+namespace stride::search {
+
+namespace fs = std::filesystem;
+
+fs::path optimiser_library() {
+  std::error_code unknown;
+  const fs::path program = fs::read_symlink("/proc/self/exe", unknown);
+  return program.parent_path().parent_path() / "lib" / "stride" / STRIDE_OPTIMISER_LIBRARY;
+}
+
+/// Its symbols are its own, so no unit sees them.
+MakeOptimiser& load_optimisers(const fs::path& library) {
+  void* const handle = ::dlopen(library.c_str(), RTLD_NOW | RTLD_LOCAL);
+  void* const function = handle != nullptr ? ::dlsym(handle, kMakeOptimiser) : nullptr;
+  if (function != nullptr) return *reinterpret_cast<MakeOptimiser*>(function);
+  const char* const reason = ::dlerror();
+  core::fail_input({},
+                   fmt::format("the library with the optimisers cannot be loaded: {}",
+                               reason != nullptr ? reason : library.c_str()),
+                   "it needs pagmo, libpagmo8 of Debian; '--method random' needs neither");
+}
+
+}  // namespace stride::search
