@@ -19,10 +19,12 @@
 #include "master/cli/crash_guard.h"
 #include "master/cli/interruption.h"
 #include "master/cli/listed_cases.h"
+#include "master/cli/missing_cases.h"
 #include "master/cli/output.h"
 #include "master/cli/search_folder.h"
 #include "master/cli/search_summary.h"
 #include "master/recorders/results_folder.h"
+#include "master/search/objective.h"
 #include "master/search/search.h"
 #include "master/util/error.h"
 #include "master/util/input_file.h"
@@ -71,18 +73,14 @@ class CampaignSearch {
       write_tables();
       if (!arguments_.quiet) print();
     }
-    if (!is_complete) {
-      core::fail_run({},
-                     fmt::format("the search was interrupted; {} of at most {} cases are done",
-                                 cases_.size(), arguments_.request.runs),
-                     "it goes on with the same command");
-    }
+    if (!is_complete) fail_incomplete();
     if (!search_.found().empty()) fail();
   }
 
  private:
   void show(std::uint64_t index) {
     totals_.add(cases_.result(index).outcome);
+    if (!search::came_to_its_end(cases_.result(index))) ++without_end_;
     const std::size_t found = search_.found().size();
     progress_.show(totals_, found == 0 ? "" : failures_text(found) + " found");
   }
@@ -107,8 +105,22 @@ class CampaignSearch {
                search::name(request.method), request.seed,
                request.check.empty() ? "" : fmt::format(", of the check '{}'", request.check));
     print_text("{}", search_tables(search_, cases_, input_.scenario()));
+    if (!request.check.empty() && without_end_ > 0) {
+      print_text("\n{} of the cases did not come to their end, which is no failure of this check\n",
+                 without_end_);
+    }
     print_text("\nTable in {}: {} {} {}\n", cases_.folder().string(), campaign::kCaseTable,
                campaign::kCaseLines, campaign::kSearchDescription);
+  }
+
+  [[noreturn]] void fail_incomplete() const {
+    core::fail_run({},
+                   fmt::format("the search {}; {} of at most {} cases are done",
+                               MissingCases::is_interrupted()
+                                   ? "was interrupted"
+                                   : "cannot go on: somebody has removed records from its folder",
+                               cases_.size(), arguments_.request.runs),
+                   "it goes on with the same command");
   }
 
   [[noreturn]] void fail() const {
@@ -133,6 +145,7 @@ class CampaignSearch {
   search::Search search_;
   campaign::CaseTotals totals_;
   CampaignProgress progress_;
+  std::uint64_t without_end_ = 0;  ///< cases
 };
 
 void search_campaign(SearchArguments arguments) {
@@ -178,7 +191,8 @@ void add_request_options(CLI::App& command, search::Request& request) {
       .add_option("--check", request.check,
                   "Minimise the margin of this check alone, and take nothing else for a failure; "
                   "otherwise the least of all")
-      ->type_name("NAME");
+      ->type_name("NAME")
+      ->check([](const std::string& text) { return text.empty() ? "its name is empty" : ""; });
   command.add_flag("--all", request.finds_all,
                    "Go on behind the first failure, and look for others");
 }

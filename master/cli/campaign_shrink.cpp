@@ -28,6 +28,7 @@
 #include "master/search/way.h"
 #include "master/util/error.h"
 #include "master/util/input_file.h"
+#include "master/util/message_text.h"
 
 namespace stride::cli {
 namespace {
@@ -91,9 +92,10 @@ class ShrinkingCase {
   const campaign::Plan& plan() const { return cases_.plan(); }
 
   std::string text() const {
-    return fmt::format("{}: case {} fails by '{}', shrunk by {} runs\n\n{}\n{}\n",
+    return fmt::format("{}: case {} fails by '{}', shrunk by {}\n\n{}\n{}\n",
                        input_.plan().campaign().file.stem().string(), *arguments_.index, failure_,
-                       cases_.size(), table(), sentence());
+                       cases_.size() == 1 ? "1 run" : fmt::format("{} runs", cases_.size()),
+                       table(), sentence());
   }
 
  private:
@@ -182,6 +184,14 @@ class ShrinkingCase {
   std::map<search::Row, std::uint64_t> known_;  ///< by the values of the parameters
 };
 
+/// Not a number is none, either.
+std::string tolerance_mistake(const std::string& text) {
+  constexpr double kLeast = 1e-9, kMost = 0.5;
+  const auto share = campaign::number_of(text);
+  if (share && *share >= kLeast && *share <= kMost) return "";
+  return fmt::format("'{}' is no number from {} to {}", core::name_text(text), kLeast, kMost);
+}
+
 void shrink_case(const ShrinkArguments& arguments) {
   const CrashGuard guard;
   const CampaignInput input(shrunk_from(arguments.campaign));
@@ -199,7 +209,9 @@ void shrink_case(const ShrinkArguments& arguments) {
   }
   const fs::path set = folder.string() + ".ssv";
   const campaign::Case left = shrinking.left();
-  campaign::write_parameter_set(shrinking.plan(), left, set);
+  campaign::Case named = left;  // after the case that it was made of
+  named.index = *arguments.index;
+  campaign::write_parameter_set(shrinking.plan(), named, set);
   if (arguments.quiet) return;
   const campaign::Campaign& campaign = input.plan().campaign();
   const bool has_more = !campaign.swaps.empty() || !campaign.interventions.empty();
@@ -223,7 +235,7 @@ void add_campaign_shrink(CLI::App& group) {
                    "How exactly boundaries are found, as a share of the way from the scenario's "
                    "value to that of the case; 0.01 otherwise")
       ->type_name("SHARE")
-      ->check(CLI::Range(1e-9, 0.5));
+      ->check(tolerance_mistake);
   command
       ->add_option("--check", arguments->check,
                    "The failure that has to stay; otherwise the first check that has failed")

@@ -2,6 +2,7 @@
 #ifndef STRIDE_MASTER_SEARCH_WAY_H
 #define STRIDE_MASTER_SEARCH_WAY_H
 
+#include <cmath>
 #include <optional>
 #include <string>
 #include <vector>
@@ -21,7 +22,9 @@ class Way {
       double tolerance);
 
   /// Whether there are numbers between its ends.
-  bool is_continuous() const { return nominal_ && number_ && *nominal_ != *number_; }
+  bool is_continuous() const {
+    return nominal_ && number_ && *nominal_ != *number_ && std::isfinite(*nominal_ - *number_);
+  }
   /// At 0 none, so that the scenario's own holds; at 1 that of the failing case. Between them a
   /// number with no more digits than the tolerance asks for, of a way that is continuous.
   campaign::Text at(double share) const;

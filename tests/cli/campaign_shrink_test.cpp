@@ -138,7 +138,9 @@ TEST_CASE("what cannot be shrunk is refused") {
   };
   check_refused("1", {}, "--case 1: this case passes, so there is nothing to shrink");
   check_refused("6", {}, "--case 6: there are 6 cases, the last one is 5");
-  check_refused("4", {"--tolerance", "0"}, "--tolerance");
+  for (const char* tolerance : {"0", "nan", "0.6", "x"}) {
+    check_refused("4", {"--tolerance", tolerance}, "is no number from 1e-09 to 0.5");
+  }
   check_refused("4", {"--check", "bounden"}, "did you mean 'bounded'?");
   CHECK(space.stride({"campaign", "search", "c.xosc", "-q", "--runs", "1"}).exit_code == 0);
   const Outcome unknown = space.stride({"campaign", "shrink", "campaigns/c.search", "--case", "1"});

@@ -27,6 +27,14 @@ TEST_CASE("a way goes from the nominal value to that of the failing case") {
   CHECK(text(Way(kReal, 1.0, "-3.0", 0.01), 0.75) == "-2");
 }
 
+TEST_CASE("there is nothing on a way to what is not finite") {
+  for (const char* end : {"inf", "-inf", "nan"}) {
+    const Way way(kReal, 1.0, end, 0.01);
+    CHECK_FALSE(way.is_continuous());
+    CHECK(text(way, 0.5) == end);
+  }
+}
+
 TEST_CASE("numbers on a way have as many digits as the tolerance needs") {
   CHECK(text(Way(kReal, 0.0, "0.123456789", 0.01), 1.0 / 3) == "0.0412");
   CHECK(text(Way(kReal, 0.0, "123456789", 0.01), 1.0 / 3) == "41200000");
