@@ -1,6 +1,7 @@
 #include "master/algorithm/exchange/exchange.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstring>
 #include <map>
@@ -248,7 +249,9 @@ bool Exchange::any_discrete_change(std::size_t component) const {
 }
 
 void Exchange::write_inputs(std::size_t component, Unit& unit) {
-  ports_[component].written_route = written_alone_ = route_;
+  ports_[component].written_route = route_;
+  // units of other threads do the same meanwhile
+  std::atomic_ref(written_alone_).store(route_, std::memory_order_relaxed);
   for (const BoundValues& input : ports_[component].values.inputs) {
     unit.set(input.references, *input.block);
   }
