@@ -5,19 +5,17 @@
 
 #include <fmt/format.h>
 
+#include "master/util/message_text.h"
 #include "master/util/replacement.h"
 #include "master/util/xml/writer.h"
 
 namespace stride::campaign {
 namespace {
 
-/// An attribute cannot hold a line feed.
-std::string one_line(const std::string& text) { return text.substr(0, text.find('\n')); }
-
 void write_end(xml::Writer& xml, const CaseResult& result, const std::string& command) {
   if (result.outcome == Outcome::Passed) return;
   xml.open(result.outcome == Outcome::Failed ? "failure" : "error");
-  xml.attribute("message", one_line(result.reason));
+  xml.attribute("message", core::first_line(result.reason));
   xml.attribute("type", name(result.outcome));
   xml.text(result.reason + "\n" + command + "\n");
   xml.close();

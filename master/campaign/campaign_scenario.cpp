@@ -16,6 +16,7 @@
 #include "master/util/message_text.h"
 #include "master/util/suggest.h"
 #include "master/util/time_text.h"
+#include "master/util/xml/element.h"
 
 namespace stride::campaign {
 namespace {
@@ -62,18 +63,10 @@ double number_at(const core::ValueBlock& block, std::size_t element) {
   });
 }
 
-/// Of a list with blanks between its words; one without more is that of all elements.
+/// Of a list; one of fewer words has the last one for all further elements.
 std::string_view word_at(std::string_view list, std::size_t place) {
-  constexpr std::string_view kBlanks = " \t\n\r";
-  std::string_view word;
-  for (std::size_t i = 0; i <= place; ++i) {
-    const std::size_t begin = list.find_first_not_of(kBlanks);
-    if (begin == list.npos) break;
-    const std::size_t end = std::min(list.find_first_of(kBlanks, begin), list.size());
-    word = list.substr(begin, end - begin);
-    list.remove_prefix(end);
-  }
-  return word;
+  const std::vector<std::string_view> words = xml::split(list);
+  return words.empty() ? "" : words[std::min(place, words.size() - 1)];
 }
 
 bool is_number(Type type) { return type != Type::Text; }

@@ -70,16 +70,23 @@ void move(const fs::path& from, const fs::path& to) {
 
 }  // namespace
 
+fs::path results_of_case(const std::string& name) {
+  return fs::path(kCases) / name.substr(0, name.size() - kPlaces) / name;
+}
+
+fs::path record_of_case(const std::string& name) {
+  return results_of_case(name).string() + ".json";
+}
+
 CaseFolder::CaseFolder(const Plan& plan, fs::path folder)
     : plan_(plan), folder_(std::move(folder)) {}
 
 fs::path CaseFolder::results_name(std::uint64_t index) const {
-  const std::string name = case_name(plan_, index);
-  return fs::path(kCases) / name.substr(0, name.size() - kPlaces) / name;
+  return results_of_case(case_name(plan_, index));
 }
 
 fs::path CaseFolder::record_file(std::uint64_t index) const {
-  return folder_ / (results_name(index).string() + ".json");
+  return folder_ / record_of_case(case_name(plan_, index));
 }
 
 std::optional<CaseFolder::Record> CaseFolder::read(std::uint64_t index) const {

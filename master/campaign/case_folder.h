@@ -16,6 +16,11 @@ namespace stride::campaign {
 inline constexpr const char* kCases = "cases";
 inline constexpr const char* kRunning = "running";
 
+/// Below the folder of a campaign or a search, of the case with this name ("000017"):
+/// "cases/000/000017" and "cases/000/000017.json".
+std::filesystem::path results_of_case(const std::string& name);
+std::filesystem::path record_of_case(const std::string& name);
+
 /// The records in the folder of a campaign, one file for each case, in folders of a thousand:
 /// cases/000/000017.json, and beside it, of a case whose results are kept, the folder of that name.
 class CaseFolder {

@@ -20,9 +20,9 @@ struct CaseRange {
 
 /// "20-29", or "20".
 std::string to_text(const CaseRange& range);
-/// Reads such a text; nothing if it is none, or the first case comes after the last one.
 /// Digits only, as "17" or "000017", below Plan::kMostCases; nothing for anything else.
 std::optional<std::uint64_t> parse_case_index(std::string_view text);
+/// Reads what to_text() makes; nothing if it is none, or the first case comes after the last one.
 std::optional<CaseRange> parse_case_range(std::string_view text);
 
 }  // namespace stride::campaign

@@ -9,6 +9,7 @@
 
 #include "master/campaign/plan_folder.h"
 #include "master/recorders/signal_text.h"
+#include "master/util/message_text.h"
 #include "master/util/output_file.h"
 
 namespace stride::campaign {
@@ -30,8 +31,6 @@ std::string number_text(std::optional<double> number) {
   if (!number) return "";
   return std::isnan(*number) ? "nan" : fmt::format("{}", *number);
 }
-
-std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
 
 class TableWriter {
  public:
@@ -61,7 +60,7 @@ class TableWriter {
     for (const Text& value : row.values) put(value_field(value));
     put(std::to_string(row.seed));
     put(result != nullptr ? name(known.outcome) : "missing");
-    put(csv_field(first_line(known.reason)));
+    put(csv_field(core::first_line(known.reason)));
     for (const CheckColumn& check : checks_) put_verdict(known, check);
     for (std::size_t i = 0; i < plan_.campaign().aggregates.size(); ++i) {
       put(i < known.aggregates.size() ? number_text(known.aggregates[i]) : "");

@@ -17,4 +17,9 @@ const char* name(Aggregate::Function function) {
   return kNames[static_cast<std::size_t>(function)];
 }
 
+std::uint64_t size_of(const Factor& factor) {
+  if (const auto* const table = std::get_if<ValueTable>(&factor)) return table->rows.size();
+  return std::get<ValueRange>(factor).count;
+}
+
 }  // namespace stride::campaign

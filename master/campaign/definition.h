@@ -47,6 +47,8 @@ struct ValueRange {
 
 /// One of the sets of which all combinations are made.
 using Factor = std::variant<ValueTable, ValueRange>;
+/// How many values, or sets of values, it has.
+std::uint64_t size_of(const Factor& factor);
 
 struct Deterministic {
   std::vector<Factor> factors;  ///< the last one changes from case to case

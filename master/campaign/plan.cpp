@@ -65,11 +65,6 @@ PlanColumn column_of(const Campaign& campaign, const Parameter& parameter) {
   return {parameter, Role::Start, 0, {}};
 }
 
-std::uint64_t size_of(const Factor& factor) {
-  if (const auto* const table = std::get_if<ValueTable>(&factor)) return table->rows.size();
-  return std::get<ValueRange>(factor).count;
-}
-
 [[noreturn]] void fail_size(const Campaign& campaign, const std::string& count) {
   core::fail_input(
       {.where = {campaign.file.string(), 0}},

@@ -12,6 +12,7 @@
 #include "master/cli/output.h"
 #include "master/cli/table.h"
 #include "master/util/error.h"
+#include "master/util/message_text.h"
 #include "master/util/time_text.h"
 
 namespace stride::cli {
@@ -36,8 +37,6 @@ BranchRequest parse_branch(const std::string& text) {
     core::fail_input({}, fmt::format("--branch {}: {}", text, mistake.what()));
   }
 }
-
-std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
 
 }  // namespace
 
@@ -132,7 +131,7 @@ std::string Branches::text() const {
   Table table({{"branch"}, {"outcome"}, {"because", Table::Align::Left, true}});
   for (std::size_t i = 0; i < branches_.size(); ++i) {
     table.add({branches_[i].name, failures_[i] ? "FAILED" : "passed",
-               first_line(failures_[i].value_or(""))});
+               core::first_line(failures_[i].value_or(""))});
   }
   return fmt::format("\nBranches from {} s on\n{}", core::to_text(time_), table.text());
 }
@@ -150,7 +149,7 @@ void Branches::require_all() const {
                                  failed == 1 ? "has" : "have");
   for (std::size_t i = 0; i < branches_.size(); ++i) {
     if (!failures_[i]) continue;
-    text += fmt::format("\n  {}: {}", branches_[i].name, first_line(*failures_[i]));
+    text += fmt::format("\n  {}: {}", branches_[i].name, core::first_line(*failures_[i]));
   }
   core::fail_run({}, text);
 }

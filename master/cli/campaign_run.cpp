@@ -53,13 +53,11 @@ std::string cases_text(std::uint64_t count) {
   return count == 1 ? "1 case" : fmt::format("{} cases", count);
 }
 
-std::string reason_line(const std::string& text) { return text.substr(0, text.find('\n')); }
-
 void print_failures(const campaign::Plan& plan, const campaign::CaseSummary& summary) {
   if (summary.first_failures.empty()) return;
   Table table({{"case", Table::Align::Right}, {"outcome"}, {"because", Table::Align::Left, true}});
   for (const auto& [index, result] : summary.first_failures) {
-    table.add({std::to_string(index), name(result.outcome), reason_line(result.reason)});
+    table.add({std::to_string(index), name(result.outcome), core::first_line(result.reason)});
   }
   const bool are_all = summary.totals.failed == summary.first_failures.size();
   print_text("\n{} failures\n{}\nEach is repeated by\n", are_all ? "All" : "First",
@@ -147,13 +145,6 @@ void run_range(const CampaignRunArguments& arguments, const CampaignInput& input
   require_all_passed(input, totals);
 }
 
-CasePool::Ended run_alone(CasePool& pool, const CaseRunner& runner, std::uint64_t index) {
-  pool.start(index, [&] { return runner.run(index); });
-  std::optional<CasePool::Ended> ended;
-  while (!ended) ended = pool.collect(std::chrono::hours(1));
-  return std::move(*ended);
-}
-
 std::optional<campaign::CaseResult> run_case(const CampaignInput& input,
                                              const campaign::CaseFolder& cases,
                                              std::uint64_t index) {
@@ -162,8 +153,9 @@ std::optional<campaign::CaseResult> run_case(const CampaignInput& input,
   const CaseRunner runner(input.plan(), input.scenario(), scratch);
   CasePool pool(1, case_options(input.plan().campaign()));
   pool.adopt_orphans();
-  CasePool::Ended ended = run_alone(pool, runner, index);
-  if (runner.is_doubtful(ended)) ended = run_alone(pool, runner, index);
+  const auto work = [&] { return runner.run(index); };
+  CasePool::Ended ended = pool.run_alone(index, work);
+  if (runner.is_doubtful(ended)) ended = pool.run_alone(index, work);
   return runner.conclude(ended);
 }
 

@@ -21,6 +21,13 @@ std::optional<CasePool::Ended> CasePool::collect(std::chrono::milliseconds patie
   return std::nullopt;
 }
 
+CasePool::Ended CasePool::run_alone(std::uint64_t index, const std::function<std::string()>& work) {
+  start(index, work);
+  std::optional<Ended> ended;
+  while (!ended) ended = collect(std::chrono::hours(1));
+  return std::move(*ended);
+}
+
 void CasePool::adopt_orphans() {
   isolation::adopt_orphans();
   adopts_orphans_ = true;

@@ -40,6 +40,9 @@ class CasePool {
   void start(std::uint64_t index, const std::function<std::string()>& work,
              const isolation::ChildOptions& options);
 
+  /// Starts it, and waits for its end: of a pool that is empty.
+  Ended run_alone(std::uint64_t index, const std::function<std::string()>& work);
+
   /// From here on this process, which has no other children, adopts what loses its parent below it,
   /// and ends that when a case has ended in a bad way.
   void adopt_orphans();

@@ -26,6 +26,7 @@
 #include "master/util/error.h"
 #include "master/util/host_name.h"
 #include "master/util/input_file.h"
+#include "master/util/message_text.h"
 #include "master/util/process/deadline.h"
 
 namespace stride::cli {
@@ -89,9 +90,8 @@ void add_files(core::FileStamps& files, const scenario::LoadedScenario& loaded) 
     if (core::is_file(input.path)) files.add(input.path);
   }
   for (const auto& fmu : loaded.fmus()) {
-    for (const fs::path& folder : {fmu->folder(), fmu->resources()}) {
-      if (core::is_folder(folder)) files.add(folder);
-    }
+    const fs::path folder = fmu->folder().empty() ? fmu->resources() : fmu->folder();
+    if (core::is_folder(folder)) files.add(folder);
   }
 }
 
@@ -327,10 +327,9 @@ std::optional<CaseResult> CaseRunner::conclude(const CasePool::Ended& ended) con
 
 void CaseRunner::fail_case(std::uint64_t index, const std::string& why, const std::string& because,
                            const std::string& hint) {
-  core::fail_run({},
-                 fmt::format("{}, so case {} is not done: {}", why, index,
-                             because.substr(0, because.find('\n'))),
-                 hint + ", and run the campaign again: it goes on");
+  core::fail_run(
+      {}, fmt::format("{}, so case {} is not done: {}", why, index, core::first_line(because)),
+      hint + ", and run the campaign again: it goes on");
 }
 
 /// A case with another one may pass, too.
@@ -348,8 +347,13 @@ void CaseRunner::require_circumstances(const CasePool::Ended& ended,
   const auto fail = [&](const std::string& why, const std::string& hint) {
     fail_case(ended.index, why, result.reason, hint);
   };
-  if (lacked_something || scratch_.why_unusable()) scratch_.drop_results(ended.index);
-  if (const auto reason = scratch_.why_unusable(lacked_something)) fail(*reason, "mend that");
+  if (lacked_something) scratch_.drop_results(ended.index);
+  auto reason = scratch_.why_unusable(lacked_something);
+  if (reason && !lacked_something) {
+    scratch_.drop_results(ended.index);
+    reason = scratch_.why_unusable();
+  }
+  if (reason) fail(*reason, "mend that");
   if (const auto file = files_.changed()) {
     fail(fmt::format("'{}' is not what it was when the campaign began", file->string()),
          "put it back");

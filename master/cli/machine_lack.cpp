@@ -42,14 +42,12 @@ std::optional<MachineLack> find_machine_lack() {
     return MachineLack{fmt::format("a process may have {} open files here", files.rlim_cur),
                        fmt::format("raise the limit (ulimit -n {})", kUsualFiles)};
   }
-  if (!can_have_processes() && is_memory_limited()) {
+  if (can_have_processes()) return std::nullopt;
+  if (is_memory_limited()) {
     return MachineLack{"there is not enough memory for a process with some threads", memory_hint()};
   }
-  if (!can_have_processes()) {
-    return MachineLack{"there can be no more processes or threads",
-                       "raise the limit (ulimit -u), or end other programs"};
-  }
-  return std::nullopt;
+  return MachineLack{"there can be no more processes or threads",
+                     "raise the limit (ulimit -u), or end other programs"};
 }
 
 }  // namespace stride::cli

@@ -113,10 +113,7 @@ void MissingCases::run_doubtful() {
   for (const std::uint64_t index : doubtful_) {
     if (is_interrupted()) return;
     if (is_done_elsewhere(index)) continue;
-    start(index);
-    std::optional<CasePool::Ended> ended;
-    while (!ended) ended = pool_.collect(kPatience);
-    conclude(*ended);
+    conclude(pool_.run_alone(index, [&] { return runner_.run(index); }));
     progress_.show(totals_);
   }
 }

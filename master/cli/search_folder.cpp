@@ -95,9 +95,7 @@ void require_plan_of_search(const fs::path& folder, const campaign::Plan& plan) 
 
 std::vector<campaign::Text> values_in_search(const fs::path& folder, const campaign::Plan& plan,
                                              std::uint64_t index) {
-  const std::string name = fmt::format("{:06}", index);
-  const fs::path file =
-      folder / campaign::kCases / name.substr(0, name.size() - 3) / (name + ".json");
+  const fs::path file = folder / campaign::record_of_case(fmt::format("{:06}", index));
   if (!core::is_file(file)) {
     core::fail_input({.where = {folder.string(), 0}},
                      fmt::format("--case {}: the search has run no such case", index));

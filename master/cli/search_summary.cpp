@@ -7,6 +7,7 @@
 
 #include "master/cli/table.h"
 #include "master/search/way.h"
+#include "master/util/message_text.h"
 
 namespace stride::cli {
 namespace {
@@ -29,7 +30,7 @@ std::string margin_text(const std::optional<CaseMargin>& margin) {
 
 std::string reason_of(const CaseResult& result, const std::string& failure) {
   const CaseVerdict* const verdict = verdict_of(result, failure);
-  if (verdict == nullptr) return result.reason.substr(0, result.reason.find('\n'));
+  if (verdict == nullptr) return core::first_line(result.reason);
   if (!verdict->time) return verdict->text;
   const std::string at = fmt::format("at {} s", *verdict->time);
   return verdict->text.empty() ? at : at + ": " + verdict->text;

@@ -155,7 +155,7 @@ void HostProcess::send(Command command) const {
 
 bool HostProcess::has_lacked_something() const {
   return end_.how == HostEnd::How::NotStarted &&
-         (end_.code == EAGAIN || core::is_shortage(end_.code));
+         core::is_of_environment(std::system_error(end_.code, std::generic_category()));
 }
 
 std::string HostProcess::how_it_ended() const {

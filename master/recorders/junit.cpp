@@ -7,15 +7,13 @@
 #include <fmt/format.h>
 
 #include "master/util/error.h"
+#include "master/util/message_text.h"
 #include "master/util/replacement.h"
 #include "master/util/time_text.h"
 #include "master/util/xml/writer.h"
 
 namespace stride::recorders {
 namespace {
-
-/// An attribute cannot hold a line feed.
-std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
 
 std::string details(const core::Verdict& verdict) {
   std::string text = core::to_text({verdict.where, {}, {}, {}}) + verdict.name + "\n";
@@ -74,7 +72,7 @@ class JunitWriter {
     for (const auto& [name, value] : report_.properties) write_property(name, value);
     for (const core::Verdict& verdict : report_.verdicts) {
       if (!verdict.margin) continue;
-      write_property("margin: " + first_line(verdict.name), core::to_text(*verdict.margin));
+      write_property("margin: " + core::first_line(verdict.name), core::to_text(*verdict.margin));
     }
     xml_.close();
   }
@@ -82,13 +80,13 @@ class JunitWriter {
   void write_property(const std::string& name, const std::string& value) {
     xml_.open("property");
     xml_.attribute("name", name);
-    xml_.attribute("value", first_line(value));
+    xml_.attribute("value", core::first_line(value));
     xml_.close();
   }
 
   void open_case(const std::string& name, const std::string& group, std::chrono::nanoseconds time) {
     xml_.open("testcase");
-    xml_.attribute("name", first_line(name));
+    xml_.attribute("name", core::first_line(name));
     xml_.attribute("classname", report_.suite + group);
     xml_.attribute("time", core::wall_seconds(time));
   }
@@ -96,7 +94,7 @@ class JunitWriter {
   void write_outcome(const char* element, const std::string& type, const std::string& message,
                      const std::string& text) {
     xml_.open(element);
-    xml_.attribute("message", first_line(message));
+    xml_.attribute("message", core::first_line(message));
     if (!type.empty()) xml_.attribute("type", type);
     if (!text.empty()) xml_.text(text);
     xml_.close();

@@ -12,11 +12,6 @@ namespace {
 
 using namespace campaign;
 
-std::uint64_t size_of(const Factor& factor) {
-  if (const auto* const table = std::get_if<ValueTable>(&factor)) return table->rows.size();
-  return std::get<ValueRange>(factor).count;
-}
-
 std::size_t count_dimensions(const Campaign& campaign) {
   if (const auto* const drawn = std::get_if<Stochastic>(&campaign.variation)) {
     return drawn->parameters.size();

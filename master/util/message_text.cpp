@@ -91,4 +91,8 @@ std::string name_text(std::string_view name) {
   return escaped(escaped(name, '\n', "\\x0a"), '\0', "\\x00");
 }
 
+std::string first_line(std::string_view text) {
+  return std::string(text.substr(0, text.find('\n')));
+}
+
 }  // namespace stride::core

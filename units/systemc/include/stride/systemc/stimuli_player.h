@@ -102,6 +102,9 @@ class StimuliPlayer {
   std::pair<Input*, std::size_t> find_element(const std::string& name);
   template <class T>
   T parse_value(const Input& input, const Value& value, std::size_t element) const;
+  /// All that the input has behind its start value.
+  template <class T>
+  std::vector<T> parse_values(const Input& input, std::size_t element) const;
   void play(const Row& row);
   static void settle();
   [[noreturn]] void fail(int line, const std::string& message) const {
@@ -325,10 +328,16 @@ T StimuliPlayer::parse_value(const Input& input, const Value& value, std::size_t
 }
 
 template <class T>
+std::vector<T> StimuliPlayer::parse_values(const Input& input, std::size_t element) const {
+  std::vector<T> values;
+  for (const Value& value : input.values) values.push_back(parse_value<T>(input, value, element));
+  return values;
+}
+
+template <class T>
 void StimuliPlayer::drive(const std::string& name, sc_core::sc_signal_inout_if<T>& signal) {
   const auto [input, element] = find_element(name);
-  std::vector<T> values;
-  for (const Value& value : input->values) values.push_back(parse_value<T>(*input, value, element));
+  std::vector<T> values = parse_values<T>(*input, element);
   signal.write(parse_value<T>(*input, input->start, element));
   input->targets.push_back(
       [&signal, values = std::move(values)](std::size_t value) { signal.write(values[value]); });
@@ -337,11 +346,8 @@ void StimuliPlayer::drive(const std::string& name, sc_core::sc_signal_inout_if<T
 template <class T>
 void StimuliPlayer::on_message(const std::string& name, std::function<void(const T&)> take) {
   const auto [input, element] = find_element(name);
-  std::vector<T> values;
-  for (const Value& value : input->values) values.push_back(parse_value<T>(*input, value, element));
-  input->targets.push_back([take = std::move(take), values = std::move(values)](std::size_t value) {
-    take(values[value]);
-  });
+  input->targets.push_back([take = std::move(take), values = parse_values<T>(*input, element)](
+                               std::size_t value) { take(values[value]); });
 }
 
 inline void StimuliPlayer::on_tick(const std::string& clock, std::function<void()> tick) {
