@@ -182,45 +182,7 @@ void add_verbose(CLI::App& command) {
       "Show everything that units log, not only warnings and errors");
 }
 
-/// The process that watches this one prints it where this one cannot.
-void tell(const std::string& error) {
-  stride::cli::EndNote& note = stride::cli::end_note();
-  note.error.set(error);
-  note.is_printed.set(stride::cli::print_error(error));
-}
-
-int execute(CLI::App& app, int argc, char** argv) {
-  try {
-    stride::cli::require_stack();
-    refuse_empty_values(argc, argv);
-    const int code = parse(app, argc, argv);
-    flush_standard_output();
-    return code;
-  } catch (const stride::core::Error& error) {
-    tell(error.what());
-    return error.kind() == stride::core::Error::Kind::Input ? kWrongInput : kRunFailed;
-  } catch (const std::exception& error) {
-    tell(stride::cli::in_words(error));
-  } catch (...) {
-    tell("something that is not a std::exception was thrown");
-  }
-  return kRunFailed;
-}
-
-}  // namespace
-
-int main(int argc, char** argv) {
-  open_missing_standard_files();
-  stride::cli::set_up_output();
-  ::pthread_setcancelstate(PTHREAD_CANCEL_DISABLE, nullptr);  // a unit may leave one pending
-  std::signal(SIGXFSZ, SIG_IGN);  // then writing fails with an error; the signal would kill
-  stride::cli::go_on_watched();
-  stride::cli::keep_hard_limits();
-  stride::cli::note_command_line(argc, argv);
-  CLI::App app(
-      "stride couples simulators: it loads units of FMI 3.0, 2.0 and 1.0 as plug-ins\n"
-      "and runs them in steps, as a scenario (an SSP system file, .ssd) wires them.\n",
-      "stride");
+void add_all(CLI::App& app) {
   app.set_version_flag("--version", "stride " STRIDE_VERSION);
   app.require_subcommand(1);
   app.failure_message(explain);
@@ -243,5 +205,51 @@ int main(int argc, char** argv) {
   for (const char* command : {"run", "resume", "check", "inspect", "verify", "complete", "pack"}) {
     add_verbose(*app.get_subcommand(command));
   }
-  return stride::cli::leave_with(execute(app, argc, argv));
+}
+
+/// The process that watches this one prints it where this one cannot.
+void tell(const std::string& error) {
+  stride::cli::EndNote& note = stride::cli::end_note();
+  note.error.set(error);
+  note.is_printed.set(stride::cli::print_error(error));
+}
+
+int execute(int argc, char** argv) {
+  stride::cli::go_on_watched();
+  stride::cli::keep_hard_limits();
+  stride::cli::note_command_line(argc, argv);
+  stride::cli::require_stack();
+  refuse_empty_values(argc, argv);
+  CLI::App app(
+      "stride couples simulators: it loads units of FMI 3.0, 2.0 and 1.0 as plug-ins\n"
+      "and runs them in steps, as a scenario (an SSP system file, .ssd) wires them.\n",
+      "stride");
+  add_all(app);
+  const int code = parse(app, argc, argv);
+  flush_standard_output();
+  return code;
+}
+
+int execute_or_tell(int argc, char** argv) {
+  try {
+    return execute(argc, argv);
+  } catch (const stride::core::Error& error) {
+    tell(error.what());
+    return error.kind() == stride::core::Error::Kind::Input ? kWrongInput : kRunFailed;
+  } catch (const std::exception& error) {
+    tell(stride::cli::in_words(error));
+  } catch (...) {
+    tell("something that is not a std::exception was thrown");
+  }
+  return kRunFailed;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  open_missing_standard_files();
+  stride::cli::set_up_output();
+  ::pthread_setcancelstate(PTHREAD_CANCEL_DISABLE, nullptr);  // a unit may leave one pending
+  std::signal(SIGXFSZ, SIG_IGN);  // then writing fails with an error; the signal would kill
+  return stride::cli::leave_with(execute_or_tell(argc, argv));
 }

@@ -5,6 +5,7 @@
 #include <cerrno>
 #include <cstring>
 #include <memory>
+#include <new>
 #include <string>
 #include <system_error>
 #include <vector>
@@ -256,6 +257,7 @@ class Extraction {
   std::size_t read_piece() {
     const la_ssize_t size = archive_read_data(reader_.get(), buffer_.data(), buffer_.size());
     if (size < 0) {
+      if (archive_errno(reader_.get()) == ENOMEM) throw std::bad_alloc();
       fail_entry(fmt::format("which is damaged: {}", reason()));
     }
     bytes_ += static_cast<std::uint64_t>(size);

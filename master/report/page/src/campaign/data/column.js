@@ -7,6 +7,9 @@ const kFewValues = 12;
 /** Of a parameter that the case leaves as it is; texts have it from the campaign. */
 const kScenarioValue = "(as in the scenario)";
 
+/** A text as it is shown: there is something also where it is empty. */
+export const shownText = (text) => (text === "" ? "(empty)" : text);
+
 function finiteExtremes(values) {
   let least = Infinity;
   let most = -Infinity;
@@ -62,7 +65,7 @@ export class Column {
       name,
       role,
       codes,
-      order.map((old) => texts[old]),
+      order.map((old) => shownText(texts[old])),
     );
   }
 

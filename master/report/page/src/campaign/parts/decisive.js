@@ -1,5 +1,6 @@
 // Which parameters decide: rank correlations, and shares of failures, each with its uncertainty.
 import { h, svg } from "../../dom.js";
+import { shownText } from "../data/column.js";
 
 const kWidth = 150;
 const kHeight = 18;
@@ -75,7 +76,7 @@ function shareTable({ parameter, values, count }, parameters) {
     h(
       "tr",
       {},
-      h("th", { scope: "row" }, value === "" ? "(empty)" : value),
+      h("th", { scope: "row" }, shownText(value)),
       h("td.number", {}, `${failed.toLocaleString("en")} of ${cases.toLocaleString("en")}`),
       h(
         "td.correlation",

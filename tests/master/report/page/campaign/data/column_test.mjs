@@ -52,3 +52,9 @@ test("what a case leaves as it is in the scenario is said so, of parameters only
   assert.equal(new Column("a", "parameter", [NaN]).textAt(0), "(as in the scenario)");
   assert.equal(new Column("a", "aggregate", [NaN]).briefAt(0), "");
 });
+
+test("an empty text is shown, and is the first one in order", () => {
+  const column = Column.ofTexts("a", "parameter", [0, 1], ["b", ""]);
+  assert.deepEqual(column.bins(8).texts, ["(empty)", "b"]);
+  assert.equal(column.textAt(1), "(empty)");
+});
