@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -46,16 +47,19 @@ Json correlation_json(const RankCorrelation& found) {
           {"confidence", found.confidence ? confidence_json(*found.confidence) : Json()}};
 }
 
+Json correlations_json(std::span<const RankCorrelation> correlations) {
+  Json all = Json::array();
+  for (const RankCorrelation& found : correlations) all.push_back(correlation_json(found));
+  return all;
+}
+
 Json correlations_json(const CaseAnalysis& analysis) {
   Json all = Json::array();
   for (const ParameterCorrelation& of : analysis.correlations) {
-    Json aggregates = Json::array();
-    for (const RankCorrelation& found : of.with_aggregates) {
-      aggregates.push_back(correlation_json(found));
-    }
     all.push_back({{"parameter", of.parameter},
                    {"failure", correlation_json(of.with_failure)},
-                   {"aggregates", aggregates}});
+                   {"aggregates", correlations_json(of.with_aggregates)},
+                   {"margins", correlations_json(of.with_margins)}});
   }
   return all;
 }

@@ -57,6 +57,9 @@ CaseAnalysis analyse(const CaseColumns& columns) {
     for (const auto& aggregate : columns.aggregates) {
       made.with_aggregates.push_back(rank_correlation(parameter.numbers, aggregate));
     }
+    for (const MarginColumn& margin : columns.margins) {
+      made.with_margins.push_back(rank_correlation(parameter.numbers, margin.values));
+    }
   }
   return analysis;
 }

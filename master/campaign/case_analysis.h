@@ -17,6 +17,7 @@ struct ParameterCorrelation {
   std::size_t parameter = 0;                     ///< of CaseColumns::parameters
   RankCorrelation with_failure;                  ///< 1 for a case that has not passed, 0 else
   std::vector<RankCorrelation> with_aggregates;  ///< of CaseColumns::aggregates
+  std::vector<RankCorrelation> with_margins;     ///< of CaseColumns::margins
 };
 
 /// Of the cases with a record in which a parameter has this value, which is no number.

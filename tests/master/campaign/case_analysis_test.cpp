@@ -1,5 +1,7 @@
 #include "master/campaign/case_analysis.h"
 
+#include <limits>
+
 #include <catch2/catch.hpp>
 
 using namespace stride::campaign;
@@ -25,6 +27,9 @@ CaseColumns columns_with(std::vector<std::uint8_t> outcomes, std::vector<std::st
 TEST_CASE("whatever has not passed is a failure, and what is missing is neither") {
   CaseColumns columns = columns_with({0, 0, 1, 2, 3, 4, kMissing}, {"", "", "", "", "", "", ""});
   columns.aggregates = {{6, 5, 4, 3, 2, 1, 0}};
+  const double kUndecided = std::numeric_limits<double>::quiet_NaN();
+  const double kWorst = -std::numeric_limits<double>::infinity();
+  columns.margins = {{"it holds", "m", {4, 3, kUndecided, 1, 0, -1, kWorst}}};
   const CaseAnalysis analysis = analyse(columns);
   REQUIRE(analysis.correlations.size() == 1);
   const ParameterCorrelation& found = analysis.correlations.front();
@@ -35,6 +40,9 @@ TEST_CASE("whatever has not passed is a failure, and what is missing is neither"
   REQUIRE(found.with_aggregates.size() == 1);
   CHECK(found.with_aggregates.front().value == -1);
   CHECK(found.with_aggregates.front().count == 7);
+  REQUIRE(found.with_margins.size() == 1);
+  CHECK(found.with_margins.front().value == -1);
+  CHECK(found.with_margins.front().count == 6);
 }
 
 TEST_CASE("the shares of failures of each text, the most frequent first") {

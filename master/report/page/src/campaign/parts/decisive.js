@@ -11,11 +11,14 @@ const percent = (share) => `${(share * 100).toFixed(share > 0 && share < 0.1 ? 1
 /** Whether 0 is not within the interval. */
 export const isClear = ({ confidence }) => confidence !== null && (confidence[0] > 0 || confidence[1] < 0);
 
+/** With all but failure. */
+const others = ({ aggregates, margins }) => [...aggregates, ...margins];
+
 /** Those that decide most of all are first; what is not known is last. */
 export function byStrength(correlations) {
   const size = ({ value }) => (value === null ? -1 : Math.abs(value));
-  const strength = ({ failure, aggregates }) =>
-    failure.value === null ? Math.max(-1, ...aggregates.map(size)) : 2 + size(failure);
+  const strength = (of) =>
+    of.failure.value === null ? Math.max(-1, ...others(of).map(size)) : 2 + size(of.failure);
   return [...correlations].sort((a, b) => strength(b) - strength(a));
 }
 
@@ -55,10 +58,13 @@ function correlationCell(found) {
   );
 }
 
-function correlationTable({ correlations, parameters, aggregates }) {
-  const heads = ["parameter", "failure", ...aggregates.map(({ name }) => name)];
-  const row = ({ parameter, failure, aggregates: others }) =>
-    h("tr", {}, h("th", { scope: "row" }, parameters[parameter].name), ...[failure, ...others].map(correlationCell));
+function correlationTable(report) {
+  const { correlations, parameters } = report;
+  const heads = ["parameter", "failure", ...others(report).map(({ name }) => name)];
+  const row = (of) => {
+    const cells = [of.failure, ...others(of)].map(correlationCell);
+    return h("tr", {}, h("th", { scope: "row" }, parameters[of.parameter].name), ...cells);
+  };
   return h(
     "div.scroll",
     { tabIndex: 0, role: "region", "aria-label": "Rank correlations" },
@@ -103,7 +109,7 @@ function shareTable({ parameter, values, count }, parameters) {
 
 /** One in twenty of such intervals misses the truth by chance, which matters where there are many. */
 function chanceNote({ correlations }) {
-  const all = correlations.flatMap(({ failure, aggregates }) => [failure, ...aggregates]);
+  const all = correlations.flatMap((of) => [of.failure, ...others(of)]);
   const count = all.filter(({ confidence }) => confidence !== null).length;
   return count < 10
     ? ""

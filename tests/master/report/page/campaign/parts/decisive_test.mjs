@@ -11,11 +11,12 @@ test("a correlation is clear whose interval does not contain 0", () => {
   assert.ok(!isClear(found(1)));
 });
 
-test("what decides most of failures is first, then of aggregates, then what is not known", () => {
-  const entry = (parameter, failure, ...aggregates) => ({
+test("what decides most of failures is first, then of aggregates and margins, then what is not known", () => {
+  const entry = (parameter, failure, ...numbers) => ({
     parameter,
     failure: found(failure),
-    aggregates: aggregates.map((value) => found(value)),
+    aggregates: numbers.slice(0, 1).map((value) => found(value)),
+    margins: numbers.slice(1).map((value) => found(value)),
   });
   const order = (...entries) => byStrength(entries).map(({ parameter }) => parameter);
   assert.deepEqual(order(entry(0, 0.1, 1), entry(1, -0.9, 0)), [1, 0]);
