@@ -3,8 +3,10 @@
 #define STRIDE_MASTER_CHECKS_CHECK_H
 
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <stride/time.h>
 
@@ -31,6 +33,11 @@ class Check {
   virtual ~Check() = default;
   Check(const Check&) = delete;
   Check& operator=(const Check&) = delete;
+
+  /// The variables whose values it needs.
+  virtual std::vector<core::VariableId> signals() const { return {}; }
+  /// Before the first communication point: where the values of signals() will be.
+  virtual void attach(std::span<const core::Signal> /*signals*/) {}
 
   virtual void on_message(const core::Message& /*message*/) {}
   /// All messages of that time have been seen.

@@ -3,34 +3,50 @@
 #include <utility>
 
 #include "master/checks/message_checks.h"
+#include "master/checks/signal_check.h"
+#include "master/checks/until_check.h"
 
 namespace stride::checks {
 
+namespace {
+
+std::unique_ptr<Check> make_check(const Definition& definition) {
+  switch (definition.kind) {
+    case Kind::Until:
+      return std::make_unique<UntilCheck>(definition);
+    case Kind::Count:
+      return std::make_unique<CountCheck>(definition);
+    case Kind::Answer:
+      return std::make_unique<AnswerCheck>(definition);
+    default:
+      return std::make_unique<SignalCheck>(definition);
+  }
+}
+
+}  // namespace
+
 Checks::Checks(std::vector<Definition> definitions) : definitions_(std::move(definitions)) {
   for (const Definition& definition : definitions_) {
-    if (std::holds_alternative<SignalDemand>(definition.what)) {
-      auto check = std::make_unique<SignalCheck>(definition);
-      signal_checks_.push_back(check.get());
-      checks_.push_back(std::move(check));
-      continue;
-    }
-    if (std::holds_alternative<CountDemand>(definition.what)) {
-      checks_.push_back(std::make_unique<CountCheck>(definition));
-    } else {
-      checks_.push_back(std::make_unique<AnswerCheck>(definition));
-    }
-    message_checks_.push_back(checks_.back().get());
+    checks_.push_back(make_check(definition));
+    if (checks_.back()->signals().empty()) message_checks_.push_back(checks_.back().get());
   }
 }
 
 std::vector<core::VariableId> Checks::signals() const {
   std::vector<core::VariableId> ids;
-  for (const SignalCheck* check : signal_checks_) ids.push_back(check->id());
+  for (const auto& check : checks_) {
+    const std::vector<core::VariableId> of_check = check->signals();
+    ids.insert(ids.end(), of_check.begin(), of_check.end());
+  }
   return ids;
 }
 
 void Checks::on_start(std::span<const core::Signal> signals) {
-  for (std::size_t i = 0; i < signals.size(); ++i) signal_checks_[i]->attach(signals[i]);
+  for (const auto& check : checks_) {
+    const std::size_t count = check->signals().size();
+    check->attach(signals.first(count));
+    signals = signals.subspan(count);
+  }
 }
 
 void Checks::on_message(const core::Message& message) {

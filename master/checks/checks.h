@@ -10,7 +10,6 @@
 #include "master/algorithm/verdict.h"
 #include "master/checks/check.h"
 #include "master/checks/definition.h"
-#include "master/checks/signal_check.h"
 
 namespace stride::checks {
 
@@ -38,7 +37,6 @@ class Checks final : public core::Observer {
  private:
   std::vector<Definition> definitions_;
   std::vector<std::unique_ptr<Check>> checks_;
-  std::vector<SignalCheck*> signal_checks_;
   std::vector<Check*> message_checks_;
 };
 

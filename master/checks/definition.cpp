@@ -14,6 +14,8 @@ const char* name(Kind kind) {
       return "never";
     case Kind::Eventually:
       return "eventually";
+    case Kind::Until:
+      return "until";
     case Kind::Final:
       return "final";
     case Kind::Count:

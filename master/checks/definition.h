@@ -16,9 +16,10 @@
 
 namespace stride::checks {
 
-/// always, never, eventually: of the values during the interval. final: of the value where the run
-/// ends. count: of the messages during the interval. answer: of each request during the interval.
-enum class Kind : std::uint8_t { Always, Never, Eventually, Final, Count, Answer };
+/// always, never, eventually, until: of the values during the interval. final: of the value where
+/// the run ends. count: of the messages during the interval. answer: of each request during the
+/// interval.
+enum class Kind : std::uint8_t { Always, Never, Eventually, Until, Final, Count, Answer };
 
 /// As run.json has it: "always".
 const char* name(Kind kind);
@@ -42,6 +43,13 @@ struct SignalDemand {
   std::string signal;  ///< its full name
   std::string unit;    ///< of measure
   Condition condition;
+};
+
+/// One signal keeps to its condition until another one meets the second.
+struct UntilDemand {
+  SignalDemand holds, ends;
+  /// "sensor.led = true"
+  std::string text() const { return ends.signal + " " + ends.condition.text(); }
 };
 
 /// How many messages travel at a variable: those that it sends if it is an output, those that it
@@ -68,7 +76,7 @@ struct Definition {
   std::string demand;  ///< in words
   Window window;
   core::Location where;
-  std::variant<SignalDemand, CountDemand, AnswerDemand> what;
+  std::variant<SignalDemand, UntilDemand, CountDemand, AnswerDemand> what;
 };
 
 }  // namespace stride::checks

@@ -15,7 +15,8 @@ SignalCheck::SignalCheck(const Definition& definition)
       good_(definition.kind == Kind::Never ? Truth::False : Truth::True),
       kept_(core::ValueType::Boolean, 1) {}
 
-void SignalCheck::attach(const core::Signal& signal) {
+void SignalCheck::attach(std::span<const core::Signal> signals) {
+  const core::Signal& signal = signals.front();
   block_ = signal.block;
   at_ = signal.first + demand_.element;
   kept_ = core::ValueBlock(block_->type(), 1);

@@ -5,7 +5,9 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "master/checks/check.h"
 
@@ -19,10 +21,8 @@ class SignalCheck final : public Check {
   /// What it demands is a SignalDemand.
   explicit SignalCheck(const Definition& definition);
 
-  core::VariableId id() const { return demand_.id; }
-  /// Before the first communication point: where its value will be.
-  void attach(const core::Signal& signal);
-
+  std::vector<core::VariableId> signals() const override { return {demand_.id}; }
+  void attach(std::span<const core::Signal> signals) override;
   void on_point(Time time) override;
   /// Behind attach().
   void persist(core::StateArchive& state) override;

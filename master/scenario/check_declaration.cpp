@@ -33,28 +33,43 @@ checks::Window read_window(const xml::Element& element) {
   return window;
 }
 
-void read_condition(const xml::Element& element, CheckDeclaration& check) {
-  check.subject = element.required("signal");
-  checks::ConditionText& condition = check.condition;
+checks::ConditionText read_condition(const xml::Element& element) {
+  checks::ConditionText condition;
   condition.min = element.attribute("min");
   condition.max = element.attribute("max");
   condition.above = element.attribute("above");
   condition.below = element.attribute("below");
   condition.equals = element.attribute("equals");
   condition.tolerance = element.attribute("tolerance");
+  return condition;
+}
+
+void read_signal(const xml::Element& element, CheckDeclaration& check) {
+  check.subject = element.required("signal");
+  check.condition = read_condition(element);
 }
 
 void read_lasting(const xml::Element& element, CheckDeclaration& check) {
   element.allow_attributes(
       {"name", "signal", "min", "max", "above", "below", "equals", "tolerance", "from", "to"});
-  read_condition(element, check);
+  read_signal(element, check);
   check.window = read_window(element);
+}
+
+void read_until(const xml::Element& element, CheckDeclaration& check) {
+  read_lasting(element, check);
+  const auto ending = element.child({ssp::kStrideScenario, "Condition"});
+  if (!ending) element.fail("it has no <stride:Condition signal=\"…\" …/>, which ends it");
+  ending->allow_children({});
+  ending->allow_attributes({"signal", "min", "max", "above", "below", "equals", "tolerance"});
+  check.ending_signal = ending->required("signal");
+  check.ending = read_condition(*ending);
 }
 
 void read_final(const xml::Element& element, CheckDeclaration& check) {
   element.allow_attributes(
       {"name", "signal", "min", "max", "above", "below", "equals", "tolerance"});
-  read_condition(element, check);
+  read_signal(element, check);
 }
 
 void read_count(const xml::Element& element, CheckDeclaration& check) {
@@ -92,6 +107,7 @@ struct Word {
 constexpr std::array kWords{Word{"Always", checks::Kind::Always, read_lasting},
                             Word{"Never", checks::Kind::Never, read_lasting},
                             Word{"Eventually", checks::Kind::Eventually, read_lasting},
+                            Word{"Until", checks::Kind::Until, read_until},
                             Word{"Final", checks::Kind::Final, read_final},
                             Word{"Count", checks::Kind::Count, read_count},
                             Word{"Answer", checks::Kind::Answer, read_answer}};
@@ -103,6 +119,7 @@ std::vector<CheckDeclaration> read_checks(const xml::Element& checks) {
   checks.allow_children({{ssp::kStrideScenario, "Always"},
                          {ssp::kStrideScenario, "Never"},
                          {ssp::kStrideScenario, "Eventually"},
+                         {ssp::kStrideScenario, "Until"},
                          {ssp::kStrideScenario, "Final"},
                          {ssp::kStrideScenario, "Count"},
                          {ssp::kStrideScenario, "Answer"}});
@@ -110,7 +127,11 @@ std::vector<CheckDeclaration> read_checks(const xml::Element& checks) {
   for (const xml::Element& element : checks.children()) {
     for (const Word& word : kWords) {
       if (!element.is(ssp::kStrideScenario, word.element)) continue;
-      element.allow_children({});
+      if (word.kind == checks::Kind::Until) {
+        element.allow_children({{ssp::kStrideScenario, "Condition"}});
+      } else {
+        element.allow_children({});
+      }
       CheckDeclaration& check = found.emplace_back();
       check.kind = word.kind;
       if (element.attribute("name")) check.name = element.required_line("name");

@@ -24,6 +24,8 @@ struct CheckDeclaration {
   /// name of the request (Answer).
   std::string subject;
   checks::ConditionText condition{};
+  std::string ending_signal{};  ///< Until: the one that ends it
+  checks::ConditionText ending{};
   checks::Window window{};
   std::optional<std::uint64_t> min{};  ///< Count
   std::optional<std::uint64_t> max{};

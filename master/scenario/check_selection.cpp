@@ -46,11 +46,16 @@ class Selection {
  private:
   void check_window(const CheckDeclaration& check) const;
   std::vector<Definition> signals(const CheckDeclaration& check) const;
+  checks::SignalDemand demand(const CheckDeclaration& check, const Element& element,
+                              const checks::ConditionText& condition) const;
   Definition signal(const CheckDeclaration& check, const Element& element) const;
+  /// Of Until.
+  checks::SignalDemand ending(const CheckDeclaration& check) const;
   std::vector<Definition> counts(const CheckDeclaration& check) const;
   Definition answer(const CheckDeclaration& check) const;
 
-  std::vector<Element> find_elements(const CheckDeclaration& check) const;
+  std::vector<Element> find_elements(const CheckDeclaration& check,
+                                     const std::string& pattern) const;
   std::vector<core::VariableId> find_messages(const CheckDeclaration& check,
                                               const std::string& pattern) const;
   core::VariableId find_message(const CheckDeclaration& check, const std::string& name) const;
@@ -144,8 +149,8 @@ bool Selection::is_reported(const NamedVariable& variable) const {
   return !is_clock || (is_triggered(variable) && carried_by(variable) == nullptr);
 }
 
-std::vector<Element> Selection::find_elements(const CheckDeclaration& check) const {
-  const std::string& pattern = check.subject;
+std::vector<Element> Selection::find_elements(const CheckDeclaration& check,
+                                              const std::string& pattern) const {
   std::vector<Element> found;
   const auto add = [&](const NamedVariable& variable, bool is_whole) {
     if (!variable.is_signal) return;
@@ -192,27 +197,45 @@ std::string name_of(const CheckDeclaration& check, const std::string& subject,
   return is_alone ? check.name : fmt::format("{}: {}", check.name, subject);
 }
 
-Definition Selection::signal(const CheckDeclaration& check, const Element& element) const {
+checks::SignalDemand Selection::demand(const CheckDeclaration& check, const Element& element,
+                                       const checks::ConditionText& condition) const {
   const core::Variable& variable = system_.variable(element.variable->id);
   try {
-    const checks::Condition condition(variable, check.condition);
-    const std::string demand = fmt::format("{} {} {}{}", element.name, name(check.kind),
-                                           condition.text(), check.window.text());
-    return {check.kind,
-            "",
-            demand,
-            check.window,
-            check.where,
-            checks::SignalDemand{element.variable->id, element.element, element.name, variable.unit,
-                                 condition}};
+    return {element.variable->id, element.element, element.name, variable.unit,
+            checks::Condition(variable, condition)};
   } catch (const std::invalid_argument& mistake) {
     core::fail_input({.where = check.where}, fmt::format("'{}': {}", element.name, mistake.what()));
   }
 }
 
+Definition Selection::signal(const CheckDeclaration& check, const Element& element) const {
+  checks::SignalDemand wanted = demand(check, element, check.condition);
+  const std::string text =
+      fmt::format("{} {} {}", element.name, check.kind == Kind::Until ? "is" : name(check.kind),
+                  wanted.condition.text());
+  if (check.kind != Kind::Until) {
+    return {check.kind,   "",          text + check.window.text(),
+            check.window, check.where, std::move(wanted)};
+  }
+  checks::UntilDemand until{std::move(wanted), ending(check)};
+  return {check.kind,
+          "",
+          fmt::format("{} until {}{}", text, until.text(), check.window.text()),
+          check.window,
+          check.where,
+          std::move(until)};
+}
+
+checks::SignalDemand Selection::ending(const CheckDeclaration& check) const {
+  const std::vector<Element> elements = find_elements(check, check.ending_signal);
+  if (elements.size() == 1) return demand(check, elements.front(), check.ending);
+  core::fail_input({.where = check.where}, fmt::format("'{}' matches {} signals; expected one",
+                                                       check.ending_signal, elements.size()));
+}
+
 std::vector<Definition> Selection::signals(const CheckDeclaration& check) const {
   std::vector<Definition> definitions;
-  const std::vector<Element> elements = find_elements(check);
+  const std::vector<Element> elements = find_elements(check, check.subject);
   for (const Element& element : elements) {
     Definition& definition = definitions.emplace_back(signal(check, element));
     definition.name = name_of(check, element.name, definition.demand, elements.size() == 1);

@@ -13,6 +13,7 @@
 
 #include "master/checks/message_checks.h"
 #include "master/checks/signal_check.h"
+#include "master/checks/until_check.h"
 #include "tests/build.h"
 #include "tests/master/checks/support.h"
 
@@ -214,13 +215,75 @@ core::Verdict judge_signal(const Definition& definition, const HardNumbers& numb
   core::ValueBlock block(numbers.type, 1);
   SignalCheck first(definition), second(definition);
   SignalCheck* check = &first;
-  for (SignalCheck* const each : {&first, &second}) each->attach({each->id(), &block, 0});
+  const core::Signal signal{{0, 0}, &block, 0};
+  for (SignalCheck* const each : {&first, &second}) each->attach({&signal, 1});
   for (std::size_t i = 0; i < samples.size(); ++i) {
     if (i == cut) take_over(second, first), check = &second;
     put_number(block, samples[i].value);
     check->on_point(at(samples[i].time));
   }
   return check->verdict({at(samples.back().time), is_complete});
+}
+
+// ---- Until ----
+
+/// At one instant, of the signal that keeps to a condition, and of the one that ends this.
+struct UntilSample {
+  std::int64_t time = 0;  // ms
+  long double holds = 0, ends = 0;
+};
+struct UntilTexts {
+  ConditionText holds, ends;
+};
+
+/// Tries each communication point as the one that ends it.
+ExpectedMargin until_margin(const Window& window, const UntilTexts& texts,
+                            const std::vector<UntilSample>& samples) {
+  std::vector<ExpectedMargin> all, held;
+  for (const UntilSample& sample : samples) {
+    if (!window.contains(at(sample.time))) continue;
+    const auto distance = [&](const ConditionText& text, long double value) -> ExpectedMargin {
+      return {static_cast<double>(distance_of(text, value)), at(sample.time)};
+    };
+    ExpectedMargin least = distance(texts.ends, sample.ends);
+    for (auto before = held.rbegin(); before != held.rend(); ++before) {
+      const bool is_of_holds = least.at != at(sample.time);
+      if (before->value < least.value || (is_of_holds && before->value == least.value)) {
+        least = *before;
+      }
+    }
+    all.push_back(least);
+    held.push_back(distance(texts.holds, sample.holds));
+  }
+  if (all.empty()) return {};
+  return *std::ranges::max_element(all, {}, &ExpectedMargin::value);
+}
+
+core::Verdict judge_until(const Definition& definition, const HardNumbers& numbers,
+                          const std::vector<UntilSample>& samples, std::size_t cut,
+                          bool is_complete) {
+  core::ValueBlock holds(numbers.type, 1), ends(numbers.type, 1);
+  UntilCheck first(definition), second(definition);
+  UntilCheck* check = &first;
+  const core::Signal signals[] = {{{0, 0}, &holds, 0}, {{0, 1}, &ends, 0}};
+  for (UntilCheck* const each : {&first, &second}) each->attach(signals);
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    if (i == cut) take_over(second, first), check = &second;
+    put_number(holds, samples[i].holds);
+    put_number(ends, samples[i].ends);
+    check->on_point(at(samples[i].time));
+  }
+  return check->verdict({at(samples.back().time), is_complete});
+}
+
+std::vector<UntilSample> draw_until(MarginDraw& draw, const HardNumbers& numbers) {
+  std::vector<UntilSample> samples;
+  const auto others = draw_signal(draw, numbers);
+  for (const SignalSample& sample : draw_signal(draw, numbers)) {
+    const std::size_t place = samples.size() % others.size();
+    samples.push_back({sample.time, sample.value, others[place].value});
+  }
+  return samples;
 }
 
 // ---- Messages ----
@@ -351,6 +414,30 @@ TEST_CASE("margins of signals are those of a brute-force evaluation") {
     const auto cut = static_cast<std::size_t>(draw.between(0, 24));
     CHECK(text_of(judge_signal(definition, numbers, samples, cut, is_complete)) ==
           text_of(verdict));
+  }
+  check_all_kinds_of_ends();
+}
+
+TEST_CASE("margins of until are those of a brute-force evaluation") {
+  const std::vector<HardNumbers> all = all_numbers();
+  for (unsigned seed = 0; seed < kMarginRounds; ++seed) {
+    MarginDraw draw(seed);
+    const HardNumbers& numbers = draw.one_of(all);
+    UntilTexts texts;
+    const auto holds = draw_condition(draw, numbers, texts.holds);
+    const auto ends = draw_condition(draw, numbers, texts.ends);
+    const std::vector<UntilSample> samples = draw_until(draw, numbers);
+    const Window of = draw.window(samples.back().time);
+    const Definition definition{
+        Kind::Until, "x",
+        "",          of,
+        {},          UntilDemand{{{0, 0}, 0, "a.x", "V", *holds}, {{0, 1}, 0, "a.y", "V", *ends}}};
+    const bool is_complete = !draw.one_in(4);
+    const auto verdict = judge_until(definition, numbers, samples, samples.size(), is_complete);
+    INFO("seed " << seed << ": " << holds->text() << " until " << ends->text() << of.text());
+    check_margin(verdict, until_margin(of, texts, samples));
+    const auto cut = static_cast<std::size_t>(draw.between(0, 24));
+    CHECK(text_of(judge_until(definition, numbers, samples, cut, is_complete)) == text_of(verdict));
   }
   check_all_kinds_of_ends();
 }

@@ -31,7 +31,8 @@ core::Verdict judged(const Definition& definition, const Course& course, const E
   core::ValueBlock block(ValueType::Float64, 3);
   const auto make = [&] {
     auto check = std::make_unique<SignalCheck>(definition);
-    check->attach({check->id(), &block, 1});
+    const core::Signal signal{check->signals().front(), &block, 1};
+    check->attach({&signal, 1});
     return check;
   };
   auto check = make();
@@ -205,7 +206,8 @@ TEST_CASE("texts are kept as they were") {
       SignalDemand{{0, 0}, 0, "a.s", "", Condition(variable(ValueType::String), text)}};
   SignalCheck check(definition);
   core::ValueBlock block(ValueType::String, 1);
-  check.attach({{0, 0}, &block, 0});
+  const core::Signal mood_signal{{0, 0}, &block, 0};
+  check.attach({&mood_signal, 1});
   for (const auto& [time, mood] : {std::pair(0, "calm"), {1, "cross"}, {2, "calm"}}) {
     block.strings()[0] = mood;
     check.on_point(at(time));

@@ -39,8 +39,13 @@ TEST_CASE("the checks in their order, with their lines") {
       "<stride:Final signal='a.v' equals='3' tolerance='0.1'/>\n"
       "<stride:Count event='a.frame' min='1' max='3' from='1'/>\n"
       "<stride:Count event='a.frame' equals='2'/>\n"
-      "<stride:Answer request='r.frame' reply='a.frame' within='0.01' repeats='true' to='4'/>\n");
-  REQUIRE(checks.size() == 7);
+      "<stride:Answer request='r.frame' reply='a.frame' within='0.01' repeats='true' to='4'/>\n"
+      "<stride:Until signal='a.led' equals='false' to='4'>\n"
+      "  <stride:Condition signal='b.v' above='3'/></stride:Until>");
+  REQUIRE(checks.size() == 8);
+  CHECK((checks[7].kind == Kind::Until && checks[7].subject == "a.led"));
+  CHECK((checks[7].condition.equals == "false" && checks[7].window.to == Time(milliseconds(4000))));
+  CHECK((checks[7].ending_signal == "b.v" && checks[7].ending.above == "3"));
   CHECK((checks[0].kind == Kind::Always && checks[0].name == "supply"));
   CHECK(checks[0].subject == "a.v");
   CHECK((checks[0].condition.min == "1.8" && checks[0].condition.max == "5"));
@@ -73,6 +78,15 @@ TEST_CASE("what is written wrongly is refused, with its line") {
   CHECK_THAT(declaration_error("<stride:Always signal='a' max='1' name='a&#10;b'/>"),
              Contains("'name' of <stride:Always> has more than one line"));
   CHECK_THAT(declaration_error("<stride:Final signal='a' equals='1' from='1'/>"), Contains("from"));
+  CHECK_THAT(declaration_error("<stride:Until signal='a' min='1'/>"),
+             Contains("x.ssd:2: ") && Contains("it has no <stride:Condition signal="));
+  CHECK_THAT(declaration_error("<stride:Until signal='a' min='1'><stride:Condition signal='b' "
+                               "equals='1'/><stride:Condition signal='c' equals='1'/>"
+                               "</stride:Until>"),
+             Contains("Condition"));
+  CHECK_THAT(declaration_error("<stride:Always signal='a' min='1'><stride:Condition signal='b' "
+                               "equals='1'/></stride:Always>"),
+             Contains("Condition"));
   CHECK_THAT(declaration_error("<stride:Count event='a'/>"),
              Contains("expected min, max or equals"));
   CHECK_THAT(declaration_error("<stride:Count event='a' min='-1'/>"), Contains("min"));

@@ -87,6 +87,22 @@ TEST_CASE("a check without a name has what it demands for one") {
   CHECK(definitions[0].where.line == 12);
 }
 
+TEST_CASE("until has two signals, each with its own condition") {
+  CheckDeclaration until = declared(Kind::Until, "a.led");
+  until.condition.equals = "false";
+  until.ending_signal = "a.range";
+  until.ending.below = "2";
+  until.window.to = Time(seconds(5));
+  CHECK(names({until}) == Names{"a.led is = false until a.distance < 2 m up to 5 s"});
+  until.ending_signal = "*.led";
+  CHECK_THAT(selection_error(until), Contains("'*.led' matches 2 signals; expected one"));
+  until.ending_signal = "a.lde";
+  CHECK_THAT(selection_error(until),
+             Contains("there is no signal 'a.lde'") && Contains("did you mean 'a.led'?"));
+  until.ending_signal = "a.mode";
+  CHECK_THAT(selection_error(until), Contains("a.mode"));
+}
+
 TEST_CASE("a glob is a check for each signal or message, an array one for each element") {
   CHECK(names({always("*.led", "true")}) == Names{"a.led always = true", "b, c.led always = true"});
   CHECK(names({count("*.transmit.*")}) ==
