@@ -13,7 +13,7 @@ install_packages "${packages_build[@]}" "${packages_test[@]}"
 # some tests wait for a network or for a time
 parallel=$(($(nproc) + 1))
 
-section() { printf '\n== %s\n' "$*"; }
+section() { printf '\n== %s (after %d min %02d s)\n' "$*" $((SECONDS / 60)) $((SECONDS % 60)); }
 
 # build_and_test PRESET
 build_and_test() {
@@ -51,3 +51,5 @@ cmake --preset release -B build/release-mujoco3 --log-level=WARNING -DSTRIDE_WAR
   -DMuJoCo_ROOT="$PWD/build/mujoco3/mujoco"
 cmake --build build/release-mujoco3 --target mujoco_tests
 ctest --test-dir build/release-mujoco3 --output-on-failure --label-regex mujoco --no-tests=error --parallel "$parallel"
+
+section "All tests have passed"

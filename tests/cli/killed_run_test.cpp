@@ -30,7 +30,7 @@ TEST_CASE("a run that is killed at any instant goes on to the same results") {
                   connection("ticker.tick.number", "listener.message.number") +
                   connection("ticker.tick.picoseconds", "listener.message.picoseconds"),
               ""};
-  parts.experiment = "<ssd:DefaultExperiment stopTime=\"20\"/>\n";
+  parts.experiment = "<ssd:DefaultExperiment stopTime=\"8\"/>\n";
   const Workspace whole(parts);
   const Arguments options{"--quiet", "--checkpoint-every", "1"};
   const auto began = std::chrono::steady_clock::now();
@@ -38,7 +38,7 @@ TEST_CASE("a run that is killed at any instant goes on to the same results") {
   const auto length = std::chrono::steady_clock::now() - began;
   const Workspace cut(parts);
   std::mt19937 random(7);
-  const int kills = kSanitized ? 12 : 40;
+  const int kills = kSanitized ? 8 : 40;
   int resumed = 0;
   for (int i = 0; i < kills; ++i) {
     fs::remove_all(cut / "out");

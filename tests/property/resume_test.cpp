@@ -211,7 +211,7 @@ class Adder : public RunControl {
   Time first_;
 };
 
-const unsigned kCutSystems = kSanitized ? 24 : 240;
+const unsigned kCutSystems = kSanitized ? 24 : 120;
 
 }  // namespace
 
