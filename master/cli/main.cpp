@@ -232,6 +232,7 @@ int main(int argc, char** argv) {
   stride::cli::add_resume(app);
   stride::cli::add_campaign(app);
   stride::cli::add_report(app);
+  stride::cli::add_coverage(app);
   stride::cli::add_check(app);
   stride::cli::add_inspect(app);
   stride::cli::add_verify(app);
