@@ -34,6 +34,7 @@
 #include "master/recorders/results_folder.h"
 #include "master/util/error.h"
 #include "master/util/message_text.h"
+#include "master/util/shell_word.h"
 
 namespace stride::cli {
 namespace {
@@ -70,16 +71,18 @@ void print_failures(const campaign::Plan& plan, const campaign::CaseSummary& sum
   }
 }
 
-std::string group_text(const coverage::GroupReport& group) {
-  return fmt::format("'{}' is {}{}", group.component, coverage::percentage_text(group.percentage()),
-                     group.goal ? fmt::format(", and the goal {} %", *group.goal) : "");
+std::string group_text(const coverage::GroupReport& group, const char* goal) {
+  std::string text =
+      fmt::format("'{}' is {}", group.component, coverage::percentage_text(group.percentage()));
+  if (group.goal) text += fmt::format("{} {} %", goal, *group.goal);
+  return text;
 }
 
 void print_coverage(const campaign::CaseSummary& summary) {
   if (!summary.coverage) return;
   print_text("\n");
   for (const coverage::GroupReport& group : summary.coverage->groups) {
-    print_text("Coverage of {}\n", group_text(group));
+    print_text("Coverage of {}\n", group_text(group, "; the goal is"));
   }
   if (summary.otherwise_covered == 0) return;
   print_text("{} not counted in it, since their units have other bins\n",
@@ -115,18 +118,18 @@ void require_all_passed(const CampaignInput& input, const campaign::CaseTotals& 
                                  totals.failed == 1 ? "has" : "have"));
 }
 
-void require_goals(const campaign::CaseSummary& summary) {
+void require_goals(const CampaignInput& input, const campaign::CaseSummary& summary) {
   if (!summary.coverage) return;
   std::vector<std::string> missed;
   for (const coverage::GroupReport& group : summary.coverage->groups) {
-    if (group.misses_goal()) missed.push_back(group_text(group));
+    if (group.misses_goal()) missed.push_back(group_text(group, ", below the goal of"));
   }
   if (missed.empty()) return;
   core::fail_run(
       {},
       fmt::format("the campaign is complete, and its coverage of {}", fmt::join(missed, "; of ")),
-      fmt::format("'stride coverage --missing' lists the bins of {} that are missing",
-                  coverage::kCoverageFile));
+      fmt::format("'stride coverage {} --missing' lists what is missing",
+                  core::shell_word(input.folder().string())));
 }
 
 namespace {
@@ -162,7 +165,7 @@ void run_missing(const CampaignRunArguments& arguments, const CampaignInput& inp
   if (!arguments.quiet) print_summary(input, summary);
   warn_of_failure([&] { write_page(arguments, input, cases); });
   require_all_passed(input, summary.totals);
-  require_goals(summary);
+  require_goals(input, summary);
 }
 
 /// Others may be at work in the folder, so it is not locked, and the table is not made.

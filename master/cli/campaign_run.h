@@ -19,7 +19,7 @@ campaign::CaseSummary print_status(const CampaignInput& input);
 void require_all_passed(const CampaignInput& input, const campaign::CaseTotals& totals);
 
 /// Of a campaign that is complete: throws core::Error (Run) if it misses a goal of its coverage.
-void require_goals(const campaign::CaseSummary& summary);
+void require_goals(const CampaignInput& input, const campaign::CaseSummary& summary);
 
 void add_campaign_run(CLI::App& group);
 void add_campaign_status(CLI::App& group);

@@ -200,7 +200,7 @@ class Submission {
                                  folder_.string()));
     }
     require_all_passed(input_, totals);
-    require_goals(summary);
+    require_goals(input_, summary);
   }
 
   const SubmitArguments& arguments_;

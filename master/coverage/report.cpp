@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <limits>
 #include <stdexcept>
 #include <tuple>
 #include <utility>
@@ -100,7 +101,8 @@ void add(BinCount& bin, const BinCount& other) {
     bin.first = other.first;
     bin.in_case = other.in_case;
   }
-  bin.count += other.count;
+  const std::uint64_t room = std::numeric_limits<std::uint64_t>::max() - bin.count;
+  bin.count += std::min(other.count, room);
 }
 
 /// The declared bins are the same, and stand first.
