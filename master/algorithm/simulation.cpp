@@ -70,6 +70,9 @@ class Simulation::Run {
   }
   const RunStatistics& statistics() const { return statistics_; }
   Duration suspended_time() const { return idle_ ? idle_->suspended_time(time_) : Duration{}; }
+  bool was_suspended(std::size_t component) const {
+    return idle_ && idle_->was_suspended(component, time_);
+  }
   std::span<const Verdict> verdicts() const { return verdicts_; }
 
   void set_control(RunControl& control) { pauses_.set_control(control); }
@@ -503,6 +506,10 @@ void Simulation::run_rest() { run_->run_rest(); }
 void Simulation::abandon() noexcept { run_->abandon(); }
 
 Duration Simulation::suspended_time() const { return run_->suspended_time(); }
+
+bool Simulation::was_suspended(std::size_t component) const {
+  return run_->was_suspended(component);
+}
 
 const RunStatistics& Simulation::statistics() const { return run_->statistics(); }
 

@@ -2,6 +2,7 @@
 #ifndef STRIDE_MASTER_ALGORITHM_SIMULATION_H
 #define STRIDE_MASTER_ALGORITHM_SIMULATION_H
 
+#include <cstddef>
 #include <functional>
 #include <memory>
 #include <span>
@@ -73,6 +74,9 @@ class Simulation {
   /// UnitStatistics::suspended_time it includes suspensions that still last. For observers, at a
   /// communication point; it reads the state of each unit that may be suspended.
   Duration suspended_time() const;
+  /// For observers, at a communication point: whether the component has been suspended from an
+  /// earlier point on, so that it receives nothing of what is here.
+  bool was_suspended(std::size_t component) const;
   /// The units' verdicts at the end of the run; none where it failed or was interrupted.
   std::span<const Verdict> verdicts() const;
 

@@ -6,6 +6,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "master/coverage/coverage_json.h"
+
 namespace stride::campaign {
 namespace {
 
@@ -101,6 +103,10 @@ CaseResult result_of(const Plan& plan, const Json& json) {
   for (const Aggregate& aggregate : plan.campaign().aggregates) {
     result.aggregates.push_back(number_of(json.at("aggregates").at(aggregate.name)));
   }
+  if (json.contains("coverage")) {
+    result.coverage = {json.at("coverage_definition"),
+                       coverage::covered_bins_of(json.at("coverage"))};
+  }
   result.reached = number_of(json.at("reached"));
   result.has_results = json.at("results");
   result.wall_time = json.at("wall_time");
@@ -153,6 +159,10 @@ std::string record_line(const Plan& plan, const Case& row, const CaseResult& res
   json["reason"] = result.reason;
   json["checks"] = verdicts_json(result.verdicts);
   json["aggregates"] = aggregates_json(plan.campaign(), result);
+  if (result.coverage) {
+    json["coverage"] = coverage::to_json(result.coverage->bins);
+    json["coverage_definition"] = result.coverage->definition;
+  }
   json["reached"] = number_json(result.reached);
   json["results"] = result.has_results;
   json["hash"] = plan.hash(row);

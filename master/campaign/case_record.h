@@ -12,6 +12,7 @@
 
 #include "master/algorithm/verdict.h"
 #include "master/campaign/plan.h"
+#include "master/coverage/report.h"
 
 namespace stride::campaign {
 
@@ -46,12 +47,20 @@ struct CaseVerdict {
 
 const char* verdict_name(std::optional<bool> passed);
 
+/// What a case has covered, by coverage::hash() of the definition.
+struct CaseCoverage {
+  std::string definition;
+  coverage::CoveredBins bins;
+  bool operator==(const CaseCoverage&) const = default;
+};
+
 /// All but how long it took, when and where, is a function of the plan and the index.
 struct CaseResult {
   Outcome outcome = Outcome::Passed;
   std::string reason{};  ///< empty for one that passed
   std::vector<CaseVerdict> verdicts{};
   std::vector<std::optional<double>> aggregates{};  ///< of Campaign::aggregates; empty: none known
+  std::optional<CaseCoverage> coverage{};           ///< if the scenario declares coverage
   std::optional<double> reached{};                  ///< simulated time [s]; empty: not known
   bool has_results = false;                         ///< whether all results are kept
   double wall_time = 0;                             ///< [s]

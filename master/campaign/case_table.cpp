@@ -8,7 +8,9 @@
 #include <fmt/format.h>
 
 #include "master/campaign/plan_folder.h"
+#include "master/coverage/coverage_json.h"
 #include "master/recorders/signal_text.h"
+#include "master/scenario/scenario.h"
 #include "master/util/message_text.h"
 #include "master/util/output_file.h"
 
@@ -34,8 +36,9 @@ std::string number_text(std::optional<double> number) {
 
 class TableWriter {
  public:
-  TableWriter(const Plan& plan, std::vector<CheckColumn> checks, core::OutputFile& file)
-      : plan_(plan), checks_(std::move(checks)), file_(file) {}
+  TableWriter(const Plan& plan, std::vector<CheckColumn> checks,
+              std::span<const coverage::GroupDefinition> coverage, core::OutputFile& file)
+      : plan_(plan), checks_(std::move(checks)), coverage_(coverage), file_(file) {}
 
   void write_header() {
     file_.write("case");
@@ -47,6 +50,9 @@ class TableWriter {
     }
     for (const Aggregate& aggregate : plan_.campaign().aggregates) {
       put(csv_field("aggregate:" + aggregate.name));
+    }
+    for (const coverage::GroupDefinition& group : coverage_) {
+      put(csv_field("coverage:" + group.name));
     }
     put("reached"), put("hash"), put("wall_time"), put("began"), put("host");
     file_.write('\n');
@@ -65,6 +71,7 @@ class TableWriter {
     for (std::size_t i = 0; i < plan_.campaign().aggregates.size(); ++i) {
       put(i < known.aggregates.size() ? number_text(known.aggregates[i]) : "");
     }
+    if (!coverage_.empty()) put_coverage(known);
     put(number_text(known.reached));
     put(plan_.hash(row));
     put(result != nullptr ? number_text(known.wall_time) : "");
@@ -87,8 +94,18 @@ class TableWriter {
     put(is_known && found->margin ? number_text(found->margin->value) : "");
   }
 
+  void put_coverage(const CaseResult& result) {
+    std::vector<std::optional<double>> percentages(coverage_.size());
+    if (result.coverage && result.coverage->definition == definition_) {
+      percentages = coverage::percentages(coverage_, result.coverage->bins);
+    }
+    for (const auto& percentage : percentages) put(number_text(percentage));
+  }
+
   const Plan& plan_;
   std::vector<CheckColumn> checks_;
+  std::span<const coverage::GroupDefinition> coverage_;
+  const std::string definition_ = coverage::hash(coverage_);
   core::OutputFile& file_;
 };
 
@@ -100,11 +117,28 @@ void add_columns(const CaseResult& result, std::vector<CheckColumn>& columns) {
   }
 }
 
+void add_coverage(const CaseResult& result, std::uint64_t index,
+                  std::span<const coverage::GroupDefinition> definitions, CaseSummary& summary) {
+  if (!summary.coverage || !result.coverage) return;
+  if (result.coverage->definition != summary.coverage->definition) {
+    ++summary.otherwise_covered;
+    return;
+  }
+  ++*summary.coverage->cases;
+  add_case(*summary.coverage, definitions, result.coverage->bins, index);
+}
+
 }  // namespace
 
 CaseSummary write_case_tables(const Plan& plan, const CaseFolder& cases, const CaseScratch& scratch,
-                              std::size_t most_failures) {
+                              std::size_t most_failures,
+                              std::span<const coverage::GroupDefinition> coverage) {
   CaseSummary summary{.totals = {.cases = plan.size()}};
+  if (!coverage.empty()) {
+    const std::string scenario = scenario::stem(plan.campaign().scenario);
+    summary.coverage = coverage::empty_report(scenario, coverage);
+    summary.coverage->cases = 0;
+  }
   std::vector<CheckColumn> columns;
   core::OutputFile lines(scratch.file(kCaseLines));
   for (std::uint64_t i = 0; i < plan.size(); ++i) {
@@ -114,13 +148,14 @@ CaseSummary write_case_tables(const Plan& plan, const CaseFolder& cases, const C
     if (!record) continue;
     summary.totals.add(record->result.outcome);
     add_columns(record->result, columns);
+    add_coverage(record->result, i, coverage, summary);
     if (record->result.outcome == Outcome::Passed) continue;
     if (summary.first_failures.size() == most_failures) continue;
     summary.first_failures.push_back({i, std::move(record->result)});
   }
   lines.close();
   core::OutputFile table(scratch.file(kCaseTable));
-  TableWriter writer(plan, std::move(columns), table);
+  TableWriter writer(plan, std::move(columns), coverage, table);
   writer.write_header();
   for (std::uint64_t i = 0; i < plan.size(); ++i) {
     const auto record = cases.read(i);
@@ -129,6 +164,9 @@ CaseSummary write_case_tables(const Plan& plan, const CaseFolder& cases, const C
   table.close();
   scratch.publish(kCaseLines);
   scratch.publish(kCaseTable);
+  if (!summary.coverage) return summary;
+  coverage::write_coverage(scratch.file(coverage::kCoverageFile), *summary.coverage);
+  scratch.publish(coverage::kCoverageFile);
   return summary;
 }
 

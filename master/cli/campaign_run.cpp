@@ -9,6 +9,7 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "master/campaign/campaign_junit.h"
 #include "master/campaign/campaign_page.h"
@@ -28,9 +29,12 @@
 #include "master/cli/output_paths.h"
 #include "master/cli/report_page.h"
 #include "master/cli/table.h"
+#include "master/coverage/coverage_json.h"
+#include "master/coverage/demand.h"
 #include "master/recorders/results_folder.h"
 #include "master/util/error.h"
 #include "master/util/message_text.h"
+#include "master/util/shell_word.h"
 
 namespace stride::cli {
 namespace {
@@ -67,14 +71,34 @@ void print_failures(const campaign::Plan& plan, const campaign::CaseSummary& sum
   }
 }
 
+std::string group_text(const coverage::GroupReport& group, const char* goal) {
+  std::string text =
+      fmt::format("'{}' is {}", group.component, coverage::percentage_text(group.percentage()));
+  if (group.goal) text += fmt::format("{} {} %", goal, *group.goal);
+  return text;
+}
+
+void print_coverage(const campaign::CaseSummary& summary) {
+  if (!summary.coverage) return;
+  print_text("\n");
+  for (const coverage::GroupReport& group : summary.coverage->groups) {
+    print_text("Coverage of {}\n", group_text(group, "; the goal is"));
+  }
+  if (summary.otherwise_covered == 0) return;
+  print_text("{} not counted in it, since their units have other bins\n",
+             cases_text(summary.otherwise_covered));
+}
+
 void print_summary(const CampaignInput& input, const campaign::CaseSummary& summary) {
   const campaign::CaseTotals& totals = summary.totals;
   print_text("{}: {} of {} done, {} passed, {} failed, {} missing\n",
              input.plan().campaign().file.stem().string(), totals.done(), cases_text(totals.cases),
              totals.passed, totals.failed, totals.missing());
   print_failures(input.plan(), summary);
-  print_text("\nTable in {}: {} {}\n", input.folder().string(), campaign::kCaseTable,
-             campaign::kCaseLines);
+  print_coverage(summary);
+  print_text("\nTable in {}: {} {}{}\n", input.folder().string(), campaign::kCaseTable,
+             campaign::kCaseLines,
+             summary.coverage ? fmt::format(" {}", coverage::kCoverageFile) : "");
 }
 
 }  // namespace
@@ -92,6 +116,20 @@ void require_all_passed(const CampaignInput& input, const campaign::CaseTotals& 
   if (totals.cases == 1) core::fail_run({}, "the only case has not passed");
   core::fail_run({}, fmt::format("{} of {} {} not passed", totals.failed, cases_text(totals.cases),
                                  totals.failed == 1 ? "has" : "have"));
+}
+
+void require_goals(const CampaignInput& input, const campaign::CaseSummary& summary) {
+  if (!summary.coverage) return;
+  std::vector<std::string> missed;
+  for (const coverage::GroupReport& group : summary.coverage->groups) {
+    if (group.misses_goal()) missed.push_back(group_text(group, ", below the goal of"));
+  }
+  if (missed.empty()) return;
+  core::fail_run(
+      {},
+      fmt::format("the campaign is complete, and its coverage of {}", fmt::join(missed, "; of ")),
+      fmt::format("'stride coverage {} --missing' lists what is missing",
+                  core::shell_word(input.folder().string())));
 }
 
 namespace {
@@ -119,14 +157,15 @@ void run_missing(const CampaignRunArguments& arguments, const CampaignInput& inp
   const Interruption interruption;
   MissingCases(input.plan(), input.scenario(), cases, scratch, missing_options(arguments, input))
       .run();
-  const campaign::CaseSummary summary =
-      write_case_tables(input.plan(), cases, scratch, kShownFailures);
+  const campaign::CaseSummary summary = write_case_tables(
+      input.plan(), cases, scratch, kShownFailures, input.scenario().loaded().coverage());
   if (!arguments.junit.empty()) {
     write_campaign_junit(arguments.junit, input.plan(), cases, summary.totals);
   }
   if (!arguments.quiet) print_summary(input, summary);
   warn_of_failure([&] { write_page(arguments, input, cases); });
   require_all_passed(input, summary.totals);
+  require_goals(input, summary);
 }
 
 /// Others may be at work in the folder, so it is not locked, and the table is not made.
@@ -178,8 +217,8 @@ void run_campaign(const CampaignRunArguments& arguments) {
   if (arguments.only) input.require_case(*arguments.only, "--case");
   if (arguments.range) input.require_case(arguments.range->last, "--cases");
   using namespace campaign;
-  input.refuse_inputs(
-      {kPlanTable, kPlanDescription, kCaseTable, kCaseLines, kCampaignPage, kCases, kRunning});
+  input.refuse_inputs({kPlanTable, kPlanDescription, kCaseTable, kCaseLines, kCampaignPage,
+                       coverage::kCoverageFile, kCases, kRunning});
   if (!arguments.junit.empty()) {
     input.refuse_output({"--junit " + arguments.junit.string(), arguments.junit});
   }
@@ -191,15 +230,16 @@ void run_campaign(const CampaignRunArguments& arguments) {
 
 }  // namespace
 
-campaign::CaseTotals print_status(const CampaignInput& input) {
+campaign::CaseSummary print_status(const CampaignInput& input) {
   input.require_plan();
-  input.refuse_inputs({campaign::kCaseTable, campaign::kCaseLines, campaign::kRunning});
+  input.refuse_inputs(
+      {campaign::kCaseTable, campaign::kCaseLines, coverage::kCoverageFile, campaign::kRunning});
   const campaign::CaseFolder cases(input.plan(), input.folder());
   const campaign::CaseScratch scratch(cases);
-  const campaign::CaseSummary summary =
-      write_case_tables(input.plan(), cases, scratch, kShownFailures);
+  const campaign::CaseSummary summary = write_case_tables(
+      input.plan(), cases, scratch, kShownFailures, input.scenario().loaded().coverage());
   print_summary(input, summary);
-  return summary.totals;
+  return summary;
 }
 
 void add_campaign_run(CLI::App& group) {

@@ -14,9 +14,12 @@ class CampaignInput;
 
 /// Makes the table, and prints how many cases are done, and failures. Throws core::Error (Input)
 /// where there is no plan.
-campaign::CaseTotals print_status(const CampaignInput& input);
+campaign::CaseSummary print_status(const CampaignInput& input);
 /// Throws core::Error (Run) if a case has not passed, or the campaign was interrupted.
 void require_all_passed(const CampaignInput& input, const campaign::CaseTotals& totals);
+
+/// Of a campaign that is complete: throws core::Error (Run) if it misses a goal of its coverage.
+void require_goals(const CampaignInput& input, const campaign::CaseSummary& summary);
 
 void add_campaign_run(CLI::App& group);
 void add_campaign_status(CLI::App& group);

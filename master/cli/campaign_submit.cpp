@@ -188,7 +188,8 @@ class Submission {
 
   void require_all_there() const {
     print_text("\n");
-    const campaign::CaseTotals totals = print_status(input_);
+    const campaign::CaseSummary summary = print_status(input_);
+    const campaign::CaseTotals& totals = summary.totals;
     if (totals.missing() > 0) {
       core::fail_run({},
                      fmt::format("the jobs have left the queue of {}, and {} of {} cases have no "
@@ -199,6 +200,7 @@ class Submission {
                                  folder_.string()));
     }
     require_all_passed(input_, totals);
+    require_goals(input_, summary);
   }
 
   const SubmitArguments& arguments_;

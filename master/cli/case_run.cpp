@@ -30,7 +30,7 @@ std::string failure_text(const std::vector<core::Verdict>& verdicts) {
   return count > 1 ? fmt::format("{} (and {} more)", text, count - 1) : text;
 }
 
-recorders::ResultFiles no_files() { return {{}, {}, {}, {}, {}, {}}; }
+recorders::ResultFiles no_files() { return {{}, {}, {}, {}, {}, {}, {}}; }
 
 std::unique_ptr<recorders::UnitFolders> unit_folders_in(const std::filesystem::path& results,
                                                         const scenario::LoadedScenario& loaded) {
@@ -68,6 +68,7 @@ ResultsTarget CaseRun::target_of(const CaseResults& results,
   if (results.folder.empty()) return {{}, no_files()};
   ResultsTarget target{results.folder, loaded.scenario().annotation.results};
   if (!results.has_report || !has_reports()) target.files.report.clear();
+  if (loaded.coverage().empty()) target.files.coverage.clear();
   recorders::make_results_folder(target.folder);
   recorders::check_name_lengths(target.folder, target.files);
   return target;
@@ -122,6 +123,10 @@ CaseResult CaseRun::result_of(Go&& go) {
   CaseResult result{.verdicts = campaign::case_verdicts(recorded_.verdicts()),
                     .aggregates = aggregates_.values(),
                     .reached = to_seconds(recorded_.statistics().reached)};
+  if (!loaded_.coverage().empty()) {
+    const coverage::Report covered = recorded_.coverage();
+    result.coverage = {covered.definition, covered_bins(covered)};
+  }
   if (!failure) return result;
   const std::string failed = recorded_.failure() ? "" : failure_text(recorded_.verdicts());
   result.outcome = failed.empty() ? campaign::Outcome::Error : campaign::Outcome::Failed;

@@ -11,6 +11,7 @@
 #include "master/algorithm/loops/evaluation_order.h"
 #include "master/algorithm/stepping/step_order.h"
 #include "master/cli/commands.h"
+#include "master/cli/coverage_table.h"
 #include "master/cli/crash_guard.h"
 #include "master/cli/output.h"
 #include "master/cli/scenario_options.h"
@@ -144,12 +145,14 @@ std::string intervention_table(const core::System& system,
 }
 
 /// Empty if the scenario has none.
-std::string check_table(std::span<const checks::Definition> checks) {
+std::string check_table(const scenario::LoadedScenario& loaded) {
   Table table({{"check"}, {"demands"}, {"line", Table::Align::Right}});
-  for (const checks::Definition& check : checks) {
+  const auto add = [&](const auto& check) {
     table.add({check.name, check.name == check.demand ? "" : check.demand,
                std::to_string(check.where.line)});
-  }
+  };
+  for (const checks::Definition& check : loaded.checks()) add(check);
+  for (const coverage::Demand& demand : loaded.demands()) add(demand);
   return table.size() == 0 ? "" : "\nChecks\n" + table.text();
 }
 
@@ -235,7 +238,7 @@ void check(const scenario::ScenarioRequest& request) {
   print_text("\nUnits\n{}{}\nConnections\n{}", unit_table(loaded), host_table(loaded),
              connection_table(system));
   print_text("{}", unconnected_elements_text(system));
-  print_text("{}", check_table(loaded.checks()));
+  print_text("{}{}", check_table(loaded), coverage_table(loaded.coverage()));
   print_text("{}", intervention_table(system, options.interventions));
   print_text("\nStep order\n{}", order_table(loaded));
   print_text("\nOrder of the initial values\n{}", initial_order_text(system));

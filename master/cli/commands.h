@@ -16,6 +16,7 @@ void add_complete(CLI::App& app);
 void add_pack(CLI::App& app);
 void add_build(CLI::App& app);
 void add_campaign(CLI::App& app);
+void add_coverage(CLI::App& app);
 void add_report(CLI::App& app);
 void add_trace(CLI::App& app);
 void add_reference(CLI::App& app);

@@ -194,6 +194,7 @@ void add_all(CLI::App& app) {
   stride::cli::add_resume(app);
   stride::cli::add_campaign(app);
   stride::cli::add_report(app);
+  stride::cli::add_coverage(app);
   stride::cli::add_check(app);
   stride::cli::add_inspect(app);
   stride::cli::add_verify(app);

@@ -10,12 +10,15 @@
 #include <spdlog/spdlog.h>
 
 #include "master/algorithm/step_policies/unlimited_steps.h"
+#include "master/cli/coverage_table.h"
 #include "master/cli/crash_guard.h"
 #include "master/cli/end_note.h"
 #include "master/cli/output.h"
 #include "master/cli/provenance.h"
 #include "master/cli/report_page.h"
 #include "master/cli/table.h"
+#include "master/coverage/coverage_json.h"
+#include "master/coverage/demand.h"
 #include "master/recorders/results_folder.h"
 #include "master/recorders/run_json.h"
 #include "master/recorders/unit_folders.h"
@@ -193,11 +196,16 @@ RecordedRun::RecordedRun(const RunSetup& setup, std::vector<std::unique_ptr<core
       simulation_(setup_.loaded.system(), std::move(units), setup_.options),
       has_begun_(!setup_.is_resumed),
       checks_(setup_.loaded.checks()),
+      coverage_(setup_.loaded.coverage()),
       summary_(setup_.loaded.system(), setup_.loaded.options().recorded),
       progress_(setup_.display.progress, setup_.options.start, setup_.options.stop, simulation_) {
   setup_.capture.follow(simulation_);
   setup_.recorders.add_to(simulation_);
   if (!checks_.is_empty()) simulation_.add_observer(checks_, checks_.signals());
+  if (!coverage_.is_empty()) {
+    coverage_.follow(simulation_);
+    simulation_.add_observer(coverage_, coverage_.signals());
+  }
   if (!setup_.capture.is_empty()) simulation_.add_observer(setup_.capture);
   if (!setup_.display.quiet) simulation_.add_observer(summary_, summary_.signals());
   if (setup_.display.progress != ProgressStyle::None) simulation_.add_observer(progress_);
@@ -241,6 +249,7 @@ void RecordedRun::restore(const Resumption& resumption) {
     throw core::BadState("its state is of another time than it says");
   }
   if (!checks_.is_empty()) restore_state(from, "checks", checks_);
+  if (!coverage_.is_empty()) restore_state(from, "coverage", coverage_);
   if (!setup_.display.quiet) summary_.begin_late(from.time);
   if (from.states.contains("summary") && !setup_.display.quiet) {
     restore_state(from, "summary", summary_);
@@ -271,6 +280,7 @@ void RecordedRun::run_rest(std::vector<core::Intervention> interventions) {
 void RecordedRun::add_to(checkpoint::Checkpoint& checkpoint) {
   add_state(checkpoint, kSimulation, simulation_);
   if (!checks_.is_empty()) add_state(checkpoint, "checks", checks_);
+  if (!coverage_.is_empty()) add_state(checkpoint, "coverage", coverage_);
   if (!setup_.display.quiet) add_state(checkpoint, "summary", summary_);
   if (!setup_.capture.is_empty()) add_state(checkpoint, "captures", setup_.capture);
   setup_.recorders.add_to(checkpoint);
@@ -363,6 +373,11 @@ void RecordedRun::collect_verdicts(bool is_complete) {
   for (core::Verdict& verdict : checks_.verdicts({simulation_.statistics().reached, is_complete})) {
     verdicts_.push_back(std::move(verdict));
   }
+  if (setup_.loaded.demands().empty()) return;
+  for (core::Verdict& verdict : coverage::verdicts(setup_.loaded.demands(), coverage(),
+                                                   simulation_.statistics().reached, is_complete)) {
+    verdicts_.push_back(std::move(verdict));
+  }
 }
 
 /// In a run that did not reach its end, which is the error to report.
@@ -412,6 +427,7 @@ void RecordedRun::warn_of_inexact_repetitions() const {
 void RecordedRun::write_statistics(std::optional<std::string> error) {
   std::exception_ptr failure;
   try {
+    write_coverage_file();
     write_run_file(error);
   } catch (const std::exception& mistake) {
     failure = std::current_exception();
@@ -423,10 +439,18 @@ void RecordedRun::write_statistics(std::optional<std::string> error) {
   if (failure) std::rethrow_exception(failure);
 }
 
+void RecordedRun::write_coverage_file() const {
+  const auto& [folder, files] = setup_.results;
+  if (coverage_.is_empty() || files.coverage.empty()) return;
+  coverage::write_coverage(folder / files.coverage, coverage());
+}
+
 void RecordedRun::write_run_file(const std::optional<std::string>& error, bool is_over) const {
   if (setup_.results.files.statistics.empty()) return;
   core::RunOptions options = setup_.options;
   options.interventions.insert(options.interventions.end(), further_.begin(), further_.end());
+  std::vector<recorders::CoverageSummary> summaries;
+  if (is_over && !coverage_.is_empty()) summaries = coverage_summaries(coverage());
   recorders::write_run_json(setup_.results.folder / setup_.results.files.statistics,
                             {.scenario = setup_.loaded.scenario().path,
                              .system = setup_.loaded.system(),
@@ -437,7 +461,8 @@ void RecordedRun::write_run_file(const std::optional<std::string>& error, bool i
                              .error = error,
                              .is_over = is_over,
                              .files = setup_.results.files,
-                             .plots = setup_.loaded.plots()});
+                             .plots = setup_.loaded.plots(),
+                             .coverage = summaries});
 }
 
 void RecordedRun::write_page() const {
@@ -462,8 +487,9 @@ void RecordedRun::require_end() const {
 
 void RecordedRun::print_summary() const {
   const auto& [folder, files] = setup_.results;
-  print_text("\n{}{}\nResults in {}:", summary_.text(simulation_.statistics()),
-             verdict_table(verdicts_), folder.string());
+  print_text("\n{}{}{}\nResults in {}:", summary_.text(simulation_.statistics()),
+             coverage_.is_empty() ? "" : coverage_table(coverage()), verdict_table(verdicts_),
+             folder.string());
   for (const auto& [what, member] : recorders::kResultFiles) {
     if (!(files.*member).empty()) print_text(" {}", files.*member);
   }

@@ -19,6 +19,7 @@
 #include "master/cli/run_arguments.h"
 #include "master/cli/summary.h"
 #include "master/cli/test_report.h"
+#include "master/coverage/coverage.h"
 #include "master/recorders/activity_recorder.h"
 #include "master/recorders/csv_recorder.h"
 #include "master/recorders/event_recorder.h"
@@ -121,6 +122,10 @@ class RecordedRun {
   const core::RunStatistics& statistics() const { return simulation_.statistics(); }
   /// When it is over.
   const std::vector<core::Verdict>& verdicts() const { return verdicts_; }
+  /// At any time.
+  coverage::Report coverage() const {
+    return coverage_.report(scenario::stem(setup_.loaded.scenario().path));
+  }
   /// Whether its results are its own: not before resume() has found that it can go on.
   bool has_begun() const { return has_begun_; }
   /// Why it has not come to its end, if it has not.
@@ -141,6 +146,7 @@ class RecordedRun {
   void write_statistics(std::optional<std::string> error);
   void announce() const;
   void write_run_file(const std::optional<std::string>& error, bool is_over = true) const;
+  void write_coverage_file() const;
   void write_page() const;
   void print_summary() const;
   void require_end() const;
@@ -154,6 +160,7 @@ class RecordedRun {
   bool has_test_report_ = true;
   bool has_begun_;  ///< or, before that: the results are still those of the run that is resumed
   checks::Checks checks_;
+  coverage::Coverage coverage_;
   std::vector<core::Verdict> verdicts_;
   std::vector<core::Intervention> further_;  ///< interventions of run_rest()
   std::optional<std::string> failure_{};

@@ -22,6 +22,12 @@ void add_recording_options(CLI::App& command, RunArguments& arguments) {
                   "be given several times")
       ->type_name("COMPONENT=FILE")
       ->allow_extra_args(false);
+  command
+      .add_option("--coverage", arguments.scenario.coverage,
+                  "Count which values and messages a component is given, as the scenario may ask "
+                  "itself; may be given several times")
+      ->type_name("COMPONENT")
+      ->allow_extra_args(false);
   // a flag, so that what follows a blank is the scenario; the value of a flag without one is
   // "true", kUnspecifiedFilmInterval
   command.add_flag("--film", arguments.scenario.film,

@@ -79,8 +79,9 @@ std::shared_ptr<ssp::Files> check_output_paths(const RunArguments& arguments) {
 }
 
 recorders::ResultFiles chosen_files(const RunArguments& arguments,
-                                    const scenario::Scenario& scenario) {
-  recorders::ResultFiles files = scenario.annotation.results;
+                                    const scenario::LoadedScenario& loaded) {
+  recorders::ResultFiles files = loaded.scenario().annotation.results;
+  if (loaded.coverage().empty()) files.coverage.clear();
   if (arguments.no_trace) files.trace.clear();
   if (arguments.no_report || !has_reports()) files.report.clear();
   if (arguments.open && files.report.empty()) {
@@ -162,7 +163,7 @@ void Records::add(const std::string& error) {
 class ResultsOfRun {
  public:
   ResultsOfRun(const RunArguments& arguments, const scenario::LoadedScenario& loaded)
-      : target_{results_folder(arguments), chosen_files(arguments, loaded.scenario())},
+      : target_{results_folder(arguments), chosen_files(arguments, loaded)},
         names_(loaded.scenario().annotation.results),
         resumed_(arguments.resumed.get()),
         lock_(made(target_, loaded)) {

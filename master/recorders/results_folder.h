@@ -20,16 +20,18 @@ struct ResultFiles {
   std::string activity = "activity.csv";
   std::string statistics = "run.json";
   std::string report = "report.html";
+  std::string coverage = "coverage.json";
 };
 
 /// Each of them, with the attribute that names it.
-inline constexpr std::array<std::pair<const char*, std::string ResultFiles::*>, 6> kResultFiles{
+inline constexpr std::array<std::pair<const char*, std::string ResultFiles::*>, 7> kResultFiles{
     {{"signals", &ResultFiles::signals},
      {"events", &ResultFiles::events},
      {"trace", &ResultFiles::trace},
      {"activity", &ResultFiles::activity},
      {"statistics", &ResultFiles::statistics},
-     {"report", &ResultFiles::report}}};
+     {"report", &ResultFiles::report},
+     {"coverage", &ResultFiles::coverage}}};
 
 /// Signals that share a diagram, by the names of their columns in signals.csv.
 struct Plot {

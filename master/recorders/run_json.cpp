@@ -230,6 +230,16 @@ void add_verdicts(Json& run, std::span<const core::Verdict> verdicts) {
   }
 }
 
+Json coverage_entries(std::span<const CoverageSummary> coverage) {
+  Json entries = Json::array();
+  for (const CoverageSummary& group : coverage) {
+    Json& entry = entries.emplace_back(Json{{"component", group.component}});
+    entry["percentage"] = group.percentage ? Json(*group.percentage) : Json();
+    entry["goal"] = group.goal ? Json(*group.goal) : Json();
+  }
+  return entries;
+}
+
 constexpr const char* kRunning = "running";
 
 const char* outcome(const RunRecord& record) {
@@ -269,12 +279,13 @@ void write(const std::filesystem::path& file, const Json& run) {
 
 void write_run_json(const std::filesystem::path& file, const RunRecord& record) {
   const auto& [scenario, system, options, provenance, statistics, verdicts, error, is_over, files,
-               plots] = record;
+               plots, coverage] = record;
   Json run = {{"scenario", scenario.string()},      {"system", system.name()},
               {"start", to_seconds(options.start)}, {"stop", to_seconds(options.stop)},
               {"step", step_entry(options)},        {"outcome", outcome(record)}};
   if (error) run["error"] = *error;
   add_verdicts(run, verdicts);
+  if (!coverage.empty()) run["coverage"] = coverage_entries(coverage);
   run["threads"] = options.threads.count;
   run["recorded_signals"] = options.recorded.size();
   if (is_over) add(run, statistics);

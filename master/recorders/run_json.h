@@ -15,6 +15,13 @@
 
 namespace stride::recorders {
 
+/// Of a component, in percent; nothing where no point has bins that count.
+struct CoverageSummary {
+  std::string component;
+  std::optional<double> percentage;
+  std::optional<double> goal;
+};
+
 /// What is reported of a run.
 struct RunRecord {
   std::filesystem::path scenario;
@@ -27,6 +34,7 @@ struct RunRecord {
   bool is_over = true;                 ///< else there are no statistics yet
   ResultFiles files{};
   std::span<const Plot> plots{};
+  std::span<const CoverageSummary> coverage{};
 };
 
 /// run.json: what was run and from what, how far it came, what each unit did and cost, and what the

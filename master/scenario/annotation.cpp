@@ -218,7 +218,8 @@ void check_file_name(const xml::Element& element, const char* attribute, const s
 }
 
 void read_results(const xml::Element& element, ScenarioAnnotation& annotation) {
-  element.allow_attributes({"signals", "events", "trace", "activity", "statistics", "report"});
+  element.allow_attributes(
+      {"signals", "events", "trace", "activity", "statistics", "report", "coverage"});
   element.allow_children({});
   std::set<std::string> taken;
   for (const auto& [attribute, member] : recorders::kResultFiles) {
@@ -243,7 +244,13 @@ constexpr ScenarioElement kElements[] = {
     {"Step", false, [](const auto& element, auto& to) { read_step(element, to.step); }},
     {"Exchange", false, [](const auto& element, auto& to) { read_exchange(element, to.step); }},
     {"Record", true, read_record},
-    {"Checks", false, [](const auto& element, auto& to) { to.checks = read_checks(element); }},
+    {"Checks", false,
+     [](const auto& element, auto& to) {
+       to.checks = read_checks(element);
+       to.covered = read_covered(element);
+     }},
+    {"Coverage", false,
+     [](const auto& element, auto& to) { to.coverage = read_coverage(element); }},
     {"Results", false, read_results},
     {"Plot", true, read_plot},
     {"MainThread", true, read_main_thread},

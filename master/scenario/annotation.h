@@ -10,6 +10,7 @@
 #include "master/recorders/results_folder.h"
 #include "master/scenario/check_declaration.h"
 #include "master/scenario/component_selection.h"
+#include "master/scenario/coverage_declaration.h"
 #include "master/scenario/interventions.h"
 #include "master/scenario/run_settings.h"
 #include "master/scenario/terminal_connections.h"
@@ -42,6 +43,8 @@ struct ScenarioAnnotation {
   std::vector<SignalPattern> record;  ///< none: every output
   std::vector<PlotPattern> plots;
   std::vector<CheckDeclaration> checks;
+  std::vector<GroupDeclaration> coverage;
+  std::vector<CoveredDeclaration> covered;  ///< checks of it
   recorders::ResultFiles results;
   std::vector<ComponentPattern> main_thread;  ///< stepped on the simulation's own thread only
   std::vector<PermissionRule> early_return;   ///< from steps; without one: allowed

@@ -122,7 +122,8 @@ std::vector<CheckDeclaration> read_checks(const xml::Element& checks) {
                          {ssp::kStrideScenario, "Until"},
                          {ssp::kStrideScenario, "Final"},
                          {ssp::kStrideScenario, "Count"},
-                         {ssp::kStrideScenario, "Answer"}});
+                         {ssp::kStrideScenario, "Answer"},
+                         {ssp::kStrideScenario, "Covered"}});
   std::vector<CheckDeclaration> found;
   for (const xml::Element& element : checks.children()) {
     for (const Word& word : kWords) {

@@ -35,8 +35,8 @@ struct CheckDeclaration {
   core::Location where{};
 };
 
-/// Reads <stride:Checks>. Throws core::Error (Input) for what is unknown, missing or no number, and
-/// for an interval or a count that ends before it begins.
+/// Reads <stride:Checks>, but for what read_covered() reads. Throws core::Error (Input) for what is
+/// unknown, missing or no number, and for an interval or a count that ends before it begins.
 std::vector<CheckDeclaration> read_checks(const xml::Element& checks);
 
 }  // namespace stride::scenario

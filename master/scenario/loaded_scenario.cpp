@@ -14,6 +14,7 @@
 #include "master/algorithm/step_policies/step_policy.h"
 #include "master/algorithm/step_policies/unlimited_steps.h"
 #include "master/checks/checks.h"
+#include "master/coverage/coverage.h"
 #include "master/isolation/hosted_unit.h"
 #include "master/recorders/unit_folders.h"
 #include "master/scenario/check_selection.h"
@@ -163,6 +164,7 @@ LoadedScenario::LoadedScenario(const ScenarioRequest& request)
   options_.threads.main_only =
       select_components(selection_names(), scenario_.annotation.main_thread);
   choose_checks(request);
+  choose_coverage(request);
 }
 
 core::Context LoadedScenario::of_file() const { return {.where = {scenario_.path.string(), 0}}; }
@@ -336,6 +338,35 @@ void LoadedScenario::choose_checks(const ScenarioRequest& request) {
   const std::optional<Time> stop = request.stop.empty() ? options_.stop : scenario_.stop;
   checks_ = select_checks(*system_, scenario_.annotation.checks, {options_.start, stop});
   options_.watched = checks::Checks(checks_).signals();
+}
+
+void LoadedScenario::choose_coverage(const ScenarioRequest& request) {
+  std::vector<GroupDeclaration> groups = scenario_.annotation.coverage;
+  for (const std::string& component : request.coverage) {
+    groups.push_back({.component = component, .where = {"--coverage " + component, 0}});
+  }
+  const auto& demands = scenario_.annotation.covered;
+  coverage_ = select_coverage(*system_, groups,
+                              request.no_checks ? std::span(demands).first(0) : std::span(demands));
+  check_demand_names();
+  for (const std::string& note : coverage_.notes) spdlog::warn("{}", core::message_text(note));
+  if (coverage_.groups.empty()) return;
+  const std::vector<core::VariableId> signals = coverage::Coverage(coverage_.groups).signals();
+  options_.watched.insert(options_.watched.end(), signals.begin(), signals.end());
+}
+
+/// Other checks are looked at before, and have names of their own.
+void LoadedScenario::check_demand_names() const {
+  std::map<std::string, core::Location> known;
+  for (const checks::Definition& check : checks_) known.emplace(check.name, check.where);
+  for (const coverage::Demand& demand : coverage_.demands) {
+    const auto [first, is_new] = known.emplace(demand.name, demand.where);
+    if (is_new) continue;
+    core::fail_input({.where = demand.where},
+                     fmt::format("a second check '{}'; the first is in line {}", demand.name,
+                                 first->second.line),
+                     "give each a name of its own");
+  }
 }
 
 /// Snapshots add a capability to a component, so the system is built again.

@@ -14,9 +14,12 @@
 
 #include "master/algorithm/simulation.h"
 #include "master/checks/definition.h"
+#include "master/coverage/definition.h"
+#include "master/coverage/demand.h"
 #include "master/importer/fmu.h"
 #include "master/model/system.h"
 #include "master/scenario/branches.h"
+#include "master/scenario/coverage_selection.h"
 #include "master/scenario/hosting.h"
 #include "master/scenario/idle_twins.h"
 #include "master/scenario/interventions.h"
@@ -50,7 +53,8 @@ struct ScenarioRequest {
   bool no_idle_skip = false;
   std::string max_skip;  ///< seconds, for all components; empty = the scenario's
   bool no_checks = false;
-  bool idle_twins = false;  ///< adds them, see idle_twins.h
+  std::vector<std::string> coverage;  ///< components that get a group of automatic points
+  bool idle_twins = false;            ///< adds them, see idle_twins.h
   HostRequest hosts;
   std::shared_ptr<ssp::Files> files;  ///< that have read some of it ahead; null: none
   std::shared_ptr<UnitStore> units;   ///< to which those that are not there are added; null: none
@@ -77,6 +81,10 @@ class LoadedScenario {
   const std::vector<recorders::Plot>& plots() const { return plots_; }
   /// The checks of the scenario; options() watch their signals.
   const std::vector<checks::Definition>& checks() const { return checks_; }
+  /// The coverage of the scenario and of the request; options() watch its signals.
+  const std::vector<coverage::GroupDefinition>& coverage() const { return coverage_.groups; }
+  /// Checks of it.
+  const std::vector<coverage::Demand>& demands() const { return coverage_.demands; }
 
   /// The interventions of the scenario and these, in the order of their instants, as options()
   /// would have them. Throws core::Error (Input) as the constructor does.
@@ -113,6 +121,8 @@ class LoadedScenario {
   void choose_times(const ScenarioRequest& request);
   void choose_steps(const StepSettings& request);
   void choose_checks(const ScenarioRequest& request);
+  void choose_coverage(const ScenarioRequest& request);
+  void check_demand_names() const;
   void choose_hosts(const HostRequest& request);
   void check_steps();
   void choose_idle_skips(const ScenarioRequest& request);
@@ -137,6 +147,7 @@ class LoadedScenario {
   Time latest_intervention_{};
   std::vector<recorders::Plot> plots_;
   std::vector<checks::Definition> checks_;
+  SelectedCoverage coverage_;
   std::vector<IdleTwin> idle_twins_;
   std::vector<InterventionDeclaration> further_interventions_;  ///< than the scenario's
 };

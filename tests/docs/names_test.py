@@ -27,7 +27,8 @@ PLACEHOLDER = "Class::function"
 # The functions that the pseudocode leaves out: access to members, measurement of wall time, what an optimisation needs,
 # what only builds or reports an error.
 SHOWN = {
-    "Run": "abandon note_requested_end add_observer statistics suspended_time verdicts count sets_inputs_in_steps "
+    "Run": "abandon note_requested_end add_observer statistics suspended_time was_suspended verdicts count "
+           "sets_inputs_in_steps "
            "coasting add_wall_time finish_suspensions finish_observers perform "
            "set_control run_rest end_behind persist add_interventions persist_all persist_statistics "
            "notify_observers start_observers make_input_extrapolator make_idle_scheduler "
@@ -39,7 +40,7 @@ SHOWN = {
                "finish persist prepare conclude report record_time index name rethrow_failure reason hint_for_final fail_final plan pool",
     "IdleScheduler": "add_candidate all_suspended_until catch_up_and_report check_promise covers drop_tangents find_sources "
                      "is_disturbed is_suspended is_trivial leaves_deadband may_suspend persist persist_tangents report_suspension "
-                     "report_unfinished suspended_time",
+                     "report_unfinished suspended_time was_suspended",
     "OrderedEvaluation": "check_nan find_direct_inputs is_trivial plan report sweep takes_part",
     "AlgebraicLoop": "collect fail has_converged have_held_values_converged hint inputs put sweep values_text",
     "InputExtrapolator": "persist sample set_targets signal_of undo_step within_step",

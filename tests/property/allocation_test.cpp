@@ -5,7 +5,9 @@
 #include <catch2/catch.hpp>
 
 #include "master/checks/checks.h"
+#include "master/coverage/coverage.h"
 #include "master/scenario/check_selection.h"
+#include "master/scenario/coverage_selection.h"
 #include "tests/counting_allocator.h"
 #include "tests/property/assembly.h"
 
@@ -112,6 +114,36 @@ TEST_CASE("a system does not allocate where checks watch signals and messages") 
   for (const core::Verdict& verdict : checks.verdicts({Time(1s), true})) {
     CHECK(verdict.passed == true);
   }
+  CHECK(counter.messages > 300);
+  CHECK(counter.last - counter.at_warm == 0);
+}
+
+TEST_CASE("a system does not allocate where values and messages are covered") {
+  using scenario::PointKind;
+  Assembly assembly = ring();
+  assembly.add("ticker", "ticker", {{"period", "0.0047"}}).add("listener", "listener");
+  assembly.wire_message("ticker.tick", "listener.message");
+  scenario::GroupDeclaration ring_group{.component = "r0"};
+  ring_group.points = {
+      {.kind = PointKind::Values, .name = "in", .subject = "u", .edges = {-9, -1e-3, 0, 1e-3, 9}},
+      {.kind = PointKind::Values, .name = "out", .subject = "x", .edges = {-9, 0, 9}},
+      {.kind = PointKind::Cross, .of = {"in", "out"}}};
+  scenario::GroupDeclaration listener{.component = "listener"};
+  listener.points = {{.kind = PointKind::Gaps, .subject = "message.number"}};
+  const core::System system(assembly.declaration());
+  coverage::Coverage coverage(
+      scenario::select_coverage(system, std::vector{ring_group, listener}, {}).groups);
+  core::RunOptions options = fixed_steps(1ms, Time(1s));
+  options.watched = coverage.signals();
+  core::Simulation simulation(system, assembly.instantiate(), options);
+  AllocationCounter counter;
+  coverage.follow(simulation);
+  simulation.add_observer(coverage, coverage.signals());
+  simulation.add_observer(counter);
+  simulation.run();
+  const coverage::Report report = coverage.report("ring");
+  CHECK(report.groups[0].points[0].covered() > 0);
+  CHECK(report.groups[1].points[0].covered() > 0);
   CHECK(counter.messages > 300);
   CHECK(counter.last - counter.at_warm == 0);
 }

@@ -8,12 +8,11 @@
 
 #include <catch2/catch.hpp>
 
-#include "master/importer/binaries.h"
-#include "master/importer/fmi3/fmi3_library.h"
 #include "master/util/time_text.h"
 #include "tests/build.h"
 #include "tests/master/util/archive/support.h"
 #include "tests/property/random_system.h"
+#include "tests/property/replays.h"
 
 using namespace stride;
 using namespace stride::tests;
@@ -24,37 +23,6 @@ namespace {
 const unsigned kReplaySystems = kSanitized ? 10 : 100;
 constexpr Duration kReplayStep = 1ms;
 constexpr Time kReplayStop{100ms};
-
-/// The unit player with this file, as `stride pack` makes it, but for the archive.
-std::shared_ptr<importer::Fmu> player_of(const Scratch& scratch, const fs::path& stimuli) {
-  const fs::path folder = scratch / "player";
-  const fs::path binaries = folder / "binaries" / importer::platform();
-  fs::create_directories(folder / "resources");
-  fs::create_directories(binaries);
-  fs::copy_file(stimuli, folder / "resources/stimuli.csv");
-  fs::create_symlink(unit_library("player"), binaries / "player.so");
-  const importer::Fmi3Library library(unit_library("player"));
-  scratch.write("player/modelDescription.xml", library.describe(folder / "resources"));
-  return importer::Fmu::load(folder);
-}
-
-/// The component of the system, as it is there, with a player in the place of all others.
-Assembly alone(const Assembly& system, const std::string& component,
-               std::shared_ptr<importer::Fmu> player) {
-  const core::SystemDeclaration& whole = system.declaration();
-  const auto declared = std::find_if(whole.components.begin(), whole.components.end(),
-                                     [&](const auto& c) { return c.name == component; });
-  Assembly assembly;
-  assembly.add("player", std::move(player)).add(component, declared->description->model_identifier);
-  for (const auto& value : whole.start_values) {
-    if (value.component == component) assembly.set(component + "." + value.variable, value.value);
-  }
-  for (const auto& wire : whole.connections) {
-    if (wire.to_component != component) continue;
-    assembly.wire("player." + wire.to_connector, component + "." + wire.to_connector);
-  }
-  return assembly;
-}
 
 /// The values of one component's outputs at an instant.
 std::vector<double> values_at(const Results& results, const std::string& component, Time time) {

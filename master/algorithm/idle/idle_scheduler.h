@@ -37,6 +37,11 @@ class IdleScheduler {
 
   bool may_suspend(std::size_t component) const { return states_[component].is_candidate; }
   bool is_suspended(std::size_t component) const { return states_[component].is_suspended; }
+  /// Whether it is, and has been from an earlier instant than `time`, the current communication
+  /// point, on.
+  bool was_suspended(std::size_t component, Time time) const {
+    return is_suspended(component) && states_[component].since < time;
+  }
   /// Whether the unit, which is suspended, can stay so up to this time.
   bool covers(std::size_t component, Time time) const { return time <= states_[component].end; }
   /// Up to when no unit has to be called: until a suspension ends, or the tangent of an output

@@ -161,8 +161,8 @@ TEST_CASE("A mistake in the annotation is named with its line") {
              Contains("x.ssd:4: <stride:Stpe> is not known in <stride:Scenario>") &&
                  Contains("did you mean 'Step'?"));
   CHECK_THAT(annotation_error("<stride:Policy/>"),
-             Contains("known are: Step, Exchange, Record, Checks, Results, "
-                      "Plot, MainThread, EarlyReturn, StateSaving, Host, …"));
+             Contains("known are: Step, Exchange, Record, Checks, Coverage, "
+                      "Results, Plot, MainThread, EarlyReturn, …"));
   CHECK_THAT(annotation_error("<stride:Step siez='1'/>"), Contains("did you mean 'size'?"));
   CHECK_THAT(annotation_error("<stride:Step size=''/>"),
              Contains("the attribute 'size' of <stride:Step> is empty"));

@@ -1,0 +1,88 @@
+// stride coverage: what runs and campaigns have covered together.
+#include <filesystem>
+#include <memory>
+#include <stdexcept>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "master/cli/commands.h"
+#include "master/cli/coverage_table.h"
+#include "master/cli/output.h"
+#include "master/cli/output_paths.h"
+#include "master/coverage/coverage_json.h"
+#include "master/util/error.h"
+#include "master/util/input_file.h"
+
+namespace stride::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct CoverageArguments {
+  std::vector<fs::path> paths;
+  fs::path out;  ///< empty: none
+  bool missing = false;
+};
+
+/// The file itself, or that of a folder.
+fs::path coverage_file(const fs::path& path) {
+  if (!core::is_folder(path)) return path;
+  const fs::path file = path / coverage::kCoverageFile;
+  if (core::is_file(file)) return file;
+  core::fail_input({.where = {path.string(), 0}},
+                   fmt::format("there is no {} in this folder", coverage::kCoverageFile),
+                   "name the results of a run with coverage, or a campaign whose table was made");
+}
+
+coverage::Report merged(const std::vector<fs::path>& files) {
+  coverage::Report report = coverage::read_coverage(files.front());
+  for (std::size_t i = 1; i < files.size(); ++i) {
+    const coverage::Report other = coverage::read_coverage(files[i]);
+    try {
+      coverage::merge(report, other);
+    } catch (const std::invalid_argument& difference) {
+      core::fail_input({.where = {files[i].string(), 0}},
+                       fmt::format("this is of another coverage than {}: {}",
+                                   files.front().string(), difference.what()),
+                       "merge coverage of the same definition only");
+    }
+  }
+  return report;
+}
+
+void show_coverage(const CoverageArguments& arguments) {
+  std::vector<fs::path> files;
+  std::vector<KeptPath> inputs;
+  for (const fs::path& path : arguments.paths) {
+    files.push_back(coverage_file(path));
+    inputs.push_back({files.back(), "a coverage that is read"});
+  }
+  if (!arguments.out.empty()) {
+    const OutputPath out{"--out " + arguments.out.string(), arguments.out};
+    refuse_kept_paths({&out, 1}, inputs);
+  }
+  const coverage::Report report = merged(files);
+  if (!arguments.out.empty()) coverage::write_coverage(arguments.out, report);
+  print_text("{}{}", coverage_table(report), arguments.missing ? missing_table(report) : "");
+}
+
+}  // namespace
+
+void add_coverage(CLI::App& app) {
+  CLI::App* command =
+      app.add_subcommand("coverage", "Show what runs and campaigns have covered together");
+  const auto arguments = std::make_shared<CoverageArguments>();
+  command
+      ->add_option("PATH", arguments->paths,
+                   "Results of runs, campaigns, or files coverage.json, of the same definition")
+      ->required()
+      ->type_name("");
+  command->add_option("--out,--output,-o", arguments->out, "Write the merged coverage to this file")
+      ->type_name("FILE");
+  command->add_flag("--missing", arguments->missing, "List the bins that are not covered yet");
+  command->callback([arguments] { show_coverage(*arguments); });
+}
+
+}  // namespace stride::cli

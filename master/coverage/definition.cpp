@@ -1,0 +1,93 @@
+#include "master/coverage/definition.h"
+
+#include <algorithm>
+#include <array>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "master/util/glob.h"
+#include "master/util/sha256.h"
+
+namespace stride::coverage {
+namespace {
+
+constexpr std::array<const char*, 7> kKindNames{"values",    "transitions", "words", "lengths",
+                                                "sequences", "gaps",        "cross"};
+
+/// Of any text, so that no two lists of fields are written alike.
+void add_field(std::string& text, std::string_view field) {
+  text += fmt::format("{}:{}\n", field.size(), field);
+}
+
+void add_point(std::string& text, const GroupDefinition& group, const PointDefinition& point) {
+  for (const std::string& field : {point.name, std::string(name(point.kind)), point.signal}) {
+    add_field(text, field);
+  }
+  add_field(text, fmt::format("{} {} {}", point.at_least, point.is_open, point.bins.size()));
+  for (const DeclaredBin& bin : point.bins) {
+    add_field(text, bin.name);
+    add_field(text, bin.is_ignored ? "ignored" : "");
+  }
+  for (const std::string& pattern : point.ignored) add_field(text, pattern);
+  for (const std::size_t part : point.of) add_field(text, group.points[part].name);
+}
+
+}  // namespace
+
+const char* name(Kind kind) { return kKindNames[static_cast<std::size_t>(kind)]; }
+
+std::optional<Kind> kind_of(std::string_view name) {
+  const auto found =
+      std::ranges::find(kKindNames, name, [](const char* k) { return std::string_view(k); });
+  if (found == kKindNames.end()) return std::nullopt;
+  return static_cast<Kind>(found - kKindNames.begin());
+}
+
+bool means(const std::string& pattern, const std::string& name) {
+  return pattern == name || core::matches_glob(pattern, name);
+}
+
+bool mean(std::span<const std::string> patterns, const std::string& name) {
+  return std::ranges::any_of(patterns, [&](const std::string& p) { return means(p, name); });
+}
+
+bool PointDefinition::ignores(const std::string& bin) const {
+  return !is_open || bin == kFurther || mean(ignored, bin);
+}
+
+void append_crossed(std::string& text, std::string_view bin) {
+  if (!text.empty()) text.append(" × ");
+  text.append(bin);
+}
+
+std::vector<DeclaredBin> cross_bins(std::span<const PointDefinition* const> parts) {
+  std::vector<DeclaredBin> bins{{""}};
+  for (const PointDefinition* const part : parts) {
+    std::vector<DeclaredBin> crossed;
+    for (const DeclaredBin& left : bins) {
+      for (const DeclaredBin& bin : part->bins) {
+        if (bin.is_ignored) continue;
+        append_crossed(crossed.emplace_back(left).name, bin.name);
+        if (crossed.size() > kMostBins) {
+          throw std::invalid_argument(fmt::format("it has more than {} bins", kMostBins));
+        }
+      }
+    }
+    bins = std::move(crossed);
+  }
+  return bins;
+}
+
+std::string hash(std::span<const GroupDefinition> groups) {
+  std::string text;
+  for (const GroupDefinition& group : groups) {
+    add_field(text, group.name);
+    add_field(text, group.goal ? fmt::format("{}", *group.goal) : "");
+    add_field(text, std::to_string(group.points.size()));
+    for (const PointDefinition& point : group.points) add_point(text, group, point);
+  }
+  return core::sha256(text);
+}
+
+}  // namespace stride::coverage
