@@ -12,6 +12,7 @@
 
 #include "master/campaign/case_analysis.h"
 #include "master/campaign/case_columns.h"
+#include "master/coverage/coverage_json.h"
 #include "master/report/page.h"
 #include "master/report/page_data.h"
 #include "master/util/error.h"
@@ -160,6 +161,7 @@ class PageWriter {
     const CaseAnalysis analysis = analyse(columns_);
     member("correlations", json_text(correlations_json(analysis)));
     member("shares", json_text(shares_json(analysis)));
+    if (columns_.coverage) member("coverage", json_text(coverage::to_json(*columns_.coverage)));
     member("working_folder", json_text(working_folder));
     file_.write("}</script>\n");
   }
@@ -266,13 +268,15 @@ std::vector<std::string> links_to(const CaseFolder& cases, const CaseColumns& co
 }  // namespace
 
 void write_campaign_page(const fs::path& file, const Plan& plan, const CaseFolder& cases,
-                         const std::string& report, std::uint64_t most_cases) {
+                         const std::string& report,
+                         std::span<const coverage::GroupDefinition> coverage,
+                         std::uint64_t most_cases) {
   const std::string_view text = report::campaign_page();
   const std::size_t mark = text.find(report::kDataMark);
   if (mark == std::string_view::npos) {
     core::fail_input({}, "this stride was built without reports (STRIDE_REPORT=OFF)");
   }
-  const CaseColumns columns = read_case_columns(plan, cases, most_cases);
+  const CaseColumns columns = read_case_columns(plan, cases, most_cases, coverage);
   core::Replacement page(file);
   page.file().write(text.substr(0, mark));
   PageWriter(page.file(), plan, columns)

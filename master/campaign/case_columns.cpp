@@ -6,6 +6,7 @@
 #include <optional>
 #include <string_view>
 
+#include "master/campaign/campaign_coverage.h"
 #include "master/campaign/random.h"
 
 namespace stride::campaign {
@@ -125,8 +126,10 @@ void become_numbers(ParameterColumn& column, const ValueKind& kind) {
 
 }  // namespace
 
-CaseColumns read_case_columns(const Plan& plan, const CaseFolder& cases, std::uint64_t most) {
+CaseColumns read_case_columns(const Plan& plan, const CaseFolder& cases, std::uint64_t most,
+                              std::span<const coverage::GroupDefinition> coverage) {
   CaseColumns columns;
+  CampaignCoverage covered(plan, coverage);
   for (const Parameter& parameter : plan.campaign().parameters) {
     columns.parameters.push_back({.name = parameter.name, .numbers = {}, .texts = {}});
   }
@@ -138,6 +141,7 @@ CaseColumns read_case_columns(const Plan& plan, const CaseFolder& cases, std::ui
     ++columns.counts[result != nullptr ? static_cast<std::size_t>(result->outcome) : kMissing];
     if (result != nullptr) {
       add_to_all(*result, columns);
+      covered.add(*result, i);
     }
     if (!choice.takes(i)) continue;
     columns.indices.push_back(static_cast<std::int32_t>(i));
@@ -147,6 +151,7 @@ CaseColumns read_case_columns(const Plan& plan, const CaseFolder& cases, std::ui
   for (std::size_t i = 0; i < columns.parameters.size(); ++i) {
     become_numbers(columns.parameters[i], plan.kinds()[i]);
   }
+  columns.coverage = covered.report();
   return columns;
 }
 

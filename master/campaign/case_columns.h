@@ -5,11 +5,15 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "master/campaign/case_folder.h"
 #include "master/campaign/plan.h"
+#include "master/coverage/definition.h"
+#include "master/coverage/report.h"
 
 namespace stride::campaign {
 
@@ -59,6 +63,7 @@ struct CaseColumns {
   double wall_time = 0;                               ///< the sum [s]
   std::string first_began, last_began;                ///< empty: none has
   std::map<std::string, std::uint64_t> cases_on;      ///< by hosts
+  std::optional<coverage::Report> coverage;           ///< if the scenario declares some
 
   std::size_t size() const { return indices.size(); }
 };
@@ -66,7 +71,8 @@ struct CaseColumns {
 /// Reads all records. Of more than `most` cases it takes so many, one from each of as many blocks
 /// of equal size, chosen by random numbers that are the same each time: no pattern of the plan
 /// shows in them.
-CaseColumns read_case_columns(const Plan& plan, const CaseFolder& cases, std::uint64_t most);
+CaseColumns read_case_columns(const Plan& plan, const CaseFolder& cases, std::uint64_t most,
+                              std::span<const coverage::GroupDefinition> coverage = {});
 
 }  // namespace stride::campaign
 

@@ -7,10 +7,10 @@
 
 #include <fmt/format.h>
 
+#include "master/campaign/campaign_coverage.h"
 #include "master/campaign/plan_folder.h"
 #include "master/coverage/coverage_json.h"
 #include "master/recorders/signal_text.h"
-#include "master/scenario/scenario.h"
 #include "master/util/message_text.h"
 #include "master/util/output_file.h"
 
@@ -117,28 +117,13 @@ void add_columns(const CaseResult& result, std::vector<CheckColumn>& columns) {
   }
 }
 
-void add_coverage(const CaseResult& result, std::uint64_t index,
-                  std::span<const coverage::GroupDefinition> definitions, CaseSummary& summary) {
-  if (!summary.coverage || !result.coverage) return;
-  if (result.coverage->definition != summary.coverage->definition) {
-    ++summary.otherwise_covered;
-    return;
-  }
-  ++*summary.coverage->cases;
-  add_case(*summary.coverage, definitions, result.coverage->bins, index);
-}
-
 }  // namespace
 
 CaseSummary write_case_tables(const Plan& plan, const CaseFolder& cases, const CaseScratch& scratch,
                               std::size_t most_failures,
                               std::span<const coverage::GroupDefinition> coverage) {
   CaseSummary summary{.totals = {.cases = plan.size()}};
-  if (!coverage.empty()) {
-    const std::string scenario = scenario::stem(plan.campaign().scenario);
-    summary.coverage = coverage::empty_report(scenario, coverage);
-    summary.coverage->cases = 0;
-  }
+  CampaignCoverage covered(plan, coverage);
   std::vector<CheckColumn> columns;
   core::OutputFile lines(scratch.file(kCaseLines));
   for (std::uint64_t i = 0; i < plan.size(); ++i) {
@@ -148,12 +133,14 @@ CaseSummary write_case_tables(const Plan& plan, const CaseFolder& cases, const C
     if (!record) continue;
     summary.totals.add(record->result.outcome);
     add_columns(record->result, columns);
-    add_coverage(record->result, i, coverage, summary);
+    covered.add(record->result, i);
     if (record->result.outcome == Outcome::Passed) continue;
     if (summary.first_failures.size() == most_failures) continue;
     summary.first_failures.push_back({i, std::move(record->result)});
   }
   lines.close();
+  summary.coverage = covered.report();
+  summary.otherwise_covered = covered.otherwise_covered();
   core::OutputFile table(scratch.file(kCaseTable));
   TableWriter writer(plan, std::move(columns), coverage, table);
   writer.write_header();

@@ -45,8 +45,9 @@ void make_campaign_report(const CampaignReportArguments& arguments) {
 
 void write_campaign_report(const fs::path& file, const CampaignInput& input,
                            const campaign::CaseFolder& cases) {
-  const auto& results = input.scenario().loaded().scenario().annotation.results;
-  campaign::write_campaign_page(file, input.plan(), cases, results.report);
+  const scenario::LoadedScenario& loaded = input.scenario().loaded();
+  campaign::write_campaign_page(file, input.plan(), cases,
+                                loaded.scenario().annotation.results.report, loaded.coverage());
 }
 
 void add_campaign_report(CLI::App& group) {

@@ -1,10 +1,12 @@
 // stride coverage: what runs and campaigns have covered together.
+#include <ctime>
 #include <filesystem>
 #include <memory>
 #include <stdexcept>
 #include <vector>
 
 #include <CLI/CLI.hpp>
+#include <fmt/chrono.h>
 #include <fmt/format.h>
 
 #include "master/cli/commands.h"
@@ -12,8 +14,10 @@
 #include "master/cli/output.h"
 #include "master/cli/output_paths.h"
 #include "master/coverage/coverage_json.h"
+#include "master/coverage/ucis.h"
 #include "master/util/error.h"
 #include "master/util/input_file.h"
+#include "master/util/replacement.h"
 
 namespace stride::cli {
 namespace {
@@ -22,7 +26,7 @@ namespace fs = std::filesystem;
 
 struct CoverageArguments {
   std::vector<fs::path> paths;
-  fs::path out;  ///< empty: none
+  fs::path out, ucis;  ///< empty: none
   bool missing = false;
 };
 
@@ -52,6 +56,15 @@ coverage::Report merged(const std::vector<fs::path>& files) {
   return report;
 }
 
+/// It has to say when it was written.
+void write_ucis(const fs::path& file, const coverage::Report& report,
+                const std::vector<fs::path>& files) {
+  const std::string now = fmt::format("{:%Y-%m-%dT%H:%M:%S}", fmt::gmtime(std::time(nullptr)));
+  core::Replacement output(file);
+  output.file().write(coverage::ucis_document(report, {files, STRIDE_VERSION, now}));
+  output.commit();
+}
+
 void show_coverage(const CoverageArguments& arguments) {
   std::vector<fs::path> files;
   std::vector<KeptPath> inputs;
@@ -59,12 +72,15 @@ void show_coverage(const CoverageArguments& arguments) {
     files.push_back(coverage_file(path));
     inputs.push_back({files.back(), "a coverage that is read"});
   }
-  if (!arguments.out.empty()) {
-    const OutputPath out{"--out " + arguments.out.string(), arguments.out};
-    refuse_kept_paths({&out, 1}, inputs);
+  std::vector<OutputPath> outputs;
+  if (!arguments.out.empty()) outputs.push_back({"--out " + arguments.out.string(), arguments.out});
+  if (!arguments.ucis.empty()) {
+    outputs.push_back({"--ucis " + arguments.ucis.string(), arguments.ucis});
   }
+  refuse_kept_paths(outputs, inputs);
   const coverage::Report report = merged(files);
   if (!arguments.out.empty()) coverage::write_coverage(arguments.out, report);
+  if (!arguments.ucis.empty()) write_ucis(arguments.ucis, report, files);
   print_text("{}{}", coverage_table(report), arguments.missing ? missing_table(report) : "");
 }
 
@@ -80,6 +96,10 @@ void add_coverage(CLI::App& app) {
       ->required()
       ->type_name("");
   command->add_option("--out,--output,-o", arguments->out, "Write the merged coverage to this file")
+      ->type_name("FILE");
+  command
+      ->add_option("--ucis", arguments->ucis,
+                   "Write it to this file in the XML of Accellera's UCIS, for coverage tools")
       ->type_name("FILE");
   command->add_flag("--missing", arguments->missing, "List the bins that are not covered yet");
   command->callback([arguments] { show_coverage(*arguments); });

@@ -122,7 +122,7 @@ Report report_of(const Json& json) {
 
 }  // namespace
 
-void write_coverage(const std::filesystem::path& file, const Report& report) {
+Json to_json(const Report& report) {
   Json json = {{"format", kFormat},
                {"version", kVersion},
                {"scenario", report.scenario},
@@ -130,8 +130,12 @@ void write_coverage(const std::filesystem::path& file, const Report& report) {
   if (report.cases) json["cases"] = *report.cases;
   json["groups"] = Json::array();
   for (const GroupReport& group : report.groups) json["groups"].push_back(group_json(group));
+  return json;
+}
+
+void write_coverage(const std::filesystem::path& file, const Report& report) {
   core::Replacement output(file);
-  output.file().write(json.dump(1, ' ', false, Json::error_handler_t::replace));
+  output.file().write(to_json(report).dump(1, ' ', false, Json::error_handler_t::replace));
   output.file().write('\n');
   output.commit();
 }

@@ -13,6 +13,9 @@ namespace stride::coverage {
 
 inline constexpr const char* kCoverageFile = "coverage.json";
 
+/// As coverage.json has it.
+nlohmann::ordered_json to_json(const Report& report);
+
 /// The file is there as a whole or not at all. Throws core::Error as core::Replacement does.
 void write_coverage(const std::filesystem::path& file, const Report& report);
 

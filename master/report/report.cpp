@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include "master/coverage/coverage_json.h"
 #include "master/report/page.h"
 #include "master/report/page_data.h"
 #include "master/util/error.h"
@@ -57,6 +58,7 @@ class DataWriter {
     list("messages", results_.messages, [&](const RecordedMessage& message) { write(message); });
     list("activity", results_.activities, [&](const UnitActivities& entry) { write(entry); });
     list("films", results_.films, [&](const Film& film) { write(film); });
+    if (results_.coverage) member("coverage", json_text(coverage::to_json(*results_.coverage)));
     member("diagram", json_text(diagram(results_.run)));
     file_.write("}</script>\n");
   }

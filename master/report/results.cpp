@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "master/coverage/coverage_json.h"
 #include "master/recorders/results_folder.h"
 #include "master/recorders/unit_folders.h"
 #include "master/report/notes.h"
@@ -220,6 +221,20 @@ auto read_present(const fs::path& folder, const std::string& name, Notes& notes,
   }
 }
 
+/// Nothing where the scenario has none.
+std::optional<coverage::Report> read_coverage(const fs::path& folder, const std::string& name,
+                                              Notes& notes) {
+  const fs::path file = folder / name;
+  std::error_code error;
+  if (name.empty() || !fs::exists(file, error)) return std::nullopt;
+  try {
+    return coverage::read_coverage(file);
+  } catch (const core::Error& mistake) {
+    notes.add_unread(file, mistake);
+    return std::nullopt;
+  }
+}
+
 /// Those that run.json names, if it can be read.
 recorders::ResultFiles named_files(const fs::path& run) {
   recorders::ResultFiles files;
@@ -249,6 +264,7 @@ Results read_results(const fs::path& folder, const recorders::ResultFiles& files
     return read_activities(file, notes);
   });
   results.films = read_films(folder, results.run, limits, notes);
+  results.coverage = read_coverage(folder, files.coverage, notes);
   results.notes = notes.texts();
   return results;
 }

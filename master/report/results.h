@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "master/coverage/report.h"
 #include "master/recorders/results_folder.h"
 #include "master/report/run_file.h"
 #include "master/report/signals_file.h"
@@ -58,6 +59,7 @@ struct Results {
   std::vector<RecordedMessage> messages;
   std::vector<UnitActivities> activities;
   std::vector<Film> films;
+  std::optional<coverage::Report> coverage;
   /// In words, what is missing, cut off or left out.
   std::vector<std::string> notes;
 };

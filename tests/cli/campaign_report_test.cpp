@@ -102,3 +102,23 @@ TEST_CASE("campaign report opens the page in a browser") {
   CHECK(outcome.exit_code == 1);
   CHECK_THAT(outcome.err, Contains("cannot open campaigns/c/campaign.html"));
 }
+
+TEST_CASE("the pages of a campaign and of its cases have the coverage") {
+  Parts parts = two_filters();
+  parts.annotation =
+      "<stride:Coverage><stride:Group component='second'>"
+      "<stride:Values signal='y' edges='0 0.1 1'/></stride:Group></stride:Coverage>";
+  const Workspace workspace(parts);
+  workspace.scratch().write("c.xosc", drawn_input("3", "<stride:Keep results='all'/>"));
+  REQUIRE(workspace.stride({"campaign", "run", "c.xosc", "-q"}).exit_code == 0);
+  const auto coverage_in = [&](const std::string& page) {
+    return stride::report::data_of(read(workspace / "campaigns/c" / page))["coverage"];
+  };
+  const json merged = coverage_in("campaign.html");
+  CHECK(merged["cases"] == 3);
+  CHECK(merged["groups"][0]["points"][0]["bins"][0]["case"] == 0);
+  CHECK(merged == json::parse(read(workspace / "campaigns/c/coverage.json")));
+  const std::string results = "cases/000/000002/";
+  CHECK(coverage_in(results + "report.html") ==
+        json::parse(read(workspace / "campaigns/c" / results / "coverage.json")));
+}

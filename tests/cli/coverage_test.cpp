@@ -196,3 +196,16 @@ TEST_CASE("coverage of another definition is not merged") {
   const Outcome missing = workspace.stride({"coverage", "out", "--missing"});
   CHECK_THAT(missing.out, Contains("\nNot covered\n") && Contains("[0.75, 1]"));
 }
+
+TEST_CASE("coverage is written for other tools, and never over what is read") {
+  const Workspace workspace(covered_parts());
+  REQUIRE(workspace.run(with_inputs({"--quiet"})).exit_code == 0);
+  REQUIRE(workspace.stride({"coverage", "out", "--ucis", "ucis.xml"}).exit_code == 0);
+  CHECK_THAT(read(workspace / "ucis.xml"), Contains("<UCIS ucisVersion=\"1.0\"") &&
+                                               Contains("physicalName=\"out/coverage.json\"") &&
+                                               Contains("<coverpoint name=\"input\"") &&
+                                               Contains("<cross name=\"input × y\""));
+  const Outcome over = workspace.stride({"coverage", "out", "--ucis", "out/coverage.json"});
+  CHECK_THAT(input_error_of(over), Contains("--ucis out/coverage.json"));
+  CHECK(coverage_in(workspace / "out")["scenario"] == "test");
+}

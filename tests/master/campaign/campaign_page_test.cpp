@@ -34,7 +34,7 @@ struct PageOfRecords : Records {
 
   json page(const std::string& name = "out/campaign.html", std::uint64_t most = 100) const {
     std::filesystem::create_directories((folder / name).parent_path());
-    write_campaign_page(folder / name, plan, cases, "report.html", most);
+    write_campaign_page(folder / name, plan, cases, "report.html", {}, most);
     return data_of(content(folder / name));
   }
 };

@@ -93,6 +93,19 @@ TEST_CASE("the data is what was recorded") {
   CHECK(unpacked<std::uint8_t>(columns[2]["values"]) == std::vector<std::uint8_t>{1, 0});
 }
 
+TEST_CASE("coverage is in the data as coverage.json has it, where there is some") {
+  const TemporaryFolder folder;
+  Results results = sample(folder);
+  CHECK_FALSE(written(folder, results).contains("coverage"));
+  coverage::PointReport point{.name = "p", .signal = "</script>"};
+  point.bins = {{.name = "on", .count = 2, .first = 0.5}, {.name = "off"}};
+  results.coverage = {.scenario = "s", .groups = {{.component = "a", .points = {point}}}};
+  const json group = written(folder, results)["coverage"]["groups"][0];
+  CHECK(group["percentage"] == 50);
+  CHECK(group["points"][0]["signal"] == "</script>");
+  CHECK(group["points"][0]["bins"][0] == json{{"name", "on"}, {"count", 2}, {"first", 0.5}});
+}
+
 TEST_CASE("messages, activities, films and the diagram") {
   const TemporaryFolder folder;
   const json data = written(folder, sample(folder));

@@ -74,6 +74,21 @@ TEST_CASE("a results folder is read") {
   CHECK(results.films.empty());
 }
 
+TEST_CASE("coverage is there if it can be read, and else that is noted") {
+  const Folder f;
+  CHECK_FALSE(f.read().coverage);
+  f.folder.write("coverage.json",
+                 R"({"format": "stride coverage", "version": 1, "scenario": "s", "definition": "d",
+                     "groups": [{"component": "a", "points": []}]})");
+  const Results results = f.read();
+  REQUIRE(results.coverage);
+  CHECK(results.coverage->groups.at(0).component == "a");
+  f.folder.write("coverage.json", "{}");
+  const Results broken = f.read();
+  CHECK_FALSE(broken.coverage);
+  CHECK_THAT(broken.notes.back(), Catch::Contains("coverage.json: this is no coverage"));
+}
+
 TEST_CASE("messages without the column content have none") {
   const Folder f;
   f.folder.write("events.csv",

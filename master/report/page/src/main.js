@@ -1,5 +1,6 @@
 // The page: reads the run's data, creates the parts, and connects them.
 import { moveByMessages, moveBySamples } from "./cursor.js";
+import { coverageSection } from "./coverage/section.js";
 import { readReport } from "./data/report.js";
 import { h } from "./dom.js";
 import { listenToKeys } from "./keys.js";
@@ -14,6 +15,13 @@ import { Tip } from "./parts/tip.js";
 import { timeStack } from "./rows.js";
 import { startPage } from "./start.js";
 import { View } from "./view.js";
+
+const coverage = ({ report, view, tip }) =>
+  coverageSection(report.coverage, {
+    tip,
+    show: ({ first }) => view.holdCursor(first),
+    note: "What was exercised of it. A click on a bin goes to its first visit.",
+  });
 
 /** The actions of keys and buttons. */
 function actionsOf(context, theme, help) {
@@ -55,6 +63,7 @@ function build(report) {
     ...report.notes.map((text) => h("p.warning", {}, text)),
     stack.element,
     report.messages.length > 0 ? new MessageTable(context).box : null,
+    coverage(context),
     costs(report.run),
     diagramSection(context),
     provenance(report.run),

@@ -1,4 +1,5 @@
 // The page of a campaign: reads its data, creates the parts, and connects them.
+import { coverageSection } from "../coverage/section.js";
 import { h } from "../dom.js";
 import { Theme } from "../parts/theme.js";
 import { Tip } from "../parts/tip.js";
@@ -23,6 +24,16 @@ function listenToKeys(theme, selection) {
     if (event.key === "d") theme.switch();
     if (event.key === "Escape") selection.clear();
   });
+}
+
+/** Not of a case that the page does not hold. */
+function coverage({ report, tip, showCase }) {
+  const show = (bin) => {
+    const row = report.cases.indices.indexOf(bin.case);
+    if (row >= 0) showCase(row);
+  };
+  const note = "What all cases together have exercised. A click on a bin goes to the case that was the first to visit it.";
+  return coverageSection(report.coverage, { tip, show, note });
 }
 
 /** Printed pages are light. */
@@ -54,6 +65,7 @@ function build(report) {
     h(isMapped ? "div.pair" : "div", {}, scatter.box, isMapped ? new HeatMap(context).box : null),
     histogramSection(context),
     parallel.columns.length > 1 ? parallel.box : null,
+    coverage(context),
     table.box,
     origin(report),
     tip.box,

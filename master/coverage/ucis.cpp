@@ -1,0 +1,196 @@
+#include "master/coverage/ucis.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <span>
+#include <utility>
+
+#include "master/util/xml/writer.h"
+
+namespace stride::coverage {
+namespace {
+
+/// Where UCIS wants a place in a source: there is none.
+constexpr const char* kNoFile = "1";
+
+using BinNumbers = std::vector<std::size_t>;  ///< of each part of a cross
+
+/// Of each combination of bins, by the name that the cross has for it.
+std::map<std::string, BinNumbers> combinations(std::span<const PointReport* const> parts) {
+  std::map<std::string, BinNumbers> found{{"", {}}};
+  for (const PointReport* const part : parts) {
+    std::map<std::string, BinNumbers> longer;
+    for (const auto& [name, numbers] : found) {
+      for (std::size_t i = 0; i < part->bins.size(); ++i) {
+        std::string crossed = name;
+        append_crossed(crossed, part->bins[i].name);
+        BinNumbers with_this = numbers;
+        with_this.push_back(i);
+        longer.emplace(std::move(crossed), std::move(with_this));
+      }
+    }
+    found = std::move(longer);
+  }
+  return found;
+}
+
+class UcisWriter {
+ public:
+  UcisWriter(const Report& report, const UcisOrigin& origin) : report_(report), origin_(origin) {}
+
+  std::string document() {
+    xml_.open("UCIS");
+    attributes({{"ucisVersion", "1.0"}, {"writtenBy", "stride"}, {"writtenTime", origin_.date}});
+    element("sourceFiles", {{"fileName", report_.scenario}, {"id", kNoFile}});
+    write_history();
+    for (std::size_t i = 0; i < report_.groups.size(); ++i) write_instance(i);
+    xml_.close();
+    return xml_.document();
+  }
+
+ private:
+  using Attributes = std::vector<std::pair<const char*, std::string>>;
+
+  void attributes(const Attributes& all) {
+    for (const auto& [name, value] : all) xml_.attribute(name, value);
+  }
+  void element(const char* name, const Attributes& all) {
+    xml_.open(name);
+    attributes(all);
+    xml_.close();
+  }
+  void text(const char* name, const std::string& value) {
+    xml_.open(name);
+    xml_.text(value);
+    xml_.close();
+  }
+  void write_source(const char* name) {
+    element(name, {{"file", kNoFile}, {"line", "1"}, {"inlineCount", "1"}});
+  }
+
+  void write_history() {
+    for (std::size_t i = 0; i < origin_.files.size(); ++i) {
+      element("historyNodes", {{"historyNodeId", std::to_string(i)},
+                               {"logicalName", report_.scenario},
+                               {"physicalName", origin_.files[i].generic_string()},
+                               {"testStatus", "true"},
+                               {"date", origin_.date},
+                               {"toolCategory", "UCIS:Simulator"},
+                               {"ucisVersion", "1.0"},
+                               {"vendorId", "stride"},
+                               {"vendorTool", "stride"},
+                               {"vendorToolVersion", origin_.version}});
+    }
+  }
+
+  void write_instance(std::size_t i) {
+    const GroupReport& group = report_.groups[i];
+    xml_.open("instanceCoverages");
+    attributes({{"name", group.component},
+                {"key", std::to_string(i)},
+                {"instanceId", std::to_string(i)},
+                {"moduleName", group.component}});
+    write_source("id");
+    xml_.open("covergroupCoverage");
+    write_group(group);
+    xml_.close();
+    xml_.close();
+  }
+
+  void write_group(const GroupReport& group) {
+    xml_.open("cgInstance");
+    attributes({{"name", group.component}, {"key", "0"}});
+    element("options", {{"weight", "1"}, {"goal", goal_text(group.goal)}, {"at_least", "1"}});
+    xml_.open("cgId");
+    attributes({{"cgName", group.component}, {"moduleName", group.component}});
+    write_source("cginstSourceId");
+    write_source("cgSourceId");
+    xml_.close();
+    for (const PointReport& point : group.points) {
+      if (point.kind != Kind::Cross && !point.bins.empty()) write_point(point);
+    }
+    for (const PointReport& point : group.points) {
+      if (point.kind == Kind::Cross) write_cross(point, group);
+    }
+    xml_.close();
+  }
+
+  /// UCIS has whole percentages only.
+  static std::string goal_text(const std::optional<double>& goal) {
+    return std::to_string(static_cast<int>(std::ceil(goal.value_or(100))));
+  }
+
+  void begin_point(const char* element_name, const PointReport& point) {
+    xml_.open(element_name);
+    attributes({{"name", point.name}, {"key", "0"}});
+    element("options", {{"weight", point.is_open ? "0" : "1"},
+                        {"goal", "100"},
+                        {"at_least", std::to_string(point.at_least)}});
+  }
+  static const char* type_of(const BinCount& bin) { return bin.is_ignored ? "ignore" : "bins"; }
+
+  void write_point(const PointReport& point) {
+    begin_point("coverpoint", point);
+    for (std::size_t i = 0; i < point.bins.size(); ++i) {
+      const std::string number = std::to_string(i);
+      xml_.open("coverpointBin");
+      attributes({{"name", point.bins[i].name}, {"key", number}, {"type", type_of(point.bins[i])}});
+      xml_.open("range");
+      attributes({{"from", number}, {"to", number}});
+      write_contents(point.bins[i]);
+      xml_.close();
+      xml_.close();
+    }
+    xml_.close();
+  }
+
+  void write_contents(const BinCount& bin) {
+    element("contents", {{"coverageCount", std::to_string(bin.count)}});
+  }
+
+  void write_cross(const PointReport& point, const GroupReport& group) {
+    std::vector<const PointReport*> parts;
+    for (const std::string& name : point.of) {
+      for (const PointReport& other : group.points) {
+        if (other.name == name) parts.push_back(&other);
+      }
+    }
+    // a part without any bin is not in the document
+    if (std::ranges::any_of(parts, [](const PointReport* part) { return part->bins.empty(); }))
+      return;
+    const auto numbers_of = combinations(parts);
+    begin_point("cross", point);
+    for (const std::string& name : point.of) text("crossExpr", name);
+    for (std::size_t i = 0; i < point.bins.size(); ++i) {
+      write_cross_bin(point.bins[i], i, numbers_of);
+    }
+    xml_.close();
+  }
+
+  void write_cross_bin(const BinCount& bin, std::size_t number,
+                       const std::map<std::string, BinNumbers>& numbers_of) {
+    xml_.open("crossBin");
+    attributes({{"name", bin.name}, {"key", std::to_string(number)}, {"type", type_of(bin)}});
+    const auto numbers = numbers_of.find(bin.name);
+    if (numbers == numbers_of.end()) {
+      text("index", "-1");
+    } else {
+      for (const std::size_t index : numbers->second) text("index", std::to_string(index));
+    }
+    write_contents(bin);
+    xml_.close();
+  }
+
+  const Report& report_;
+  const UcisOrigin& origin_;
+  xml::Writer xml_;
+};
+
+}  // namespace
+
+std::string ucis_document(const Report& report, const UcisOrigin& origin) {
+  return UcisWriter(report, origin).document();
+}
+
+}  // namespace stride::coverage
