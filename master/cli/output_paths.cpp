@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include "master/cli/branches.h"
+#include "master/cli/checkpoints.h"
 #include "master/recorders/unit_folders.h"
 #include "master/scenario/annotation.h"
 #include "master/scenario/unit_path.h"
