@@ -13,6 +13,8 @@ namespace stride::replay {
 /// Times are exact decimals of seconds, as in the file and in signals.csv.
 struct StimuliSummary {
   std::string component;
+  /// Those to be played: what the unit was given, and all messages, also where none came. Of an
+  /// input that was not connected there is nothing to play.
   std::vector<std::string> inputs;
   std::optional<std::string> max_skip;  ///< [s], or "for ever"; nothing: no idle skipping
   std::string start;
