@@ -121,7 +121,8 @@ class Distillation {
     Table table(
         {{"case", Table::Align::Right}, {"ended"}, {"alone it has", Table::Align::Left, true}});
     for (const auto& one : chosen_) {
-      table.add({std::to_string(one.index), ending(one.index), alone_text(one, kShownItems)});
+      table.add(
+          {std::to_string(one.index), ending(one.index), core::abridged(alone(one), kShownItems)});
     }
     print_text("\nCases\n{}", table.text(output_width()));
     print_text("\nSuite in {}: run.sh README.md {}.ssd{}\n", arguments_.suite.string(),
@@ -176,25 +177,42 @@ class Distillation {
     return campaign::ending_of(cases_.results.at(index));
   }
 
-  static std::string alone_text(const campaign::DistilledCase& one, std::size_t most) {
-    return core::abridged(std::vector<std::string>(one.alone.begin(), one.alone.end()), most);
+  /// For people: how it ended is said beside it.
+  static std::vector<std::string> alone(const campaign::DistilledCase& one) {
+    std::vector<std::string> texts;
+    for (const std::string& item : one.alone) {
+      texts.push_back(item.starts_with(kEndsItem) ? "its end" : item);
+    }
+    return texts;
   }
 
   std::string summary() const {
     const std::uint64_t done = input_.plan().size() - cases_.missing;
-    std::string text = fmt::format("{}: {} of {} cases of '{}' have what all have",
+    std::string text = fmt::format("{}: {} of {} cases are enough for '{}'",
                                    input_.plan().campaign().file.stem().string(), chosen_.size(),
                                    done, arguments_.component);
-    if (cases_.missing > 0) text += fmt::format("; {} are missing", cases_.missing);
+    if (cases_.missing > 0) text += fmt::format("; {} have not run", cases_.missing);
     if (cases_.without_stimuli > 0) {
       text += fmt::format("; {} have no stimuli", cases_.without_stimuli);
     }
-    const auto endings = static_cast<std::size_t>(std::ranges::count_if(
-        cases_.items, [](const std::string& item) { return item.starts_with(kEndsItem); }));
-    text +=
-        fmt::format("\n{} covered bins, {} ways to end", cases_.items.size() - endings, endings);
-    if (!cases_.has_coverage) text += "; the records have no coverage, so only these decide";
-    return text;
+    return text + "\n" + reach();
+  }
+
+  /// What the chosen ones have in common with all.
+  std::string reach() const {
+    const auto lost = lost_items();
+    const auto count = [](const auto& items) {
+      return static_cast<std::size_t>(std::ranges::count_if(
+          items, [](const std::string& item) { return item.starts_with(kEndsItem); }));
+    };
+    const std::size_t ends = count(cases_.items) - count(lost);
+    const std::string ways = fmt::format("{} {} to end", ends, ends == 1 ? "way" : "ways");
+    if (!cases_.has_coverage) {
+      return fmt::format("They have {}; the records have no coverage of it, so only these count",
+                         ways);
+    }
+    return fmt::format("They have {} covered bins and {}", cases_.items.size() - lost.size() - ends,
+                       ways);
   }
 
   std::string page() const;
@@ -220,8 +238,8 @@ std::string Distillation::page() const {
   const campaign::Campaign& campaign = input_.plan().campaign();
   const std::string& device = arguments_.component;
   std::string text = fmt::format(
-      "# Regression suite of {0}\n\n{1}. Each case plays what {0} received in the campaign "
-      "{2} of {3} to {0} alone,\nand checks that it does what it did.\n\n"
+      "# Regression suite of {0}\n\n{1}.\n\nEach case plays what {0} received in a case of the "
+      "campaign {2} of {3} to it alone, and checks that\nit does what it did then.\n\n"
       "```sh\n./run.sh\n./run.sh --swap {4}=NEW.fmu\n```\n\n",
       device, summary(), campaign.file.filename().string(), campaign.scenario.filename().string(),
       replay::device_name(device));
@@ -236,7 +254,7 @@ std::string Distillation::page() const {
   for (const auto& one : chosen_) {
     text += fmt::format(
         "| {} | {} | {} | {} | `{}` |\n", one.index, cell(ending(one.index)),
-        cell(fmt::format("{}", fmt::join(one.alone, "; "))),
+        cell(fmt::format("{}", fmt::join(alone(one), "; "))),
         suite_.is_compared(one.index) ? "results and stimuli of the case" : "stimuli of the case",
         cell(input_.plan().command(input_.plan().at(one.index))));
   }
