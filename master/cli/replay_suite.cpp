@@ -27,8 +27,8 @@ constexpr const char* kEvents = "events.csv";
 constexpr std::string_view kScript = R"(#!/bin/sh
 # Plays each case to the device. What follows the name of this script goes to stride, such as
 #   --swap DEVICE=NEW.fmu
-# STRIDE is the program, if it is not in the PATH. The exit code is 0 if the device does what it did.
-stride=${STRIDE:-stride}
+# STRIDE_PROGRAM is the program, if it is not in the PATH. The exit code is 0 if the device does what it did.
+stride=${STRIDE_PROGRAM:-stride}
 here=$(dirname "$0")
 code=0
 for scenario in "$here"/case_*.ssd; do

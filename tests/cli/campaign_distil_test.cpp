@@ -32,7 +32,7 @@ struct Distilled : Workspace {
     fs::remove_all(elsewhere);
     fs::create_directories(elsewhere);
     fs::copy(*this / "suite", elsewhere / "moved", fs::copy_options::recursive);
-    Arguments arguments{"env", "STRIDE=" + stride_command({}).front(),
+    Arguments arguments{"env", "STRIDE_PROGRAM=" + stride_command({}).front(),
                         "STRIDE_UNITS=", "moved/run.sh"};
     arguments.insert(arguments.end(), further.begin(), further.end());
     return Process(arguments, elsewhere).wait();
