@@ -95,6 +95,11 @@ replay::DeviceRecord record_in(const fs::path& folder, const recorders::ResultFi
   return replay::read_device_record(path(files.signals), path(files.events), component, device);
 }
 
+/// "suite/" is "suite".
+fs::path without_slash(fs::path folder) {
+  return folder.has_filename() ? folder : folder.parent_path();
+}
+
 bool has_same_bytes(const fs::path& a, const fs::path& b) {
   return core::read_input(a) == core::read_input(b);
 }
@@ -109,7 +114,7 @@ ReplaySuite::ReplaySuite(const CampaignInput& input, const campaign::CaseFolder&
                          fs::path folder, const Options& options)
     : input_(input),
       cases_(cases),
-      folder_(std::move(folder)),
+      folder_(without_slash(std::move(folder))),
       fresh_(folder_.string() + ".new"),
       options_(options),
       files_(fresh_) {

@@ -100,7 +100,9 @@ TEST_CASE("the suite is the same when it is made again, whatever the jobs were")
   const Distilled space(inputs({"0.5", "9"}, kCapture));
   CHECK(space.distil().exit_code == 0);
   fs::rename(space / "suite", space / "before");
-  CHECK(space.distil().exit_code == 0);
+  fs::create_directory(space / "suite");
+  CHECK(space.stride({"campaign", "distil", "cases", "--component", "second", "-o", "suite/"})
+            .exit_code == 0);
   std::size_t files = 0;
   for (const auto& entry : fs::recursive_directory_iterator(space / "suite")) {
     if (!entry.is_regular_file()) continue;
@@ -254,6 +256,18 @@ TEST_CASE("results of a case that are others are found") {
                       "in the case: y at 0.5 s"));
   CHECK_FALSE(fs::exists(space / "suite"));
   CHECK_FALSE(fs::exists(space / "suite.new"));
+}
+
+TEST_CASE("a device that alone is not given what it was is found") {
+  const Distilled space(inputs({"0.5"}, kCapture), checked_filters(), 0);
+  const std::string name = "cases/cases/000/000000.stimuli/second.csv";
+  std::string stimuli = read(space / name);
+  stimuli.insert(stimuli.find("time,event"), "set,time_constant,2\n");
+  space.scratch().write(name, stimuli);
+  const Outcome outcome = space.distil();
+  CHECK(outcome.exit_code == 1);
+  CHECK_THAT(outcome.err, Contains("as case 0: the device does not receive the same at the same "
+                                   "times when it is alone"));
 }
 
 TEST_CASE("what distil refuses") {
