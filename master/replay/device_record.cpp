@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdlib>
 #include <utility>
 
 #include <fmt/format.h>
@@ -80,6 +81,11 @@ std::vector<std::pair<std::size_t, std::size_t>> common_outputs(const DeviceReco
   return places;
 }
 
+/// Times of files, [s].
+bool is_later(const std::string& time, const std::string& other) {
+  return std::strtod(time.c_str(), nullptr) > std::strtod(other.c_str(), nullptr);
+}
+
 bool is_writable(const std::string& text) {
   return std::ranges::none_of(text, [](unsigned char c) { return c < ' '; });
 }
@@ -103,9 +109,11 @@ DeviceRecord read_device_record(const std::filesystem::path& signals,
 
 std::optional<std::string> first_difference(const DeviceRecord& run, const DeviceRecord& replay,
                                             const StimuliSummary& stimuli) {
-  const auto [mine, other] = std::ranges::mismatch(run.sent, replay.sent);
-  if (mine != run.sent.end() || other != replay.sent.end()) {
-    return fmt::format("the message of {}", text_of(mine != run.sent.end() ? *mine : *other));
+  std::vector<DeviceRecord::Message> sent = run.sent;
+  std::erase_if(sent, [&](const auto& message) { return is_later(message.time, stimuli.end); });
+  const auto [mine, other] = std::ranges::mismatch(sent, replay.sent);
+  if (mine != sent.end() || other != replay.sent.end()) {
+    return fmt::format("the message of {}", text_of(mine != sent.end() ? *mine : *other));
   }
   const auto& exact = stimuli.max_skip ? stimuli.event_instants : stimuli.instants;
   const auto common = common_outputs(run, replay);

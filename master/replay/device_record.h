@@ -34,9 +34,10 @@ DeviceRecord read_device_record(const std::filesystem::path& signals,
                                 const core::UnitDescription& device);
 
 /// Where a replay is not what the device did in the run that the stimuli are from; nothing if it
-/// is. Compared are all messages, and the values of outputs that both have, at the instants at
-/// which the unit was called; with idle skipping at those of events only, since the run has outputs
-/// of a suspended unit on their tangents.
+/// is. Compared are all messages up to the end of the stimuli, and the values of outputs that both
+/// have, at the instants at which the unit was called; with idle skipping at those of events only,
+/// since the run has outputs of a suspended unit on their tangents. A process that was killed may
+/// have written messages that are later than the end of its stimuli.
 std::optional<std::string> first_difference(const DeviceRecord& run, const DeviceRecord& replay,
                                             const StimuliSummary& stimuli);
 

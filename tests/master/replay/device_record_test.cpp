@@ -60,6 +60,7 @@ StimuliSummary stimuli() {
   StimuliSummary made;
   made.instants = {"0", "0.5", "1"};
   made.event_instants = {"0.5"};
+  made.end = "1";
   return made;
 }
 
@@ -105,8 +106,9 @@ TEST_CASE("a difference is found where the unit was called, in all that both hav
 TEST_CASE("a message more, less or other is a difference") {
   CHECK(difference(record(kSignals, with(kEvents, "00ff", "00fe"))) ==
         "the message of frame at 0.5 s");
-  CHECK(difference(record(kSignals, kEvents + "2,0,a,bell,sent,,\n")) ==
-        "the message of bell at 2 s");
+  CHECK(difference(record(kSignals, kEvents + "1,0,a,bell,sent,,\n")) ==
+        "the message of bell at 1 s");
+  CHECK(difference(record(kSignals, kEvents + "1.25,0,a,bell,sent,,\n")) == "none");
   CHECK(difference(record(kSignals, with(kEvents, "0.5,1,a,bell,sent,,\n", ""))) ==
         "the message of bell at 0.5 s");
 }
