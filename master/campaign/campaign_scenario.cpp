@@ -136,6 +136,7 @@ CampaignScenario::CampaignScenario(const Campaign& campaign, const std::string& 
   check_effects(columns);
   find_kinds(campaign, columns);
   check_aggregates(campaign);
+  check_captures(campaign);
   load_alternatives(campaign);
   fingerprints_.version = version;
   take_fingerprints(campaign);
@@ -339,6 +340,21 @@ void CampaignScenario::check_aggregates(const Campaign& campaign) const {
         {.where = aggregate.where},
         fmt::format("{} s is outside of the run, from {} s to {} s", core::to_text(aggregate.at),
                     core::to_text(options.start), core::to_text(options.stop)));
+  }
+}
+
+void CampaignScenario::check_captures(const Campaign& campaign) const {
+  for (const CapturedComponent& capture : campaign.captures) {
+    if (!names_.component(capture.component)) {
+      core::fail_input(
+          {.where = capture.where},
+          fmt::format("there is no component '{}'", core::name_text(capture.component)),
+          core::suggestion(capture.component, loaded_.component_names()));
+    }
+    if (!loaded_.options().sets_inputs_in_steps()) continue;
+    core::fail_input({.where = capture.where},
+                     "inputs of this scenario change within a step, which cannot be captured",
+                     "let it have coupling=\"jacobi\" and extrapolation=\"hold\"");
   }
 }
 

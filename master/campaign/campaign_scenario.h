@@ -64,6 +64,7 @@ class CampaignScenario {
   ValueKind part_kind(const NamedIntervention& intervention, const std::string& part) const;
   ValueKind seed_kind(std::size_t column, const Parameter& seed) const;
   void check_aggregates(const Campaign& campaign) const;
+  void check_captures(const Campaign& campaign) const;
   void load_alternatives(const Campaign& campaign);
   void take_fingerprints(const Campaign& campaign);
 

@@ -68,6 +68,13 @@ void move(const fs::path& from, const fs::path& to) {
                  "see to the folder and its disk, and run the campaign again: it goes on");
 }
 
+/// A folder, in the place of one of a process that was killed before the record was there.
+void replace(const fs::path& from, const fs::path& to) {
+  std::error_code ignored;
+  fs::remove_all(to, ignored);
+  move(from, to);
+}
+
 }  // namespace
 
 fs::path results_of_case(const std::string& name) {
@@ -78,11 +85,19 @@ fs::path record_of_case(const std::string& name) {
   return results_of_case(name).string() + ".json";
 }
 
+fs::path stimuli_of_case(const std::string& name) {
+  return results_of_case(name).string() + ".stimuli";
+}
+
 CaseFolder::CaseFolder(const Plan& plan, fs::path folder)
     : plan_(plan), folder_(std::move(folder)) {}
 
 fs::path CaseFolder::results_name(std::uint64_t index) const {
   return results_of_case(case_name(plan_, index));
+}
+
+fs::path CaseFolder::stimuli_name(std::uint64_t index) const {
+  return stimuli_of_case(case_name(plan_, index));
 }
 
 fs::path CaseFolder::record_file(std::uint64_t index) const {
@@ -130,16 +145,31 @@ CaseScratch::~CaseScratch() {
 
 fs::path CaseScratch::results(std::uint64_t index) const { return folder_ / std::to_string(index); }
 
+fs::path CaseScratch::stimuli(std::uint64_t index) const {
+  return folder_ / fmt::format("{}.stimuli", index);
+}
+
 void CaseScratch::drop_results(std::uint64_t index) const {
   std::error_code ignored;
   fs::remove_all(results(index), ignored);
 }
 
-void CaseScratch::keep_results(std::uint64_t index) const {
-  const fs::path to = cases_.path() / cases_.results_name(index);
+void CaseScratch::drop_stimuli(std::uint64_t index) const {
   std::error_code ignored;
-  fs::remove_all(to, ignored);  // of a process that was killed before the record was there
-  move(results(index), to);
+  fs::remove_all(stimuli(index), ignored);
+}
+
+void CaseScratch::drop_all(std::uint64_t index) const {
+  drop_results(index);
+  drop_stimuli(index);
+}
+
+void CaseScratch::keep_results(std::uint64_t index) const {
+  replace(results(index), cases_.path() / cases_.results_name(index));
+}
+
+void CaseScratch::keep_stimuli(std::uint64_t index) const {
+  replace(stimuli(index), cases_.path() / cases_.stimuli_name(index));
 }
 
 std::optional<std::string> CaseScratch::why_unusable(bool amply) const {

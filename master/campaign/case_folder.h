@@ -17,12 +17,14 @@ inline constexpr const char* kCases = "cases";
 inline constexpr const char* kRunning = "running";
 
 /// Below the folder of a campaign or a search, of the case with this name ("000017"):
-/// "cases/000/000017" and "cases/000/000017.json".
+/// "cases/000/000017", "cases/000/000017.json" and "cases/000/000017.stimuli".
 std::filesystem::path results_of_case(const std::string& name);
 std::filesystem::path record_of_case(const std::string& name);
+std::filesystem::path stimuli_of_case(const std::string& name);
 
 /// The records in the folder of a campaign, one file for each case, in folders of a thousand:
-/// cases/000/000017.json, and beside it, of a case whose results are kept, the folder of that name.
+/// cases/000/000017.json, and beside it, of a case whose results are kept, the folder of that name,
+/// and that of its stimuli, if the campaign captures some.
 class CaseFolder {
  public:
   /// The plan must outlive it.
@@ -32,6 +34,7 @@ class CaseFolder {
 
   /// Below path(): "cases/000/000017".
   std::filesystem::path results_name(std::uint64_t index) const;
+  std::filesystem::path stimuli_name(std::uint64_t index) const;
   std::filesystem::path record_file(std::uint64_t index) const;
 
   /// The line of the record, and what it says; nothing if there is none, or what is there is none.
@@ -68,6 +71,13 @@ class CaseScratch {
   void drop_results(std::uint64_t index) const;
   /// Moves them to their place. To be called before write().
   void keep_results(std::uint64_t index) const;
+
+  /// The same of the stimuli that it captures.
+  std::filesystem::path stimuli(std::uint64_t index) const;
+  void drop_stimuli(std::uint64_t index) const;
+  void keep_stimuli(std::uint64_t index) const;
+  /// Of a case that is to be run again, or has none: the results and the stimuli.
+  void drop_all(std::uint64_t index) const;
 
   /// Why nothing more can be written here, if that is so: a case fails by that without being to
   /// blame. `amply`: much more, such as all results of a case.

@@ -125,6 +125,12 @@ inline constexpr Aggregate::Function kAggregateFunctions[] = {
     Aggregate::Function::Min,   Aggregate::Function::Max, Aggregate::Function::Mean,
     Aggregate::Function::Final, Aggregate::Function::At,  Aggregate::Function::Integral};
 
+/// A component whose stimuli each case keeps, to be played to it alone.
+struct CapturedComponent {
+  std::string component;
+  core::Location where{};
+};
+
 struct Campaign {
   std::filesystem::path file;      ///< as it was given
   std::filesystem::path scenario;  ///< relative to the working directory or absolute
@@ -136,6 +142,7 @@ struct Campaign {
   std::vector<Swap> swaps;
   std::vector<NamedIntervention> interventions;
   Keep keep;
+  std::vector<CapturedComponent> captures;  ///< no two of them name one component
   std::vector<Aggregate> aggregates;
   std::optional<double> wall_time_limit;  ///< of a case [s]
   std::vector<std::string> warnings;      ///< of what is odd, but no mistake

@@ -170,6 +170,19 @@ void read_keep(const xml::Element& element, const Extension& to) {
   }
 }
 
+void read_capture(const xml::Element& element, const Extension& to) {
+  element.allow_attributes({"component"});
+  element.allow_children({});
+  CapturedComponent capture{element.required("component"), element.where()};
+  auto& captures = to.campaign.captures;
+  if (std::ranges::find(captures, capture.component, &CapturedComponent::component) !=
+      captures.end()) {
+    element.fail(
+        fmt::format("the component '{}' is captured twice", core::name_text(capture.component)));
+  }
+  captures.push_back(std::move(capture));
+}
+
 template <class Parse>
 auto parsed(const xml::Element& element, const char* attribute, Parse&& parse) {
   try {
@@ -220,6 +233,7 @@ constexpr ExtensionElement kExtensionElements[] = {
     {"Sampling", false, read_sampling},
     {"ValueSets", true, read_value_sets},
     {"Keep", false, read_keep},
+    {"Capture", true, read_capture},
     {"Aggregate", true, read_aggregate},
     {"Limit", false, read_limit},
 };
@@ -235,6 +249,7 @@ void read_extension(const xml::Element& element, const fs::path& folder, Paramet
                           {kStrideCampaign, "Sampling"},
                           {kStrideCampaign, "ValueSets"},
                           {kStrideCampaign, "Keep"},
+                          {kStrideCampaign, "Capture"},
                           {kStrideCampaign, "Aggregate"},
                           {kStrideCampaign, "Limit"}});
   for (const ExtensionElement& kind : kExtensionElements) {

@@ -126,10 +126,16 @@ Json kept_json(const Campaign& campaign) {
     if (aggregate.function == Aggregate::Function::At) json["at"] = core::to_text(aggregate.at);
     aggregates.push_back(std::move(json));
   }
-  return {{"results", name(campaign.keep.results)},
-          {"every", campaign.keep.every},
-          {"aggregates", aggregates},
-          {"wall_time_limit", campaign.wall_time_limit ? Json(*campaign.wall_time_limit) : Json()}};
+  Json json{
+      {"results", name(campaign.keep.results)},
+      {"every", campaign.keep.every},
+      {"aggregates", aggregates},
+      {"wall_time_limit", campaign.wall_time_limit ? Json(*campaign.wall_time_limit) : Json()}};
+  // a campaign without captures is the one that it was before there were any
+  for (const CapturedComponent& capture : campaign.captures) {
+    json["captures"].push_back(capture.component);
+  }
+  return json;
 }
 
 Json inputs_json(const Fingerprints& fingerprints) {

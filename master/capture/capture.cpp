@@ -31,9 +31,12 @@ std::size_t find_component(const core::System& system, const CaptureRequest& req
 
 }  // namespace
 
-std::filesystem::path copied_stimuli(const std::filesystem::path& results,
-                                     const std::string& component) {
-  return results / "stimuli" / (recorders::unit_folder_name(component) + ".csv");
+std::string stimuli_file_name(const std::string& component) {
+  return recorders::unit_folder_name(component) + ".csv";
+}
+
+std::filesystem::path copied_stimuli(const std::filesystem::path& results) {
+  return results / "stimuli";
 }
 
 Capture::Capture(const core::System& system, const std::string& system_name,
@@ -97,11 +100,11 @@ void Capture::go_on() {
   for (File& file : files_) file.file->file().go_on();
 }
 
-void Capture::continue_in_copies(const std::filesystem::path& results) {
+void Capture::continue_in_copies(const std::filesystem::path& folder) {
+  if (!is_empty()) std::filesystem::create_directories(folder);
   for (File& file : files_) {
-    const auto copy = copied_stimuli(results, system_.components()[file.component].name);
-    std::filesystem::create_directories(copy.parent_path());
-    file.file->file().continue_in_copy(copy);
+    const std::string& component = system_.components()[file.component].name;
+    file.file->file().continue_in_copy(folder / stimuli_file_name(component));
   }
 }
 

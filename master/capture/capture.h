@@ -21,10 +21,11 @@ struct CaptureRequest {
   std::filesystem::path file;
 };
 
-/// Where the stimuli of a component go on that a run has captured, if its results go on in another
-/// folder: in a folder of their own there.
-std::filesystem::path copied_stimuli(const std::filesystem::path& results,
-                                     const std::string& component);
+/// The file of a component's stimuli, in a folder of such files.
+std::string stimuli_file_name(const std::string& component);
+/// The folder in which the stimuli go on that a run has captured, if its results go on in another
+/// one.
+std::filesystem::path copied_stimuli(const std::filesystem::path& results);
 
 /// Call order: construction, wrap(), follow(), add_observer() before the run; end() behind it. The
 /// files hold all up to the last communication point that was reached, whatever ended the run.
@@ -50,8 +51,9 @@ class Capture final : public core::Observer {
   void persist(core::StateArchive& state);
   /// core::OutputFile::go_on() for each.
   void go_on();
-  /// In a fork of the process, behind a flush() in that one: goes on in copies with these results.
-  void continue_in_copies(const std::filesystem::path& results);
+  /// In a fork of the process, behind a flush() in that one: goes on in copies in this folder,
+  /// which is made.
+  void continue_in_copies(const std::filesystem::path& folder);
   /// Hands to the system what is committed.
   void flush();
   void on_finish() override { flush(); }

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "master/capture/capture.h"
 #include "master/checkpoint/checkpoint_file.h"
 #include "master/cli/crash_guard.h"
 #include "master/cli/interruption.h"
@@ -100,7 +101,7 @@ void BranchRuns::make_rest(const Branch& branch) {
   recorders::make_results_folder(setup_.results.folder);
   const recorders::ResultsLock lock(setup_.results.folder);
   recorders::remove_results(setup_.results.folder, setup_.loaded.scenario().annotation.results);
-  setup_.recorded.run_rest(branch.interventions);
+  setup_.recorded.run_rest(branch.interventions, capture::copied_stimuli(setup_.results.folder));
 }
 
 /// Its run.json has the error of a crash, and gets the reason where nothing could write it.

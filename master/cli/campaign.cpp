@@ -12,6 +12,7 @@
 #include "master/campaign/plan.h"
 #include "master/campaign/plan_check.h"
 #include "master/campaign/plan_folder.h"
+#include "master/cli/campaign_distil.h"
 #include "master/cli/campaign_input.h"
 #include "master/cli/campaign_report.h"
 #include "master/cli/campaign_run.h"
@@ -155,6 +156,7 @@ void add_campaign(CLI::App& app) {
   add_campaign_report(*group);
   add_campaign_search(*group);
   add_campaign_shrink(*group);
+  add_campaign_distil(*group);
 }
 
 }  // namespace stride::cli

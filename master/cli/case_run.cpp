@@ -53,13 +53,12 @@ CaseRun::CaseRun(const scenario::ScenarioRequest& request,
       provenance_(provenance(results, loaded_)),
       aggregates_(aggregates, loaded_.system()),
       options_(run_options()),
-      capture_(loaded_.system(), loaded_.scenario().name, options_, {},
-               core::OutputFile::Existing::Emptied),
+      capture_(capture_of(results)),
       unit_folders_(unit_folders_in(target_.folder, loaded_)),
       recorders_(loaded_.system(), target_),
       recorded_(
           {loaded_, options_, provenance_, target_, display_, recorders_, capture_, no_tests_},
-          loaded_.instantiate(target_.folder, &Interruption::flag())) {
+          instantiate()) {
   if (!aggregates.empty()) recorded_.add_observer(aggregates_, aggregates_.signals());
 }
 
@@ -91,6 +90,21 @@ core::RunOptions CaseRun::run_options() const {
   return options;
 }
 
+capture::Capture CaseRun::capture_of(const CaseResults& results) const {
+  std::vector<capture::CaptureRequest> requests;
+  for (const std::string& component : results.captured) {
+    requests.push_back({component, results.stimuli / capture::stimuli_file_name(component)});
+  }
+  if (!requests.empty()) recorders::make_results_folder(results.stimuli);
+  return {loaded_.system(), loaded_.scenario().name, options_, requests};
+}
+
+std::vector<std::unique_ptr<core::Unit>> CaseRun::instantiate() {
+  auto units = loaded_.instantiate(target_.folder, &Interruption::flag());
+  capture_.wrap(units, options_);
+  return units;
+}
+
 CaseResult CaseRun::run() {
   return result_of([&] { recorded_.run(); });
 }
@@ -105,8 +119,9 @@ CaseResult CaseRun::run_rest(std::span<const scenario::InterventionDeclaration> 
                              Time from, const CaseResults& results) {
   target_ = target_of(results, loaded_);
   provenance_.commands = {results.command};
-  return result_of(
-      [&] { recorded_.run_rest(loaded_.interventions_of_branch(interventions, from)); });
+  return result_of([&] {
+    recorded_.run_rest(loaded_.interventions_of_branch(interventions, from), results.stimuli);
+  });
 }
 
 template <class Go>

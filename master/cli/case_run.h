@@ -22,10 +22,12 @@ namespace stride::cli {
 
 /// Which results a case writes beside its record.
 struct CaseResults {
-  std::filesystem::path folder;  ///< empty: none; otherwise it is made
-  bool has_report = false;       ///< else only a case that does not pass has one
-  recorders::Command command{};  ///< that repeats it
-  core::FileDigests& digests;    ///< of the files that it is made from
+  std::filesystem::path folder;         ///< empty: none; otherwise it is made
+  bool has_report = false;              ///< else only a case that does not pass has one
+  recorders::Command command{};         ///< that repeats it
+  core::FileDigests& digests;           ///< of the files that it is made from
+  std::filesystem::path stimuli{};      ///< where those of `captured` go; it is made
+  std::vector<std::string> captured{};  ///< components
 };
 
 /// Prints nothing but warnings.
@@ -63,6 +65,8 @@ class CaseRun {
   static ResultsTarget target_of(const CaseResults& results,
                                  const scenario::LoadedScenario& loaded);
   core::RunOptions run_options() const;
+  capture::Capture capture_of(const CaseResults& results) const;
+  std::vector<std::unique_ptr<core::Unit>> instantiate();
   template <class Go>
   campaign::CaseResult result_of(Go&& go);
 

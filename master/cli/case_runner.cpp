@@ -12,6 +12,7 @@
 #include <unistd.h>
 
 #include "master/capture/capture.h"
+#include "master/capture/unended_stimuli.h"
 #include "master/cli/case_run.h"
 #include "master/cli/command_line.h"
 #include "master/cli/crash_guard.h"
@@ -142,10 +143,15 @@ scenario::ScenarioRequest CaseRunner::request(std::uint64_t index) const {
 
 CaseResults CaseRunner::results(std::uint64_t index) const {
   const campaign::Keep& keep = plan_.campaign().keep;
-  return {.folder = keep.may_be_kept(index) ? scratch_.results(index) : fs::path(),
-          .has_report = keep.are_kept_anyway(index),
-          .command = {plan_.words(plan_.at(index)), command_line().folder},
-          .digests = digests_};
+  CaseResults results{.folder = keep.may_be_kept(index) ? scratch_.results(index) : fs::path(),
+                      .has_report = keep.are_kept_anyway(index),
+                      .command = {plan_.words(plan_.at(index)), command_line().folder},
+                      .digests = digests_,
+                      .stimuli = scratch_.stimuli(index)};
+  for (const auto& [component, where] : plan_.campaign().captures) {
+    results.captured.push_back(component);
+  }
+  return results;
 }
 
 CaseResult CaseRunner::simulate(std::uint64_t index, bool& was_interrupted) const {
@@ -204,6 +210,7 @@ std::string CaseRunner::run_together(const campaign::SharedBeginning& shared, st
   const std::uint64_t first = shared.cases.front();
   CaseResults results = this->results(first);
   if (!results.folder.empty()) results.folder = scratch_.file(fmt::format("beginning_{}", first));
+  results.stimuli = scratch_.file(fmt::format("beginning_{}.stimuli", first));
   scenario::ScenarioRequest request = this->request(first);
   request.interventions.clear();
   try {
@@ -235,8 +242,9 @@ std::string CaseRunner::run_together(const campaign::SharedBeginning& shared, st
   } catch (const EndOfBeginning&) {
   } catch (const std::exception&) {  // each case says it for itself
   }
-  std::error_code ignored;  // it goes with the folder that it is in
+  std::error_code ignored;  // they go with the folder that they are in
   fs::remove_all(results.folder, ignored);
+  fs::remove_all(results.stimuli, ignored);
   return "";
 }
 
@@ -289,14 +297,14 @@ bool CaseRunner::is_doubtful(const CasePool::Ended& ended) const {
   const bool may_be_killed = may_be_killed_from_outside(ended.outcome);
   if (may_be_killed) await_end_of_job();
   if (!may_be_killed && ended.outcome.end != End::Threw && !scratch_.why_unusable()) return false;
-  scratch_.drop_results(ended.index);
+  scratch_.drop_all(ended.index);
   return true;
 }
 
 std::optional<CaseResult> CaseRunner::conclude(const CasePool::Ended& ended) const {
   std::optional<CaseResult> result = result_of(ended);
   if (!result || (!is_complete(*result) && Interruption::flag() != 0)) {
-    scratch_.drop_results(ended.index);
+    scratch_.drop_all(ended.index);
     return std::nullopt;
   }
   require_libraries(ended.index);
@@ -321,6 +329,7 @@ std::optional<CaseResult> CaseRunner::conclude(const CasePool::Ended& ended) con
   } else {
     scratch_.drop_results(ended.index);
   }
+  conclude_stimuli(ended.index, *result);
   scratch_.write(ended.index, campaign::record_line(plan_, plan_.at(ended.index), *result));
   return result;
 }
@@ -347,10 +356,10 @@ void CaseRunner::require_circumstances(const CasePool::Ended& ended,
   const auto fail = [&](const std::string& why, const std::string& hint) {
     fail_case(ended.index, why, result.reason, hint);
   };
-  if (lacked_something) scratch_.drop_results(ended.index);
+  if (lacked_something) scratch_.drop_all(ended.index);
   auto reason = scratch_.why_unusable(lacked_something);
   if (reason && !lacked_something) {
-    scratch_.drop_results(ended.index);
+    scratch_.drop_all(ended.index);
     reason = scratch_.why_unusable();
   }
   if (reason) fail(*reason, "mend that");
@@ -376,6 +385,29 @@ void CaseRunner::complete_results(std::uint64_t index, const CaseResult& result)
     add_error(target, result.reason, result.reached ? std::nullopt : std::optional(Time{}));
   if (!has_reports() || files.report.empty() || core::is_file(folder / files.report)) return;
   if (core::is_file(folder / files.statistics)) write_report(folder, files, folder / files.report);
+}
+
+/// Files that a process could not end are ended here; one that has no step is none.
+void CaseRunner::conclude_stimuli(std::uint64_t index, const CaseResult& result) const {
+  if (plan_.campaign().captures.empty()) return;
+  const fs::path folder = scratch_.stimuli(index);
+  const std::string ending = fmt::format("failed: {}", core::first_line(result.reason));
+  bool has_any = false;
+  std::error_code none;
+  for (const auto& [component, where] : plan_.campaign().captures) {
+    const fs::path file = folder / capture::stimuli_file_name(component);
+    if (!core::is_file(file)) continue;
+    if (capture::end_stimuli(file, ending)) {
+      has_any = true;
+    } else {
+      fs::remove(file, none);
+    }
+  }
+  if (has_any) {
+    scratch_.keep_stimuli(index);
+  } else {
+    scratch_.drop_stimuli(index);
+  }
 }
 
 /// Its results are elsewhere while a case runs, and that is not to be seen.

@@ -61,6 +61,7 @@ class CaseRunner {
                                      const std::string& because, const std::string& hint);
   void require_libraries(std::uint64_t index) const;
   void complete_results(std::uint64_t index, const campaign::CaseResult& result) const;
+  void conclude_stimuli(std::uint64_t index, const campaign::CaseResult& result) const;
   std::string with_lasting_paths(std::uint64_t index, std::string text) const;
 
   const campaign::Plan& plan_;

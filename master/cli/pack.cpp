@@ -15,10 +15,10 @@
 #include "master/cli/output.h"
 #include "master/cli/output_paths.h"
 #include "master/scenario/file_units.h"
+#include "master/scenario/fmu_archives.h"
 #include "master/scenario/scenario.h"
 #include "master/scenario/unit_path.h"
 #include "master/ssp/package.h"
-#include "master/util/archive/temporary_folder.h"
 #include "master/util/archive/zip.h"
 #include "master/util/input_file.h"
 
@@ -26,29 +26,6 @@ namespace stride::cli {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Makes archives of units that are folders or libraries; removes them with this object.
-class FmuArchives {
- public:
-  fs::path operator()(const fs::path& source, const core::Location& where) {
-    const fs::path unit = scenario::find_unit(source, where);
-    const bool is_library = unit.extension() == ".so";
-    if (!is_library && !core::is_folder(unit)) return unit;
-    const fs::path made = folder_.path() / fmt::format("{}.fmu", ++count_);
-    if (is_library) {
-      importer::pack({unit, {}, {}, made});
-    } else {
-      archive::Contents contents;
-      archive::add_folder(contents, "", unit);
-      archive::write_zip(made, contents);
-    }
-    return made;
-  }
-
- private:
-  archive::TemporaryFolder folder_;
-  int count_ = 0;
-};
 
 bool is_scenario(const fs::path& path) {
   return core::is_folder(path) || path.extension() == ".ssd" || path.extension() == ".ssp";
@@ -76,7 +53,7 @@ void pack_scenario(const importer::PackRequest& request) {
   }
   const scenario::Scenario scenario =
       scenario::read_scenario(request.library, {scenario::find_unit, {}});
-  FmuArchives fmus;
+  scenario::FmuArchives fmus;
   archive::write_zip(request.output,
                      ssp::package_contents(scenario.files->system_file(request.library),
                                            *scenario.files, std::ref(fmus)));

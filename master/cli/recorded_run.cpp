@@ -267,10 +267,11 @@ void RecordedRun::flush() {
   setup_.capture.flush();
 }
 
-void RecordedRun::run_rest(std::vector<core::Intervention> interventions) {
+void RecordedRun::run_rest(std::vector<core::Intervention> interventions,
+                           const std::filesystem::path& stimuli) {
   has_test_report_ = false;
   setup_.recorders.continue_in_copies(setup_.results);
-  setup_.capture.continue_in_copies(setup_.results.folder);
+  setup_.capture.continue_in_copies(stimuli);
   further_ = interventions;
   simulation_.add_interventions(std::move(interventions));
   announce();

@@ -112,9 +112,10 @@ class RecordedRun {
   /// In a pause, before the process is forked: what is written so far is in the files.
   void flush();
   /// Instead of what follows a pause, in a fork of the process: the rest of the run, with these
-  /// interventions. The results, whose target has changed, begin with copies of those before; there
-  /// is no test report. Throws as run() does.
-  void run_rest(std::vector<core::Intervention> interventions);
+  /// interventions. The results, whose target has changed, begin with copies of those before, and
+  /// so do the captures, in the folder `stimuli`; there is no test report. Throws as run() does.
+  void run_rest(std::vector<core::Intervention> interventions,
+                const std::filesystem::path& stimuli);
 
   /// At a communication point: adds the states of all but the units.
   void add_to(checkpoint::Checkpoint& checkpoint);

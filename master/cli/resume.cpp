@@ -112,7 +112,8 @@ void go_elsewhere(RunArguments& arguments, Resumption& resumption, const fs::pat
   for (std::string& text : arguments.captures) {
     const auto parts = scenario::split_component_file(text);
     if (!parts) continue;
-    const fs::path copy = capture::copied_stimuli(folder, parts->component);
+    const fs::path copy =
+        capture::copied_stimuli(folder) / capture::stimuli_file_name(parts->component);
     resumption.copies.emplace_back(parts->file, copy);
     text = fmt::format("{}={}", parts->component, copy.string());
   }

@@ -76,6 +76,7 @@ TEST_CASE("the identity changes with what decides results or is kept, and with n
   CHECK(identity(one) == identity(one, "<stride:Keep results='failed'/>"));
   CHECK(identity(one) != identity(one, "<stride:Keep results='all'/>"));
   CHECK(identity(one) != identity(one, "<stride:Limit wallTime='1'/>"));
+  CHECK(identity(one) != identity(one, "<stride:Capture component='b'/>"));
   CHECK(identity(one) != identity(one, "<stride:Aggregate name='n' signal='b.y' function='max'/>"));
   CHECK(identity(one) != identity(deterministic(value_set("b.u", {"1", "3"}))));
   CHECK(identity(one) != identity(deterministic(value_range("b.u", "1", "1", "2"))));

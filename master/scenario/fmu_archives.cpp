@@ -1,0 +1,28 @@
+#include "master/scenario/fmu_archives.h"
+
+#include <fmt/format.h>
+
+#include "master/importer/pack.h"
+#include "master/scenario/unit_path.h"
+#include "master/util/archive/zip.h"
+#include "master/util/input_file.h"
+
+namespace stride::scenario {
+
+std::filesystem::path FmuArchives::operator()(const std::filesystem::path& source,
+                                              const core::Location& where) {
+  const std::filesystem::path unit = find_unit(source, where);
+  const bool is_library = unit.extension() == ".so";
+  if (!is_library && !core::is_folder(unit)) return unit;
+  const std::filesystem::path made = folder_.path() / fmt::format("{}.fmu", ++count_);
+  if (is_library) {
+    importer::pack({unit, {}, {}, made});
+  } else {
+    archive::Contents contents;
+    archive::add_folder(contents, "", unit);
+    archive::write_zip(made, contents);
+  }
+  return made;
+}
+
+}  // namespace stride::scenario

@@ -1,0 +1,150 @@
+#include "master/campaign/distil.h"
+
+#include <bit>
+#include <random>
+
+#include <catch2/catch.hpp>
+
+using namespace stride::campaign;
+
+namespace {
+
+using Items = std::set<std::string>;
+
+Items all_items(const std::vector<DistilCandidate>& candidates, unsigned chosen) {
+  Items items;
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    if ((chosen >> i & 1) != 0)
+      items.insert(candidates[i].items.begin(), candidates[i].items.end());
+  }
+  return items;
+}
+
+/// By trying all subsets.
+std::size_t fewest(const std::vector<DistilCandidate>& candidates) {
+  const unsigned every = (1U << candidates.size()) - 1;
+  const Items wanted = all_items(candidates, every);
+  int best = static_cast<int>(candidates.size());
+  for (unsigned chosen = 0; chosen <= every; ++chosen) {
+    if (std::popcount(chosen) < best && all_items(candidates, chosen) == wanted) {
+      best = std::popcount(chosen);
+    }
+  }
+  return static_cast<std::size_t>(best);
+}
+
+/// The bit of each chosen candidate.
+unsigned places(const std::vector<DistilCandidate>& candidates,
+                const std::vector<DistilledCase>& chosen) {
+  unsigned bits = 0;
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    for (const DistilledCase& one : chosen) {
+      if (one.index == candidates[i].index) bits |= 1U << i;
+    }
+  }
+  return bits;
+}
+
+std::vector<DistilCandidate> random_candidates(std::mt19937& random) {
+  const auto below = [&](unsigned limit) { return random() % limit; };
+  std::vector<DistilCandidate> candidates(1 + below(9));
+  const unsigned items = 1 + below(10);
+  const unsigned density = 1 + below(6);
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    candidates[i].index = 100 - 7 * i;
+    for (unsigned item = 0; item < items; ++item) {
+      if (below(density) == 0) candidates[i].items.insert(std::to_string(item));
+    }
+  }
+  return candidates;
+}
+
+double harmonic(std::size_t count) {
+  double sum = 0;
+  for (std::size_t i = 1; i <= count; ++i) sum += 1.0 / static_cast<double>(i);
+  return sum;
+}
+
+std::vector<std::uint64_t> indices(const std::vector<DistilledCase>& chosen) {
+  std::vector<std::uint64_t> found;
+  for (const DistilledCase& one : chosen) found.push_back(one.index);
+  return found;
+}
+
+}  // namespace
+
+TEST_CASE("what is distilled has all items, none too many, and is near to the fewest") {
+  std::mt19937 random(20261126);
+  std::size_t optimal = 0;
+  constexpr int kInstances = 2000;
+  for (int i = 0; i < kInstances; ++i) {
+    const auto candidates = random_candidates(random);
+    const auto chosen = distil(candidates);
+    const unsigned bits = places(candidates, chosen);
+    const Items wanted = all_items(candidates, (1U << candidates.size()) - 1);
+    CAPTURE(i, bits);
+    REQUIRE(static_cast<std::size_t>(std::popcount(bits)) == chosen.size());
+    REQUIRE(all_items(candidates, bits) == wanted);
+    for (std::size_t place = 0; place < candidates.size(); ++place) {
+      const unsigned bit = 1U << place;
+      if ((bits & bit) != 0) REQUIRE(all_items(candidates, bits & ~bit) != wanted);
+    }
+    const std::size_t least = fewest(candidates);
+    REQUIRE(static_cast<double>(chosen.size()) <=
+            harmonic(wanted.size()) * static_cast<double>(least) + 1e-9);
+    optimal += chosen.size() == least;
+  }
+  CHECK(optimal > kInstances * 9 / 10);
+}
+
+TEST_CASE("what a case has alone is what would be missing without it") {
+  std::mt19937 random(7);
+  for (int i = 0; i < 200; ++i) {
+    const auto candidates = random_candidates(random);
+    const auto chosen = distil(candidates);
+    const unsigned bits = places(candidates, chosen);
+    const Items wanted = all_items(candidates, bits);
+    for (const DistilledCase& one : chosen) {
+      Items rest = all_items(candidates, bits & ~places(candidates, {one}));
+      CHECK_FALSE(one.alone.empty());
+      for (const std::string& item : one.alone) CHECK(rest.insert(item).second);
+      CHECK(rest == wanted);
+    }
+  }
+}
+
+TEST_CASE("of equal cases the first is taken, whatever their order") {
+  CHECK(indices(distil(std::vector<DistilCandidate>{{5, {"a"}}, {2, {"a"}}, {9, {"a"}}})) ==
+        std::vector<std::uint64_t>{2});
+  // 0 is taken first, and needed no longer when 1 and 2 are there
+  CHECK(indices(distil(std::vector<DistilCandidate>{
+            {0, {"a", "b", "c"}}, {1, {"a", "b", "x"}}, {2, {"c", "y"}}})) ==
+        std::vector<std::uint64_t>{1, 2});
+  CHECK(distil(std::vector<DistilCandidate>{{0, {}}}).empty());
+  CHECK(distil(std::vector<DistilCandidate>{}).empty());
+}
+
+TEST_CASE("endings are the same where outcome and failed checks are") {
+  CaseResult result;
+  CHECK(ending_of(result) == "passed");
+  result.outcome = Outcome::Failed;
+  result.verdicts = {{"b", "Always", false, "", {}},
+                     {"c", "Always", true, "", {}},
+                     {"a", "", false, "at 1 s", 1.0},
+                     {"d", "", std::nullopt, "", {}}};
+  CHECK(ending_of(result) == "failed by 'a', 'b'");
+  result.verdicts.clear();
+  result.outcome = Outcome::TimedOut;
+  CHECK(ending_of(result) == "timed out");
+}
+
+TEST_CASE("covered bins are those of the component in the record") {
+  const std::string record =
+      R"x({"case":3,"coverage":{"sensor":{"field":{"[0, 0.005)":[12,1.25],"> 1":[1,2]},)x"
+      R"x("led":{"true":[1,0.5]}},"reader":{"x":{"y":[1,0]}}}})x";
+  CHECK(covered_bins(record, "sensor") == Items{"field: > 1", "field: [0, 0.005)", "led: true"});
+  CHECK(covered_bins(record, "led").empty());
+  CHECK(covered_bins(R"({"case":3})", "sensor").empty());
+  CHECK(covered_bins(R"({"coverage":[]})", "sensor").empty());
+  CHECK(covered_bins("{", "sensor").empty());
+}
