@@ -317,7 +317,11 @@ std::string late_interventions(const std::string& extension) {
 Parts checked_second() {
   Parts parts = two_filters();
   parts.annotation =
-      "<stride:Checks><stride:Always name='bounded' signal='second.y' max='1'/></stride:Checks>\n";
+      "<stride:Checks><stride:Always name='bounded' signal='second.y' max='1'/></stride:Checks>\n"
+      "<stride:Coverage><stride:Group component='second'>"
+      "<stride:Values name='in' signal='u' edges='0 0.1 0.2 0.3 0.5 1 9'/>"
+      "<stride:Values name='out' signal='y' edges='0 0.1 0.2 0.5 1 9'/>"
+      "<stride:Cross of='in out'/></stride:Group></stride:Coverage>\n";
   return parts;
 }
 
@@ -339,6 +343,8 @@ TEST_CASE("cases that share a beginning are what they are alone") {
   CHECK(space.stride({"campaign", "status", "alone"}).exit_code == 0);
   CHECK_THAT(outcome.err, Contains("of 12 cases have not passed"));
   CHECK(space.table("together") == space.table("alone"));
+  CHECK_THAT(space.table("alone"), Contains(",coverage:second,"));
+  CHECK(space.file("together/coverage.json") == space.file("alone/coverage.json"));
   for (int i = 0; i < 12; ++i) {
     const fs::path results = "cases/000/0000" + std::string(i < 10 ? "0" : "") + std::to_string(i);
     const bool is_kept = fs::exists(space / "alone" / results);

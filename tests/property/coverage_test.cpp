@@ -142,6 +142,22 @@ TEST_CASE("a replay covers the same where the component was suspended") {
   CHECK(seen > 5);
 }
 
+TEST_CASE(
+    "what an input does within its deadband, while the component is suspended, is not counted") {
+  Assembly system;
+  system.add("wave", "linear", {{"frequency", "200"}, {"damping", "0"}, {"x", "0.35"}});
+  system.add("tank", "idler", {{"rate", "5"}, {"period", "0.0215"}, {"announces", "1"}});
+  system.wire("wave.x", "tank.inflow");
+  core::RunOptions options = fixed_steps(kCoverageStep, kCoverageStop);
+  options.idle.max_skip = {std::nullopt, Duration(1s)};
+  options.idle.least = kCoverageStep;
+  const core::UnitDescription& tank = *system.declaration().components[1].description;
+  options.idle.deadbands = {{{1, tank.find("inflow").value()}, 0.2}};
+  std::size_t seen = 0;
+  check_covered_replay(system, "tank", options, seen, Duration(1s));
+  CHECK(seen > 5);
+}
+
 TEST_CASE("threads and hosts change nothing of what is covered") {
   for (unsigned seed = 0; seed < kCoverageSystems / 10 + 1; ++seed) {
     const Assembly system = random_system(seed, Wiring::Continuous);

@@ -2,11 +2,15 @@
 
 #include <filesystem>
 #include <limits>
+#include <utility>
+#include <variant>
+#include <vector>
 
 #include <catch2/catch.hpp>
 #include <unistd.h>
 
 #include "master/campaign/campaign_junit.h"
+#include "master/coverage/coverage_json.h"
 #include "tests/master/campaign/records.h"
 
 using namespace stride;
@@ -25,6 +29,7 @@ const CaseResult kFailed{
                  {"low", "", true, "", {}},
                  {"open", "Count", std::nullopt, "", {}}},
     .aggregates = {0.1},
+    .coverage = CaseCoverage{"0f", {{"b", {{"y", {{"[0, 1)", 3, 0.5}, {"NaN", 1, 0}}}}}}},
     .reached = 1,
     .has_results = true,
     .wall_time = 0.25,
@@ -130,4 +135,36 @@ TEST_CASE("a test report of a campaign") {
                           "type=\"failed\">") &&
                  Contains("<skipped message=\"the case has not been run\"/>") &&
                  Contains(" --set b.u="));
+}
+
+TEST_CASE("coverage of the cases is a column, and merged as far as its definition is the same") {
+  const Records records;
+  coverage::GroupDefinition group{.component = 1, .name = "b"};
+  coverage::PointDefinition& point = group.points.emplace_back();
+  point.name = point.signal = "y";
+  point.classes = coverage::equal_ranges(0, 2, 2, false, core::ValueType::Float64);
+  point.bins = std::get<coverage::Ranges>(*point.classes).bins();
+  const std::vector definitions{group};
+  const auto covering = [&](const std::string& bin, std::string definition) {
+    return CaseResult{
+        .aggregates = {1},
+        .coverage = CaseCoverage{std::move(definition), {{"b", {{"y", {{bin, 2, 0.5}}}}}}}};
+  };
+  records.write(0, covering("NaN", coverage::hash(definitions)));
+  records.write(2, covering("[0, 1)", coverage::hash(definitions)));
+  records.write(3, covering("[1, 2]", "another"));
+  const CaseScratch scratch(records.cases);
+  const CaseSummary summary =
+      write_case_tables(records.plan, records.cases, scratch, 5, definitions);
+  CHECK(summary.otherwise_covered == 1);
+  REQUIRE(summary.coverage);
+  CHECK(summary.coverage->cases == 2U);
+  const auto& bins = summary.coverage->groups[0].points[0].bins;
+  CHECK(bins[0] == coverage::BinCount{"[0, 1)", false, 2, 0.5, 2});
+  CHECK((bins[1].count == 0 && bins[4].in_case == 0U));
+  CHECK(coverage::read_coverage(records.folder / "out/coverage.json") == *summary.coverage);
+  const std::string table = content(records.folder / "out/cases.csv");
+  CHECK_THAT(table, Contains("\"\"b\"\"\",coverage:b,reached,"));
+  CHECK_THAT(table, Contains("passed,,1,0,") && Contains("passed,,1,50,") &&
+                        Contains("passed,,1,,") && Contains("missing,,,,,"));
 }

@@ -92,6 +92,7 @@ TEST_CASE("run.json has what was run and how far the run came") {
   const std::vector<core::Verdict> verdicts = {{"b, c", false, "too \"late\""}, check()};
   options.recorded = {{0, 1}, {1, 4}};
   const std::vector<Plot> plots = {{"Height", {"a.distance"}}};
+  const std::vector<CoverageSummary> coverage = {{"a", 62.5, {}}, {"b, c", {}, 90.0}};
   ResultFiles files;
   files.trace.clear();
   const core::System system = wired_system();
@@ -106,7 +107,8 @@ TEST_CASE("run.json has what was run and how far the run came") {
                                        .statistics = statistics,
                                        .verdicts = verdicts,
                                        .files = files,
-                                       .plots = plots});
+                                       .plots = plots,
+                                       .coverage = coverage});
   CHECK(content(folder / "run.json") == R"({
   "scenario": "scenarios/x.ssd",
   "system": "sample",
@@ -147,6 +149,18 @@ TEST_CASE("run.json has what was run and how far the run came") {
         "to": null,
         "max": 2.5
       }
+    }
+  ],
+  "coverage": [
+    {
+      "component": "a",
+      "percentage": 62.5,
+      "goal": null
+    },
+    {
+      "component": "b, c",
+      "percentage": null,
+      "goal": 90.0
     }
   ],
   "threads": 4,
@@ -244,7 +258,8 @@ TEST_CASE("run.json has what was run and how far the run came") {
     "events": "events.csv",
     "activity": "activity.csv",
     "statistics": "run.json",
-    "report": "report.html"
+    "report": "report.html",
+    "coverage": "coverage.json"
   },
   "signals": [
     {
