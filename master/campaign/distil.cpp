@@ -8,7 +8,6 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <nlohmann/json.hpp>
 
 namespace stride::campaign {
 namespace {
@@ -96,6 +95,15 @@ class Cover {
   std::vector<std::size_t> chosen_;              ///< places
 };
 
+/// Whether the bin is a part of the percentage, or of an open point.
+bool counts(const coverage::GroupDefinition& group, const std::string& point,
+            const std::string& bin) {
+  const auto of = std::ranges::find(group.points, point, &coverage::PointDefinition::name);
+  const auto declared = std::ranges::find(of->bins, bin, &coverage::DeclaredBin::name);
+  if (declared != of->bins.end()) return !declared->is_ignored;
+  return of->is_open && !of->ignores(bin);
+}
+
 }  // namespace
 
 std::vector<DistilledCase> distil(std::span<const DistilCandidate> candidates) {
@@ -111,15 +119,20 @@ std::string ending_of(const CaseResult& result) {
   return fmt::format("{} by {}", name(result.outcome), fmt::join(failed, ", "));
 }
 
-std::set<std::string> covered_bins(std::string_view record, const std::string& component) {
+std::set<std::string> covered_bins(const CaseResult& result, const std::string& component,
+                                   std::span<const coverage::GroupDefinition> coverage) {
   std::set<std::string> bins;
-  const auto json = nlohmann::json::parse(record, nullptr, false);
-  if (!json.is_object() || !json.contains("coverage")) return bins;
-  const auto& coverage = json["coverage"];
-  if (!coverage.is_object() || !coverage.contains(component)) return bins;
-  for (const auto& [point, visits] : coverage[component].items()) {
-    if (!visits.is_object()) continue;
-    for (const auto& [bin, count] : visits.items()) bins.insert(point + ": " + bin);
+  if (!result.coverage) return bins;
+  const bool is_known = result.coverage->definition == coverage::hash(coverage);
+  const auto definition = std::ranges::find(coverage, component, &coverage::GroupDefinition::name);
+  for (const coverage::CoveredGroup& group : result.coverage->bins) {
+    if (group.component != component) continue;
+    for (const coverage::CoveredPoint& point : group.points) {
+      for (const coverage::CoveredBin& bin : point.bins) {
+        if (is_known && !counts(*definition, point.name, bin.name)) continue;
+        bins.insert(point.name + ": " + bin.name);
+      }
+    }
   }
   return bins;
 }

@@ -6,10 +6,10 @@
 #include <set>
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "master/campaign/case_record.h"
+#include "master/coverage/definition.h"
 
 namespace stride::campaign {
 
@@ -36,9 +36,11 @@ std::vector<DistilledCase> distil(std::span<const DistilCandidate> candidates);
 /// and the same failed checks and verdicts it is the same.
 std::string ending_of(const CaseResult& result);
 
-/// The bins of this component's coverage that the record of a case lists: "POINT: BIN". Empty where
-/// it lists none.
-std::set<std::string> covered_bins(std::string_view record, const std::string& component);
+/// The bins of this component that a case has hit, and that count: "POINT: BIN". Empty where its
+/// record has no coverage. `coverage` is that of the scenario; of a case whose units give another
+/// one all bins count.
+std::set<std::string> covered_bins(const CaseResult& result, const std::string& component,
+                                   std::span<const coverage::GroupDefinition> coverage);
 
 }  // namespace stride::campaign
 

@@ -65,7 +65,8 @@ Cases read_cases(const CampaignInput& input, const campaign::CaseFolder& folder,
       ++cases.missing;
       continue;
     }
-    campaign::DistilCandidate candidate{i, campaign::covered_bins(record->line, component)};
+    campaign::DistilCandidate candidate{
+        i, campaign::covered_bins(record->result, component, input.scenario().loaded().coverage())};
     cases.has_coverage = cases.has_coverage || !candidate.items.empty();
     candidate.items.insert(std::string(kEndsItem) + campaign::ending_of(record->result));
     cases.items.insert(candidate.items.begin(), candidate.items.end());
@@ -151,7 +152,7 @@ class Distillation {
     bool has_all = true;
     for (const auto& one : chosen_) {
       if (suite_.has(one.index)) continue;
-      auto why = suite_.add(one.index, cases_.results.at(one.index).has_results);
+      auto why = suite_.add(one.index, cases_.results.at(one.index));
       if (!why) continue;
       has_all = false;
       unusable_.emplace(one.index, std::move(*why));

@@ -1,5 +1,6 @@
 #include "master/cli/replay_suite.h"
 
+#include <algorithm>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -10,6 +11,7 @@
 #include "master/campaign/plan_folder.h"
 #include "master/capture/capture.h"
 #include "master/cli/replay_run.h"
+#include "master/coverage/coverage_json.h"
 #include "master/recorders/results_folder.h"
 #include "master/replay/device_record.h"
 #include "master/util/error.h"
@@ -20,6 +22,7 @@ namespace stride::cli {
 namespace {
 
 namespace fs = std::filesystem;
+using coverage::CoveredGroup;
 
 constexpr const char* kSignals = "signals.csv";
 constexpr const char* kEvents = "events.csv";
@@ -135,7 +138,8 @@ ReplaySuite::~ReplaySuite() {
 
 fs::path ReplaySuite::golden(const std::string& name) const { return fresh_ / "golden" / name; }
 
-std::optional<std::string> ReplaySuite::add(std::uint64_t index, bool has_results) {
+std::optional<std::string> ReplaySuite::add(std::uint64_t index,
+                                            const campaign::CaseResult& result) {
   const std::string name = replay_name(input_.plan(), index);
   const scenario::LoadedScenario loaded = load_case(input_, index);
   const replay::ReplaySource source{loaded, place_of(loaded, options_.component),
@@ -144,7 +148,7 @@ std::optional<std::string> ReplaySuite::add(std::uint64_t index, bool has_result
   std::optional<std::string> why;
   try {
     files_.write(name, source);
-    why = why_unlike(index, source, has_results);
+    why = why_unlike(index, source, result);
   } catch (const core::Error& mistake) {
     if (mistake.kind() != core::Error::Kind::Input) throw;
     why = mistake.what();
@@ -152,14 +156,14 @@ std::optional<std::string> ReplaySuite::add(std::uint64_t index, bool has_result
   if (why) {
     drop(name);
   } else {
-    added_[index] = has_results;
+    added_[index] = result.has_results;
   }
   return why;
 }
 
 std::optional<std::string> ReplaySuite::why_unlike(std::uint64_t index,
                                                    const replay::ReplaySource& source,
-                                                   bool has_results) {
+                                                   const campaign::CaseResult& result) {
   const std::string name = replay_name(input_.plan(), index);
   const std::string device = replay::device_name(options_.component);
   const core::UnitDescription& description =
@@ -168,7 +172,8 @@ std::optional<std::string> ReplaySuite::why_unlike(std::uint64_t index,
   if (auto why = run_replay(run)) return why;
   if (auto why = why_received_other(source)) return why;
   const replay::DeviceRecord record = record_in(run.results, {}, device, description);
-  if (has_results) {
+  if (auto why = why_covered_other(run.results, result)) return why;
+  if (result.has_results) {
     const auto difference = replay::first_difference(
         record_in(input_.folder() / cases_.results_name(index),
                   source.loaded.scenario().annotation.results, options_.component, description),
@@ -183,7 +188,10 @@ std::optional<std::string> ReplaySuite::why_unlike(std::uint64_t index,
     return fmt::format("it does not do the same twice: {} is another", file);
   }
   for (const fs::path& file : core::folder_entries(golden(name))) {
-    if (file.filename() != kSignals && file.filename() != kEvents) fs::remove_all(file);
+    const fs::path name_only = file.filename();
+    if (name_only != kSignals && name_only != kEvents && name_only != coverage::kCoverageFile) {
+      fs::remove_all(file);
+    }
   }
   return std::nullopt;
 }
@@ -194,6 +202,26 @@ std::optional<std::string> ReplaySuite::why_received_other(
       fresh_ / "stimuli" / capture::stimuli_file_name(replay::device_name(options_.component));
   if (replay::repeated_part(again) == replay::repeated_part(source.stimuli)) return std::nullopt;
   return "the device does not receive the same at the same times when it is alone";
+}
+
+/// A case that did not come to its end may have covered more than is in its stimuli.
+std::optional<std::string> ReplaySuite::why_covered_other(
+    const fs::path& results, const campaign::CaseResult& result) const {
+  using campaign::Outcome;
+  const bool is_whole = result.outcome == Outcome::Passed || result.outcome == Outcome::Failed;
+  if (!is_whole || !result.coverage) return std::nullopt;
+  const auto of_case =
+      std::ranges::find(result.coverage->bins, options_.component, &CoveredGroup::component);
+  if (of_case == result.coverage->bins.end()) return std::nullopt;
+  const coverage::CoveredBins again =
+      coverage::covered_bins(coverage::read_coverage(results / coverage::kCoverageFile));
+  for (const coverage::CoveredPoint& point : of_case->points) {
+    const auto& points = again.at(0).points;
+    const auto found = std::ranges::find(points, point.name, &coverage::CoveredPoint::name);
+    if (found != points.end() && *found == point) continue;
+    return fmt::format("it does not cover what it covered in the case: '{}'", point.name);
+  }
+  return std::nullopt;
 }
 
 void ReplaySuite::drop(const std::string& name) {

@@ -36,10 +36,10 @@ class ReplaySuite {
   ReplaySuite& operator=(const ReplaySuite&) = delete;
 
   /// Writes the replay of a case, runs it, and compares it: with the stimuli that it is made of,
-  /// with the results of the case, if these are kept, and with itself. Nothing if all is the same
-  /// and it is in the suite, otherwise why it cannot be. Throws core::Error as run_replay() does,
-  /// and where something cannot be written.
-  std::optional<std::string> add(std::uint64_t index, bool has_results);
+  /// with what the case has covered, with its results, if these are kept, and with itself. Nothing
+  /// if all is the same and it is in the suite, otherwise why it cannot be. Throws core::Error as
+  /// run_replay() does, and where something cannot be written.
+  std::optional<std::string> add(std::uint64_t index, const campaign::CaseResult& result);
   bool has(std::uint64_t index) const { return added_.contains(index); }
   /// Whether it was compared with the results of the case, too.
   bool is_compared(std::uint64_t index) const { return added_.at(index); }
@@ -49,7 +49,9 @@ class ReplaySuite {
 
  private:
   std::optional<std::string> why_unlike(std::uint64_t index, const replay::ReplaySource& source,
-                                        bool has_results);
+                                        const campaign::CaseResult& result);
+  std::optional<std::string> why_covered_other(const std::filesystem::path& results,
+                                               const campaign::CaseResult& result) const;
   std::optional<std::string> why_received_other(const replay::ReplaySource& source) const;
   std::filesystem::path golden(const std::string& name) const;
   void drop(const std::string& name);

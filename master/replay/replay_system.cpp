@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "master/model/array_element.h"
+#include "master/scenario/coverage_writer.h"
 #include "master/ssp/ssp.h"
 #include "master/util/time_text.h"
 #include "master/util/xml/writer.h"
@@ -131,6 +132,7 @@ class ReplayWriter {
     write_idle_skipping();
     write_settings_in_the_run();
     write_records();
+    write_coverage();
     write_expectations();
     writer_.close();
   }
@@ -204,6 +206,15 @@ class ReplayWriter {
       write_element("stride:Record", {{"signals", pattern_of(own_name(variable.name))}});
     }
     write_element("stride:Results", {{"trace", "none"}, {"activity", "none"}, {"report", "none"}});
+  }
+
+  void write_coverage() {
+    for (const auto& group : request_.loaded.scenario().annotation.coverage) {
+      if (group.component != component_.name) continue;
+      writer_.open("stride:Coverage");
+      scenario::write_group(writer_, group, device_);
+      writer_.close();
+    }
   }
 
   void write_expectations() {

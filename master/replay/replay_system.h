@@ -45,7 +45,7 @@ bool is_reported(const core::UnitDescription& device, const core::Variable& vari
 /// The text of a .ssd: the component with the parameters that it had, also those that were set in
 /// the course of the run, the player, connected to all inputs that it has, the steps and the idle
 /// skipping with which the component's bits are what they were (docs/stimuli.md), the recorded
-/// outputs, and the expectations as checks.
+/// outputs, the coverage of the component, and the expectations as checks.
 std::string replay_system(const ReplayRequest& request);
 
 }  // namespace stride::replay

@@ -1,12 +1,16 @@
 // stride campaign distil, from outside.
 #include <algorithm>
 #include <map>
+#include <set>
+
+#include <nlohmann/json.hpp>
 
 #include "tests/cli/campaigns.h"
 #include "tests/cli/scenarios.h"
 
 using namespace stride::tests;
 using Catch::Matchers::Contains;
+using nlohmann::json;
 
 namespace {
 
@@ -55,13 +59,6 @@ struct Distilled : Workspace {
     }
     std::sort(names.begin(), names.end());
     return names;
-  }
-  /// As if the case had covered this.
-  void cover(const std::string& index, const std::string& coverage) const {
-    const std::string name = "cases/cases/000/00000" + index + ".json";
-    std::string line = read(*this / name);
-    line.insert(line.find("\"hash\""), "\"coverage\":{\"second\":" + coverage + "},");
-    scratch().write(name, line);
   }
 };
 
@@ -114,17 +111,50 @@ TEST_CASE("the suite is the same when it is made again, whatever the jobs were")
   CHECK(files == 11);
 }
 
-TEST_CASE("the cases that are chosen cover what all cover") {
-  const Distilled space(inputs({"0.5", "0.25", "0.75", "9", "5"}, kCapture));
-  space.cover("0", R"x({"u":{"[0, 1)":[3,0.5],"[1, 2)":[1,0.25]}})x");
-  space.cover("1", R"x({"u":{"[0, 1)":[3,0.5]},"y":{"low":[1,0]}})x");
-  space.cover("2", R"x({"u":{"[0, 1)":[2,0.5],"[1, 2)":[1,0.25]},"y":{"high":[1,0]}})x");
-  space.cover("4", R"x({"y":{"high":[1,0]}})x");
+TEST_CASE("the cases that are chosen cover what all cover, and so do their replays") {
+  Parts parts = checked_filters();
+  parts.annotation +=
+      "<stride:Coverage><stride:Group component='second' goal='90'>"
+      "<stride:Values name='in' signal='u' edges='-1 -0.3 0 0.3 0.6'/>"
+      "</stride:Group></stride:Coverage>";
+  const Distilled space(inputs({"0.5", "0.25", "-0.5", "9", "5"}, kCapture), parts);
   space.check_distilled();
-  CHECK(space.replays() == std::vector<std::string>{"case_000001", "case_000002", "case_000003"});
+  CHECK(space.replays() == std::vector<std::string>{"case_000002", "case_000003"});
+  // what is above 0.6 is no part of it
   CHECK_THAT(read(space / "suite/README.md"),
-             Contains("They have 4 covered bins and 2 ways to end.\n") && Contains("| y: low |") &&
-                 Contains("| u: [1, 2); y: high |"));
+             Contains("They have 4 covered bins and 2 ways to end.\n") &&
+                 Contains("in: [0.3, 0.6]") && Contains("in: [-1, -0.3)"));
+  Arguments merge{"coverage", "--out", "replays.json"};
+  for (const std::string& name : space.replays())
+    merge.push_back("elsewhere/moved/results/" + name);
+  REQUIRE(space.stride(merge).exit_code == 0);
+  const auto hits = [&](const std::string& file) {
+    std::set<std::string> names;
+    const json report = json::parse(read(space / file));
+    for (const auto& bin : report["groups"][0]["points"][0]["bins"]) {
+      if (bin["count"] > 0 && !bin.contains("ignored")) names.insert(bin["name"]);
+    }
+    return names;
+  };
+  CHECK(hits("replays.json").size() == 4);
+  CHECK(hits("replays.json") == hits("cases/coverage.json"));
+}
+
+TEST_CASE("a replay that covers something else is in no suite") {
+  Parts parts = checked_filters();
+  parts.annotation +=
+      "<stride:Coverage><stride:Group component='second'>"
+      "<stride:Values name='in' signal='u' min='0' max='1'/></stride:Group></stride:Coverage>";
+  const Distilled space(inputs({"0.5"}, kCapture), parts, 0);
+  const std::string name = "cases/cases/000/000000.json";
+  std::string line = read(space / name);
+  const std::string count = "\"[0.1, 0.2)\":[1,";
+  line.replace(line.find(count), count.size(), "\"[0.1, 0.2)\":[2,");
+  space.scratch().write(name, line);
+  const Outcome outcome = space.distil();
+  CHECK(outcome.exit_code == 1);
+  CHECK_THAT(outcome.err, Contains("it does not cover what it covered in the case: 'in'"));
+  CHECK_FALSE(fs::exists(space / "suite"));
 }
 
 TEST_CASE("a device that does something else fails its suite") {

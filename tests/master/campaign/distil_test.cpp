@@ -138,13 +138,25 @@ TEST_CASE("endings are the same where outcome and failed checks are") {
   CHECK(ending_of(result) == "timed out");
 }
 
-TEST_CASE("covered bins are those of the component in the record") {
-  const std::string record =
-      R"x({"case":3,"coverage":{"sensor":{"field":{"[0, 0.005)":[12,1.25],"> 1":[1,2]},)x"
-      R"x("led":{"true":[1,0.5]}},"reader":{"x":{"y":[1,0]}}}})x";
-  CHECK(covered_bins(record, "sensor") == Items{"field: > 1", "field: [0, 0.005)", "led: true"});
-  CHECK(covered_bins(record, "led").empty());
-  CHECK(covered_bins(R"({"case":3})", "sensor").empty());
-  CHECK(covered_bins(R"({"coverage":[]})", "sensor").empty());
-  CHECK(covered_bins("{", "sensor").empty());
+TEST_CASE("covered bins are those of the component that count") {
+  using stride::coverage::GroupDefinition;
+  using stride::coverage::Kind;
+  using stride::coverage::PointDefinition;
+  PointDefinition field{.name = "field"};
+  field.bins = {{"[0, 1)"}, {"[1, 2]"}, {"> 2", true}};
+  PointDefinition words{.name = "words", .kind = Kind::Words, .is_open = true, .ignored = {"x*"}};
+  const std::vector<GroupDefinition> groups{{0, "sensor", {}, {field, words}}};
+  CaseResult result;
+  CHECK(covered_bins(result, "sensor", groups).empty());
+  result.coverage = {hash(groups),
+                     {{"sensor",
+                       {{"field", {{"[0, 1)", 3, 0.5}, {"> 2", 1, 0.25}}},
+                        {"words", {{"read", 1, 1}, {"x1", 1, 1}}}}},
+                      {"reader", {{"y", {{"z", 1, 0}}}}}}};
+  CHECK(covered_bins(result, "sensor", groups) == Items{"field: [0, 1)", "words: read"});
+  CHECK(covered_bins(result, "led", groups).empty());
+  // of another definition nothing more is known
+  result.coverage->definition = "another";
+  CHECK(covered_bins(result, "sensor", groups) ==
+        Items{"field: > 2", "field: [0, 1)", "words: read", "words: x1"});
 }

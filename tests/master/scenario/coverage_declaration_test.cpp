@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "master/scenario/coverage_writer.h"
 #include "master/util/xml/document.h"
 #include "tests/master/ssp/support.h"
 
@@ -37,30 +38,41 @@ std::string covered_error(const std::string& element) {
 
 }  // namespace
 
-TEST_CASE("groups and points in their order, with their lines") {
-  const auto groups =
-      read_below("Coverage",
-                 "<stride:Group component='a' goal='90.5' atLeast='2'>\n"
-                 "<stride:Values name='near' signal='d' min='0' max='2.5' bins='5' scale='log'/>\n"
-                 "<stride:Values signal='e' edges='0 1e-3 1' atLeast='3'/>\n"
-                 "<stride:Transitions signal='led'/>\n"
-                 "<stride:Words event='frame' words=' read  write '/>\n"
-                 "<stride:Lengths event='frame' max='20'/><stride:Sequences event='frame'/>\n"
-                 "<stride:Gaps event='frame' min='1e-3' max='10'/>\n"
-                 "<stride:Cross name='both' of='near led'/>\n"
-                 "<stride:Ignore point='near' bins='[0, 1)'/>\n"
-                 "</stride:Group>\n<stride:Group component='b'/>\n",
-                 &read_coverage);
+TEST_CASE("groups and points in their order, with their lines, also written anew") {
+  const bool is_written = GENERATE(false, true);
+  const std::string text =
+      "<stride:Group component='a' goal='90.5' atLeast='2'>\n"
+      "<stride:Values name='near' signal='d' min='0' max='2.5' bins='5' scale='log'/>\n"
+      "<stride:Values signal='e' edges='0 1e-3 1' atLeast='3'/>\n"
+      "<stride:Transitions signal='led'/>\n"
+      "<stride:Words event='frame' words=' read  write '/>\n"
+      "<stride:Lengths event='frame' max='20'/><stride:Sequences event='frame'/>\n"
+      "<stride:Gaps event='frame' min='1e-3' max='10'/>\n"
+      "<stride:Cross name='both' of='near led'/>\n"
+      "<stride:Ignore point='near' bins='[0, 1)'/>\n"
+      "</stride:Group>\n<stride:Group component='b'/>\n";
+  auto groups = read_below("Coverage", text, &read_coverage);
+  if (is_written) {
+    xml::Writer writer;
+    writer.open("stride:Coverage");
+    writer.attribute("xmlns:stride", "urn:org.stride:scenario:1");
+    for (const GroupDeclaration& one : groups) write_group(writer, one, one.component);
+    writer.close();
+    const TemporaryFolder folder;
+    const xml::Document document(folder.write("y.ssd", writer.document()), "y.ssd");
+    groups = read_coverage(document.root());
+  }
   REQUIRE(groups.size() == 2);
   CHECK((groups[1].component == "b" && groups[1].points.empty() && !groups[1].goal));
   const GroupDeclaration& group = groups[0];
-  CHECK((group.goal == 90.5 && group.at_least == 2 && group.where.line == 2));
+  CHECK((group.goal == 90.5 && group.at_least == 2));
+  CHECK((is_written || group.where.line == 2));
   REQUIRE(group.points.size() == 8);
   const auto& points = group.points;
   CHECK((points[0].name == "near" && points[0].subject == "d" && points[0].is_logarithmic));
   CHECK((points[0].min == 0.0 && points[0].max == 2.5 && points[0].bins == 5U));
   CHECK(points[1].edges == std::vector<double>{0, 1e-3, 1});
-  CHECK((points[1].at_least == 3U && points[1].where.line == 4));
+  CHECK((points[1].at_least == 3U && (is_written || points[1].where.line == 4)));
   CHECK((points[2].kind == PointKind::Transitions && points[2].subject == "led"));
   CHECK(points[3].words == std::vector<std::string>{"read", "write"});
   CHECK((points[4].kind == PointKind::Lengths && points[4].greatest == 20U));
