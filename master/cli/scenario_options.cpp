@@ -141,6 +141,8 @@ void add_scenario_options(CLI::App& command, scenario::ScenarioRequest& request)
                   "Longest time for which an idle unit is suspended; 1 if the scenario has none")
       ->type_name("SECONDS");
   command.add_flag("--no-checks", request.no_checks, "Ignore the scenario's checks");
+  command.add_flag("--no-coverage", request.no_coverage,
+                   "Ignore the scenario's coverage, and checks of it");
   add_host_options(command, request.hosts);
   command
       .add_option_function<std::vector<std::string>>(

@@ -341,13 +341,14 @@ void LoadedScenario::choose_checks(const ScenarioRequest& request) {
 }
 
 void LoadedScenario::choose_coverage(const ScenarioRequest& request) {
-  std::vector<GroupDeclaration> groups = scenario_.annotation.coverage;
+  std::vector<GroupDeclaration> groups;
+  if (!request.no_coverage) groups = scenario_.annotation.coverage;
   for (const std::string& component : request.coverage) {
     groups.push_back({.component = component, .where = {"--coverage " + component, 0}});
   }
-  const auto& demands = scenario_.annotation.covered;
-  coverage_ = select_coverage(*system_, groups,
-                              request.no_checks ? std::span(demands).first(0) : std::span(demands));
+  std::span<const CoveredDeclaration> demands = scenario_.annotation.covered;
+  if (request.no_checks || request.no_coverage) demands = {};
+  coverage_ = select_coverage(*system_, groups, demands);
   check_demand_names();
   for (const std::string& note : coverage_.notes) spdlog::warn("{}", core::message_text(note));
   if (coverage_.groups.empty()) return;

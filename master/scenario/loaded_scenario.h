@@ -53,6 +53,7 @@ struct ScenarioRequest {
   bool no_idle_skip = false;
   std::string max_skip;  ///< seconds, for all components; empty = the scenario's
   bool no_checks = false;
+  bool no_coverage = false;           ///< nor checks of it
   std::vector<std::string> coverage;  ///< components that get a group of automatic points
   bool idle_twins = false;            ///< adds them, see idle_twins.h
   HostRequest hosts;

@@ -115,6 +115,8 @@ TEST_CASE("a check can demand coverage") {
   CHECK(checks[0]["kind"] == "covered");
   CHECK(checks[0]["margin"]["unit"] == "percentage points");
   CHECK(workspace.run(with_inputs({"--no-checks"})).exit_code == 0);
+  CHECK(workspace.run(with_inputs({"--no-coverage"})).exit_code == 0);
+  CHECK_FALSE(fs::exists(workspace / "out/coverage.json"));
   const Outcome cut = workspace.run(with_inputs({"--stop", "0.05"}));
   CHECK(cut.exit_code == 0);
   CHECK_THAT(cut.out, Contains("undecided"));

@@ -73,8 +73,8 @@ class Campaign:
                 "commands": page_data.pack_texts(f"stride run tank.ssd --set tank.load={load}" for load in self.load),
                 "began": page_data.pack_texts(["2026-11-25T23:59:59Z"] * self.count),
                 "hosts": page_data.pack_texts(["left <b>"] * self.count)},
-            "correlations": [{"parameter": 1, "failure": unclear, "aggregates": [unclear]},
-                             {"parameter": 0, "failure": correlation, "aggregates": [correlation]}],
+            "correlations": [{"parameter": 1, "failure": unclear, "aggregates": [unclear], "margins": []},
+                             {"parameter": 0, "failure": correlation, "aggregates": [correlation], "margins": []}],
             "shares": [{"parameter": 2, "count": 2, "values": [{"value": "old", **both}, {"value": "new <b>", **both}]}],
         }
         data.update(parts)
@@ -298,6 +298,30 @@ class CampaignTest(unittest.TestCase):
         self.assertIn("3 of 4 cases are missing", browser.one(".warning").text)
         self.assertIn("stride campaign run tank.xosc", browser.one(".warning code").text)
         self.assertEqual(len(self.cases()), 4)
+        self.assertEqual(browser.errors(), [])
+
+    def test_coverage_is_a_map_that_leads_to_the_first_case(self):
+        campaign = Campaign()
+        bins = [{"name": "low × <b>", "count": 9, "first": 0.5, "case": 3}, {"name": "low × off", "count": 0},
+                {"name": "high × <b>", "count": 1, "first": 2, "case": 5}, {"name": "high × off", "count": 0,
+                                                                           "ignored": True}]
+        point = {"name": "both", "kind": "cross", "of": ["level", "lamp"], "at_least": 2, "open": False,
+                 "percentage": 33.39, "bins": bins}
+        words = {"name": "words", "kind": "words", "signal": "frame", "unit": "", "at_least": 1, "open": True,
+                 "percentage": None, "bins": [{"name": "read", "count": 2, "first": 1, "case": 3}]}
+        group = {"component": "tank", "goal": 90, "percentage": 33.39, "points": [point, words]}
+        browser = self.open(campaign, campaign.data(coverage={"groups": [group]}))
+        self.assertEqual(browser.texts(".group-share.bad"), ["33.3 % of a goal of 90 %"])
+        self.assertEqual(browser.texts(".bin-matrix tbody th"), ["low", "high"])
+        self.assertEqual(browser.texts(".bin-matrix thead th"), ["<b>", "off"])
+        states = [cell.get_attribute("class") for cell in browser.all(".bin-matrix .bin")]
+        self.assertEqual(states, ["bin hit", "bin missed", "bin few", "bin ignored"])
+        self.assertEqual(browser.texts(".coverage tbody td.number")[:2], ["1 of 3", "33.3 %"])
+        browser.all(".bin-matrix .bin")[2].click()
+        browser.settle()
+        self.assertEqual(browser.texts(".tip div"), ["high × <b>", "1 visit", "not visited often enough",
+                                                     "first at 2 s of case 5"])
+        self.assertEqual(browser.texts(".cases .marked td")[0], "5")
         self.assertEqual(browser.errors(), [])
 
     def test_a_campaign_in_which_nothing_varies(self):
