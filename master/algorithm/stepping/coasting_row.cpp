@@ -58,6 +58,11 @@ bool CoastingRow::step(const StepInterval& interval, Progress& progress) {
   return is_plain || conclude(progress);
 }
 
+void CoastingRow::release() {
+  for (const Member& member : members_) member.unit->leave_row();
+  row_->release();
+}
+
 void CoastingRow::count_rollback() {
   if (std::exchange(rolled_back_, steps_) != steps_) interval_.count_rollback();
 }
@@ -127,7 +132,9 @@ void CoastingRow::settle() {
 /// Of a step that is noted, and that not all of them have just made. Returns false.
 bool CoastingRow::conclude(const Progress& progress) {
   if (progress.plain == members_.size()) return true;
-  members_[progress.plain].unit->end_step_in_row(progress.result);
+  const StepResult& result = progress.result;
+  if (result.rejected || result.early_return) count_rollback();  // of those before it
+  members_[progress.plain].unit->end_step_in_row(result);
   for (const Member& member : std::span(members_).subspan(progress.plain + 1)) {
     member.unit->leave_before_step();
   }

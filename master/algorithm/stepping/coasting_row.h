@@ -35,6 +35,7 @@ class CoastingRow : public UnitRow {
 
   std::size_t size() const override { return members_.size(); }
   bool step(const StepInterval& interval, Progress& progress) override;
+  void release() override;
 
   // For its units:
   const RowLog& log() const { return log_; }

@@ -209,9 +209,9 @@ void CoastingUnit::bound_log() {
 
 /// Inputs that were set since the state was saved are a part of what is restored.
 void CoastingUnit::restore_state() {
-  leave_row();
   interval_.count_rollback();
-  if (row_.row != nullptr) row_.row->count_rollback();
+  if (row_.is_joined) row_.row->count_rollback();
+  leave_row();
   state_.restore_state();
   log_.cut(mark_);
   is_continuous_ = stretch_ > 1;

@@ -96,6 +96,11 @@ class CoastingUnit : public ForwardingUnit, public StateSaving, public Concurren
   void end_step_in_row(const StepResult& result);
   /// The last step in the row's log is none of this unit.
   void leave_before_step();
+  /// Before anything is asked of the unit by itself: it takes over what the row notes of it.
+  void leave_row() {
+    if (row_.is_joined) [[unlikely]]
+      leave_behind_step();
+  }
   /// The row has forgotten all: the state is to be saved before the next step.
   void drop_row();
 
@@ -114,11 +119,6 @@ class CoastingUnit : public ForwardingUnit, public StateSaving, public Concurren
   /// Since its state was saved.
   std::size_t steps() const { return log_.steps() + (row_.is_joined ? steps_in_row() : 0); }
   std::size_t steps_in_row() const;
-  /// To be called before anything is asked of the unit by itself.
-  void leave_row() {
-    if (row_.is_joined) [[unlikely]]
-      leave_behind_step();
-  }
   void leave_behind_step();
   void take_steps(std::uint64_t end);
   void take_last_step(Time reached);

@@ -258,3 +258,15 @@ TEST_CASE("a unit of a row that does not repeat what it did is saved before each
   f.step(5);
   CHECK(f.journal == "A b+ b C a+ a b+ b c+ c A b+ b C ");
 }
+
+TEST_CASE("units of a row that is released have all that was noted of them") {
+  CoastingRows f;
+  f.make_steps(3);
+  f.row->release();
+  f.take_journal();
+  for (double& input : f.blocks[0].numbers<double>()) input = 77;
+  for (const auto& unit : f.coasting) unit->restore_state();
+  CHECK(f.take_journal() == "a- a A a+ b- b B b+ c- c C c+ ");
+  f.step(2);
+  CHECK(f.output(0) == CoastingRows::sum_of(0, 3));
+}
