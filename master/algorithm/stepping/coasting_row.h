@@ -41,6 +41,10 @@ class CoastingRow : public UnitRow {
   const RowLog& log() const { return log_; }
   /// One of them has left what is noted here.
   void note_departure() { settled_until_ = 0; }
+  /// Whether to save the states of units costs less than that they take over so many steps each.
+  bool is_save_cheaper(std::size_t steps) const {
+    return interval_.is_save_cheaper(steps * members_.size());
+  }
   /// One of them is taken back. Counts once in a step of the row.
   void count_rollback();
 

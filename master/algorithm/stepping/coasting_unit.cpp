@@ -77,7 +77,7 @@ StepResult CoastingUnit::step(const StepInterval& interval, const StepValues& va
 }
 
 StepResult CoastingUnit::save_and_step(const StepInterval& interval, const StepValues& values) {
-  leave_row();
+  leave_before_save();
   if (is_save_due() && interval_.begin_single_step()) [[likely]] {
     stretch_ = 1;
     begin_log();

@@ -119,6 +119,7 @@ class CoastingUnit : public ForwardingUnit, public StateSaving, public Concurren
   /// Since its state was saved.
   std::size_t steps() const { return log_.steps() + (row_.is_joined ? steps_in_row() : 0); }
   std::size_t steps_in_row() const;
+  void leave_before_save();
   void leave_behind_step();
   void take_steps(std::uint64_t end);
   void take_last_step(Time reached);

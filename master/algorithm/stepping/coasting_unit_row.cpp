@@ -42,8 +42,15 @@ void CoastingUnit::end_step_in_row(const StepResult& result) {
   note_save();
 }
 
+/// The next save may be made.
+void CoastingUnit::leave_before_save() {
+  if (!row_.is_joined) return;
+  row_.row->is_save_cheaper(steps_in_row()) ? drop_row() : leave_row();
+}
+
 void CoastingUnit::leave_before_step() {
   if (!row_.is_joined) return;
+  if (row_.row->is_save_cheaper(steps_in_row())) return drop_row();
   take_steps(row_.row->log().end() - 1);
   note_save();
 }

@@ -51,6 +51,11 @@ class SaveInterval {
   bool is_measured() const { return is_measured_; }
   void add_costs(Cost save, Cost step);
 
+  /// Whether a save, as far as it was measured, costs less than to note so many steps of units by
+  /// themselves. Never, if it does not adapt.
+  bool is_save_cheaper(std::size_t steps) const {
+    return adapts_ && save_cost_ < NoteCosts{}.near * static_cast<double>(steps);
+  }
   void set_note_costs(const NoteCosts& costs) { note_costs_ = costs; }
 
   void count_step() { ++steps_; }
