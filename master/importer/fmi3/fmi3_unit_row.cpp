@@ -151,7 +151,7 @@ bool Fmi3Unit::Row::step_singly(const core::StepInterval& interval, Progress& pr
   const Status status = do_step(member, interval, step);
   const bool is_plain = status == Status::Ok && are_all_quiet() &&
                         !(step.needs_event | step.terminate | step.early) &&
-                        is_end(interval, step.last_successful, tolerance);
+                        is_usual_end(member, interval, step.last_successful, tolerance);
   if (!is_plain) [[unlikely]]
     return go_on(member, interval, {Stage::Step, status, step}, result);
   if (member.output.count == 0) return true;
@@ -237,6 +237,7 @@ core::StepResult Fmi3Unit::Row::end_step(InRow& member, const core::StepInterval
   if (!unit.is_plain_end(interval, status, answer.step, time_tolerance(interval))) {
     result = unit.evaluate(interval, status, answer.step);
     if (result.rejected) return result;
+    member.drifts = unit.has_time_warning_;
   }
   unit.was_restored_ = false;
   unit.time_ = result.reached;

@@ -2,6 +2,7 @@
 #ifndef STRIDE_MASTER_IMPORTER_FMI3_FMI3_UNIT_ROW_H
 #define STRIDE_MASTER_IMPORTER_FMI3_FMI3_UNIT_ROW_H
 
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -37,6 +38,7 @@ class Fmi3Unit::Row final : public core::UnitRow, public InstanceRow {
     Block input, output;
     core::ProcessorMode::Signals signals;  ///< behind its last step
     bool may_go_back;
+    bool drifts = false;  ///< from the ends of steps, as has been said of it
   };
   /// The calls of a unit step, up to one of them.
   enum class Stage : std::uint8_t { Set, Step, Get };
@@ -63,6 +65,12 @@ class Fmi3Unit::Row final : public core::UnitRow, public InstanceRow {
   bool is_quick(const core::StepInterval& interval) const {
     const double sum = interval.begin_seconds + interval.size_seconds;
     return !is_watched_ && interval.size_seconds > 0 && sum <= stop_seconds_;
+  }
+  /// Whether a step that ended at this time of the unit's own needs no further look.
+  static bool is_usual_end(const InRow& member, const core::StepInterval& interval, double seconds,
+                           double tolerance) {
+    constexpr double kMost = 9e6;  // it is a Time
+    return is_end(interval, seconds, tolerance) || (member.drifts && std::abs(seconds) < kMost);
   }
   bool step_singly(const core::StepInterval& interval, Progress& progress);
   bool step_quickly(InRow& member, const core::StepInterval& interval, double tolerance,
