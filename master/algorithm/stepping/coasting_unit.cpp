@@ -4,7 +4,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include "master/algorithm/stepping/coasting_row.h"
 #include "master/util/state_archive.h"
 #include "master/util/wall_clock.h"
 
@@ -209,8 +208,7 @@ void CoastingUnit::bound_log() {
 
 /// Inputs that were set since the state was saved are a part of what is restored.
 void CoastingUnit::restore_state() {
-  interval_.count_rollback();
-  if (row_.is_joined) row_.row->count_rollback();
+  count_rollback();
   leave_row();
   state_.restore_state();
   log_.cut(mark_);

@@ -120,6 +120,7 @@ class CoastingUnit : public ForwardingUnit, public StateSaving, public Concurren
   std::size_t steps() const { return log_.steps() + (row_.is_joined ? steps_in_row() : 0); }
   std::size_t steps_in_row() const;
   void leave_before_save();
+  void count_rollback();
   void leave_behind_step();
   void take_steps(std::uint64_t end);
   void take_last_step(Time reached);

@@ -42,6 +42,11 @@ void CoastingUnit::end_step_in_row(const StepResult& result) {
   note_save();
 }
 
+void CoastingUnit::count_rollback() {
+  interval_.count_rollback();
+  if (row_.is_joined) row_.row->count_rollback();
+}
+
 /// The next save may be made.
 void CoastingUnit::leave_before_save() {
   if (!row_.is_joined) return;

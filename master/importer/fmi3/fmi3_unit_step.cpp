@@ -1,10 +1,12 @@
 // How a unit of FMI 3.0 steps.
 #include <algorithm>
+#include <memory>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "master/importer/fmi3/fmi3_unit.h"
+#include "master/importer/fmi3/fmi3_unit_row.h"
 #include "master/util/time_text.h"
 
 namespace stride::importer {
@@ -109,6 +111,30 @@ core::StepResult Fmi3Unit::evaluate(const core::StepInterval& interval, Status s
           .event_handling_needed = answer.needs_event,
           .terminate_simulation = answer.terminate,
           .reached = answer.early ? reached_early(interval, answer.last_successful) : interval.to};
+}
+
+// ---- Steps in a row ----
+
+bool Fmi3Unit::can_be_in_row(const Member& member) const {
+  const auto has_other_type = [](const core::BoundValues& values) {
+    return values.block->type() != core::ValueType::Float64;
+  };
+  const auto [inputs, outputs] = member.values;
+  return row_ == nullptr && !present_.has_note() && !input_update_ && mode_.is_usual() &&
+         fmi_.SetFloat64 != nullptr && fmi_.GetFloat64 != nullptr && fmi_.DoStep != nullptr &&
+         inputs.size() <= 1 && outputs.size() <= 1 &&
+         std::ranges::none_of(inputs, has_other_type) &&
+         std::ranges::none_of(outputs, has_other_type);
+}
+
+std::unique_ptr<core::UnitRow> Fmi3Unit::make_row(std::span<const Member> members) {
+  const auto can_be_in_it = [&](const Member& member) {
+    const auto* const unit = dynamic_cast<const Fmi3Unit*>(member.unit);
+    return unit != nullptr && unit->can_be_in_row(member) && unit->mode_ == mode_;
+  };
+  const auto end = std::ranges::find_if_not(members, can_be_in_it);
+  if (end == members.begin()) return nullptr;
+  return std::make_unique<Row>(std::span(members.begin(), end));
 }
 
 // ---- Inputs within a step ----
