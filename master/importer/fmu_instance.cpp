@@ -51,7 +51,10 @@ FmuInstance::FmuInstance(const char* prefix, std::shared_ptr<const SharedLibrary
   begin_receiving();
 }
 
-FmuInstance::~FmuInstance() { end_receiving(); }
+FmuInstance::~FmuInstance() {
+  end_receiving();
+  if (notices_ != 0) --noticed_;
+}
 
 bool FmuInstance::declares(core::CapabilityId id) const {
   using core::CapabilityId;
@@ -110,7 +113,7 @@ void FmuInstance::fail_not_callable(const char* name) const {
     fail(fmt::format("{} cannot be called, because {} has failed before", name, failed_in_));
   }
   throw core::ConsequentError(
-      core::Error::Kind::Run, {.where = options_.where, .unit = name_, .time = time_},
+      core::Error::Kind::Run, {.where = options_.where, .unit = name_, .time = time()},
       fmt::format("{} cannot be called, because an instance of the same FMU has returned "
                   "{}Fatal before",
                   name, prefix_));
@@ -272,7 +275,7 @@ bool FmuInstance::is_known(Status status) const {
 }
 
 void FmuInstance::fail(const std::string& message, const std::string& hint) const {
-  core::fail_run({.where = options_.where, .unit = name_, .time = time_}, message, hint);
+  core::fail_run({.where = options_.where, .unit = name_, .time = time()}, message, hint);
 }
 
 void FmuInstance::fail_missing(const char* name, const char* capability) const {
@@ -298,7 +301,7 @@ std::vector<UnitCall> unfinished_calls(const char* thread) {
     calls.push_back({.function = present.function(),
                      .unit = instance.name_,
                      .where = instance.options_.where,
-                     .time = instance.time_,
+                     .time = instance.time(),
                      .variable = variable != nullptr ? instance.variable_name(*variable) : "",
                      .is_by_thread = present.thread() == thread});
   });
@@ -313,7 +316,7 @@ std::optional<UnitCall> last_call_of_this_thread() {
     last = {.function = function,
             .unit = instance.name_,
             .where = instance.options_.where,
-            .time = instance.time_,
+            .time = instance.time(),
             .variable = {},
             .is_by_thread = true};
   });
@@ -397,6 +400,11 @@ void FmuInstance::warn(const std::string& message) const {
 }
 
 // ---- Times ----
+
+std::optional<Time> FmuInstance::time() const {
+  if (present_.is_in_row()) return row_->present().time();
+  return row_ != nullptr && row_->steps() != 0 ? row_->to() : time_;
+}
 
 double FmuInstance::set_stop(Time start, std::optional<Time> stop) {
   start_ = start;

@@ -23,6 +23,7 @@
 #include "master/algorithm/unit.h"
 #include "master/importer/call_note.h"
 #include "master/importer/callback_receiver.h"
+#include "master/importer/instance_row.h"
 #include "master/importer/present_call.h"
 #include "master/importer/shared_library.h"
 #include "master/importer/status.h"
@@ -98,7 +99,9 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics, public Call
     return step(interval, core::StepValues{});
   }
   std::string rejection_reason() const override { return rejection_reason_; }
-  std::uint64_t calls() const override { return calls_; }
+  std::uint64_t calls() const override {
+    return calls_ + (row_ != nullptr ? row_->steps() * calls_in_row_ : 0);
+  }
   void set_repeating(bool repeating) override { is_repeating_ = repeating; }
 
   bool is_in_call() const final { return present_.function() != nullptr; }
@@ -146,6 +149,7 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics, public Call
   }
   /// For a call that does not count, or goes on.
   [[gnu::always_inline]] void write_note(const char* name) {
+    settle_row();
     core::ForkMark::set();
     present_.begin(name, time_);
   }
@@ -160,16 +164,9 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics, public Call
   /// depend on. Other calls of the unit meanwhile belong to the sequence.
   class CallSequence {
    public:
-    enum class Kind : std::uint8_t {
-      Single,
-      /// Its functions are there and can be called, no other process has a note of it, its first
-      /// calls are over, and `signals_` is looked at behind the row.
-      InRow,
-    };
-
     /// From this time on. `function` is named if the mode is another one.
     /// Throws if no function can be called.
-    CallSequence(FmuInstance& unit, const char* function, Time time, Kind kind = Kind::Single);
+    CallSequence(FmuInstance& unit, const char* function, Time time);
     ~CallSequence();
     CallSequence(const CallSequence&) = delete;
     CallSequence& operator=(const CallSequence&) = delete;
@@ -192,8 +189,30 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics, public Call
 
     FmuInstance& unit_;
     const char* function_;
-    const Kind kind_;
   };
+  /// From now on it may step in this row, with so many calls in a step; null: in none.
+  void set_row(InstanceRow* row, std::uint64_t calls) {
+    row_ = row;
+    calls_in_row_ = calls;
+    present_.set_row(row != nullptr ? &row->present() : nullptr);
+  }
+  /// To be called before anything is done with it by itself.
+  [[gnu::always_inline]] void settle_row() {
+    if (row_ != nullptr && row_->steps() != 0) [[unlikely]]
+      row_->settle();
+  }
+  /// The simulated time that it has reached, for messages.
+  std::optional<Time> time() const;
+  /// Whether a call that has just returned left nothing but its status.
+  [[gnu::always_inline]] bool is_quiet() const {
+    return notices_.load(std::memory_order_relaxed) == 0 && core::ForkMark::is_set();
+  }
+  /// Likewise, where only instances of this process that have notices are looked at closely.
+  [[gnu::always_inline]] static bool are_all_quiet() {
+    return noticed_.load(std::memory_order_relaxed) == 0 && core::ForkMark::is_set();
+  }
+  /// Puts it back, and warns as the next function.
+  void restore_mode(const char* function);
   /// Warns that a call of this function has left another mode behind, once.
   void warn_of_mode(const char* function, const core::ProcessorMode& left);
   /// After a call of this function: see InstanceOptions::process.
@@ -362,7 +381,8 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics, public Call
   bool is_repeating_ = false;             ///< what it logs has been logged before
   int watched_calls_ = 0;  ///< so many of the next ones are followed by restore_process()
   const core::ProcessorMode mode_ = core::ProcessorMode::present();
-  core::ProcessorMode::Signals signals_;  ///< behind its last step in a row
+  InstanceRow* row_ = nullptr;
+  std::uint64_t calls_in_row_ = 0;
   std::optional<Time> time_;
   double stop_seconds_ = std::numeric_limits<double>::infinity();
   struct {
@@ -385,11 +405,13 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics, public Call
     kFork = 2,      ///< the present function has made this process, by fork()
   };
   bool has(Notice notice) const { return (notices_.load(std::memory_order_relaxed) & notice) != 0; }
-  void add(Notice notice) { notices_.fetch_or(notice); }
-  void remove(Notice notice) { notices_.fetch_and(static_cast<std::uint8_t>(~notice)); }
-  /// Whether the call that has just returned left nothing but its status.
-  [[gnu::always_inline]] bool is_quiet() const {
-    return notices_.load(std::memory_order_relaxed) == 0 && core::ForkMark::is_set();
+  void add(Notice notice) {
+    if (notices_.fetch_or(notice) == 0) ++noticed_;
+  }
+  void remove(Notice notice) {
+    const auto others = static_cast<std::uint8_t>(~notice);
+    const std::uint8_t before = notices_.fetch_and(others);
+    if (before != 0 && (before & others) == 0) --noticed_;
   }
   [[gnu::always_inline]] bool is_copy_of_process() const {
     return has(kFork) || !core::ForkMark::is_set();
@@ -404,14 +426,6 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics, public Call
       check_registers(function);
     core::ProcessorMode::empty_registers();
   }
-  /// Likewise, of what costs least to be seen: all but the signals, which are noted.
-  [[gnu::always_inline]] void check_mode_in_row(const char* function) {
-    signals_.note();
-    if (!mode_.is_almost_present()) [[unlikely]]
-      restore_mode(function);
-    core::ProcessorMode::empty_registers();
-  }
-  void restore_mode(const char* function);
   /// Warns, once.
   void check_registers(const char* function);
   std::string status_name(Status status) const;
@@ -430,6 +444,8 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics, public Call
   std::string hint_for(const char* function, Status status) const;
   void give_up_saving(std::string failure);
   void warn_of_null_state(const char* saved_by);
+
+  static inline std::atomic<std::uint32_t> noticed_{0};  ///< so many instances have notices
 
   const char* prefix_;
   std::optional<Time> start_, stop_;

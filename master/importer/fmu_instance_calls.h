@@ -53,35 +53,27 @@ template <class Function, class... Arguments>
 
 [[gnu::always_inline]] inline FmuInstance::CallSequence::CallSequence(FmuInstance& unit,
                                                                       const char* function,
-                                                                      Time time, Kind kind)
-    : unit_(unit), function_(function), kind_(kind) {
-  if (kind_ != Kind::InRow) unit.check_callable(function);
+                                                                      Time time)
+    : unit_(unit), function_(function) {
+  unit.check_callable(function);
+  unit.settle_row();
   unit.time_ = time;
   unit.present_.begin_sequence(time);
   core::ForkMark::set();
 }
 
 [[gnu::always_inline]] inline FmuInstance::CallSequence::~CallSequence() {
-  if (kind_ == Kind::InRow) {
-    unit_.check_mode_in_row(function_);
-    unit_.present_.end_sequence_without_note();
-  } else {
-    unit_.check_mode(function_);
-    unit_.present_.end_sequence();
-  }
+  unit_.check_mode(function_);
+  unit_.present_.end_sequence();
 }
 
 template <class Function, class... Arguments>
 [[gnu::always_inline]] inline Status FmuInstance::CallSequence::make_call(const char* name,
                                                                           Function* function,
                                                                           Arguments... arguments) {
-  if (kind_ != Kind::InRow) unit_.require(name, function, "values of this type");
+  unit_.require(name, function, "values of this type");
   ++unit_.calls_;
-  if (kind_ == Kind::InRow) {
-    unit_.present_.begin_next_without_note(name);
-  } else {
-    unit_.present_.begin_next(name);
-  }
+  unit_.present_.begin_next(name);
   try {
     return static_cast<Status>(function(unit_.instance_, arguments...));
   } catch (...) {

@@ -107,7 +107,7 @@ std::string FmuInstance::variable_name(core::ValueReference reference) const {
 
 void FmuInstance::fail_value(core::ValueReference variable, const std::string& message,
                              const std::string& hint) const {
-  core::fail_run({options_.where, name_, variable_name(variable), time_}, message, hint);
+  core::fail_run({options_.where, name_, variable_name(variable), time()}, message, hint);
 }
 
 }  // namespace stride::importer

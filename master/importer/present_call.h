@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string_view>
 
 #include "master/importer/call_note.h"
@@ -19,10 +20,8 @@ namespace stride::importer {
 /// need no look-up.
 [[gnu::tls_model("initial-exec")]] inline thread_local char this_thread = 0;
 
-class PresentCall;
-/// The last one that this thread has begun; its object may be gone.
-[[gnu::tls_model("initial-exec")]] inline thread_local const PresentCall* last_call_of_thread =
-    nullptr;
+/// The PresentCall or RowCall that this thread has begun last; its object may be gone.
+[[gnu::tls_model("initial-exec")]] inline thread_local const void* last_call_of_thread = nullptr;
 
 /// What the process that watches this one sees of a call: see core::Outliving. What each call
 /// writes is in one cache line.
@@ -36,11 +35,72 @@ struct alignas(64) LeftCall {
   std::atomic<const char*> function{nullptr};  ///< of the last call; null if there was none
   std::atomic<const char*> thread{nullptr};    ///< which makes it: its address of this_thread
   Time time{};
+  /// Whose call it is, if it is the one of a row that this belongs to (RowCall); null = its own.
+  std::atomic<const LeftCall*> member{nullptr};
   std::atomic<bool> is_unfinished{false};
   bool has_time = false;
   const core::FixedText<128> unit;
   const core::FixedText<256> file;  ///< with `line`, the component's position in the scenario
   const int line;
+};
+
+class PresentCall;
+
+/// The present call of instances that step in a row. What is the same for all of them, and for all
+/// calls of one, is noted once; each instance refers to it (PresentCall::set_row) as long as it
+/// lives. Sequences of calls by themselves must not be begun meanwhile.
+///
+/// To other processes it is the call of one of the instances, which says whose it is.
+class RowCall {
+ public:
+  /// Of one instance at least, none of which has a note; they must outlive this object.
+  explicit RowCall(std::span<PresentCall* const> members);
+
+  /// Of the first calls of a row, which are those of this instance.
+  [[gnu::always_inline]] void begin(const PresentCall& member, const LeftCall& left,
+                                    Time time) noexcept {
+    last_call_of_thread = this;
+    thread_.store(&this_thread, std::memory_order_relaxed);
+    left_->thread.store(&this_thread, std::memory_order_relaxed);
+    left_->has_time = true;
+    begin_member(member, left, time);
+    is_active_.store(true, std::memory_order_relaxed);
+    left_->is_unfinished.store(true, std::memory_order_relaxed);
+  }
+  /// The next calls are those of this instance; `left`: its own.
+  [[gnu::always_inline]] void begin_member(const PresentCall& member, const LeftCall& left,
+                                           Time time) noexcept {
+    member_.store(&member, std::memory_order_relaxed);
+    left_->member.store(&left, std::memory_order_relaxed);
+    left_->time = time;
+  }
+  [[gnu::always_inline]] void set_time(Time time) noexcept { left_->time = time; }
+  [[gnu::always_inline]] void begin_next(const char* function) noexcept {
+    left_->function.store(function, std::memory_order_relaxed);
+  }
+  [[gnu::always_inline]] void end() noexcept {
+    is_active_.store(false, std::memory_order_relaxed);
+    left_->is_unfinished.store(false, std::memory_order_relaxed);
+    left_->member.store(nullptr, std::memory_order_relaxed);
+  }
+
+  /// Whether calls of this instance are made.
+  bool is_of(const PresentCall& member) const noexcept {
+    return is_active_.load(std::memory_order_relaxed) && was_last_of(member);
+  }
+  /// Whether the last call was one of this instance.
+  bool was_last_of(const PresentCall& member) const noexcept {
+    return member_.load(std::memory_order_relaxed) == &member;
+  }
+  const char* thread() const noexcept { return thread_.load(std::memory_order_relaxed); }
+  const char* function() const noexcept { return left_->function.load(std::memory_order_relaxed); }
+  Time time() const noexcept { return left_->time; }
+
+ private:
+  std::atomic<const PresentCall*> member_{nullptr};
+  std::atomic<bool> is_active_{false};
+  std::atomic<const char*> thread_{nullptr};
+  LeftCall* left_;
 };
 
 /// The call of a function of an instance that has not returned, or whose values are still being
@@ -74,13 +134,9 @@ class PresentCall {
   [[gnu::always_inline]] void set_time(Time time) noexcept { left_->time = time; }
   /// One of a sequence; no end() is needed between them.
   [[gnu::always_inline]] void begin_next(const char* function) noexcept {
-    begin_next_without_note(function);
+    left_->function.store(function, std::memory_order_relaxed);
     if (note_ != nullptr) [[unlikely]]
       note_->write(function, left_->time);
-  }
-  /// Likewise, where has_note() is false.
-  [[gnu::always_inline]] void begin_next_without_note(const char* function) noexcept {
-    left_->function.store(function, std::memory_order_relaxed);
   }
   bool has_note() const noexcept { return note_ != nullptr; }
   /// The value of which variable is read; must outlive the call.
@@ -93,13 +149,9 @@ class PresentCall {
     if (!is_in_sequence()) return end_sequence();
     if (note_ != nullptr) note_->clear();
   }
-  /// Where has_note() is false.
-  [[gnu::always_inline]] void end_sequence_without_note() noexcept {
+  [[gnu::always_inline]] void end_sequence() noexcept {
     extent_.store(Extent::None, std::memory_order_relaxed);
     left_->is_unfinished.store(false, std::memory_order_relaxed);
-  }
-  [[gnu::always_inline]] void end_sequence() noexcept {
-    end_sequence_without_note();
     if (note_ != nullptr) [[unlikely]]
       note_->clear();
   }
@@ -108,11 +160,18 @@ class PresentCall {
     end();
   }
 
-  bool is_in_sequence() const noexcept { return extent() == Extent::Sequence; }
+  /// From now on it may be one of this row; null: of none.
+  void set_row(const RowCall* row) noexcept { row_ = row; }
+  bool is_in_row() const noexcept { return row_ != nullptr && row_->is_of(*this); }
+
+  bool is_in_sequence() const noexcept { return extent() == Extent::Sequence || is_in_row(); }
   /// Which thread makes it, or has made the last one: its address of this_thread.
-  const char* thread() const noexcept { return thread_.load(std::memory_order_relaxed); }
+  const char* thread() const noexcept {
+    return is_in_row() ? row_->thread() : thread_.load(std::memory_order_relaxed);
+  }
   /// Null if there is no call.
   const char* function() const noexcept {
+    if (is_in_row()) return row_->function();
     return extent() != Extent::None ? last_function() : nullptr;
   }
   bool is_by_this_thread() const noexcept {
@@ -121,8 +180,14 @@ class PresentCall {
   /// The function of the last call of all that this thread has made; null if it is no call of this
   /// object.
   const char* last_function_of_thread() const noexcept {
-    return last_call_of_thread == this ? last_function() : nullptr;
+    if (last_call_of_thread == this) return last_function();
+    const bool is_of_row =
+        row_ != nullptr && last_call_of_thread == row_ && row_->was_last_of(*this);
+    return is_of_row ? row_->function() : nullptr;
   }
+  LeftCall& left() noexcept { return *left_; }
+  /// Whether left_calls() finds it.
+  bool can_be_left() const noexcept { return left_.is_shared(); }
   /// Null if no value is being read.
   const core::ValueReference* variable() const noexcept {
     return variable_.load(std::memory_order_relaxed);
@@ -151,7 +216,16 @@ class PresentCall {
   core::Outliving<LeftCall> left_;
   CallNote* const note_;
   std::atomic<const core::ValueReference*> variable_{nullptr};
+  const RowCall* row_ = nullptr;
 };
+
+inline RowCall::RowCall(std::span<PresentCall* const> members) : left_(&members.front()->left()) {
+  for (PresentCall* const member : members) {
+    if (!member->can_be_left()) continue;
+    left_ = &member->left();
+    return;
+  }
+}
 
 }  // namespace stride::importer
 

@@ -38,9 +38,13 @@ std::vector<UnitCall> left_calls(const char* thread) {
   core::Outliving<LeftCall>::for_each_left([&](const LeftCall& call) {
     const char* const function = call.function;
     if (function == nullptr || !call.is_unfinished) return;
+    const LeftCall* const member = call.member;
+    const LeftCall* const whose =
+        member != nullptr ? core::Outliving<LeftCall>::left_at(member) : &call;
+    if (whose == nullptr) return;
     calls.push_back({.function = name_at(function),
-                     .unit = std::string(call.unit.view()),
-                     .where = {std::string(call.file.view()), call.line},
+                     .unit = std::string(whose->unit.view()),
+                     .where = {std::string(whose->file.view()), whose->line},
                      .time = call.has_time ? std::optional(call.time) : std::nullopt,
                      .variable = {},
                      .is_by_thread = thread != nullptr && call.thread == thread});

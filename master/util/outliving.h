@@ -46,6 +46,9 @@ class Outliving {
   T& operator*() { return *object_; }
   const T& operator*() const { return *object_; }
 
+  /// Whether a process that watches this one can read it.
+  bool is_shared() const { return slot_ != nullptr; }
+
   /// To be called before the process is forked that is watched. Throws std::bad_alloc.
   static void share() { slots_ = static_cast<Slot*>(OutlivingMemory::add(kMost * sizeof(Slot))); }
 
@@ -57,6 +60,15 @@ class Outliving {
     for (std::size_t i = 0; i < kMost; ++i) {
       if (slots_[i].is_used) visit(*std::launder(reinterpret_cast<T*>(slots_[i].object)));
     }
+  }
+
+  /// Likewise: the one that was left at this address, or null.
+  static const T* left_at(const void* address) {
+    const T* found = nullptr;
+    for_each_left([&](const T& object) {
+      if (&object == address) found = &object;
+    });
+    return found;
   }
 
  private:

@@ -35,7 +35,8 @@ SHOWN = {
            "connect_input_updates should_continue make_stretch conclude_step",
     "Stepper": "result has_requests steps was_parallel make_timed_passes step_together step_share succeeds "
                "may_be_regular advance_regularly make_further_passes "
-               "form_stages form_rows step_rows note_plain_ones note_outcome note_step note_whole_rows count_whole_rows "
+               "form_stages form_rows row_members coasting_row step_rows note_plain_ones note_outcome note_step "
+               "note_whole_rows count_whole_rows "
                "batches step_one_by_one step_plainly save_and_step reached_by attempt_timed begin_timed "
                "finish persist prepare conclude report record_time index name rethrow_failure reason hint_for_final fail_final plan pool",
     "IdleScheduler": "add_candidate all_suspended_until catch_up_and_report check_promise covers drop_tangents find_sources "

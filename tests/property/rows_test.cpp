@@ -132,6 +132,55 @@ class RowMixture {
   bool has_special_ = false;
 };
 
+/// 3 to 14 units, most of which are saved and step in rows; of the others some reject steps, stop
+/// in them or have events, so that all are taken back often.
+Assembly restless_rows(unsigned seed) {
+  std::mt19937 random(seed);
+  const auto below = [&](std::size_t limit) { return random() % limit; };
+  const auto relay = importer::Fmu::load(test_fmu("relay_with_state"));
+  Assembly system;
+  std::vector<std::string> inputs, outputs;
+  const std::size_t size = 3 + below(12);
+  for (std::size_t i = 0; i < size; ++i) {
+    const std::string name = fmt::format("u{}", i);
+    const std::size_t kind = i == 1 ? 6 : below(8);
+    if (kind < 3) {
+      system.add(name, relay);
+    } else if (kind < 6) {
+      system.add(name, "linear", {{"frequency", fmt::format("{}", below(90))}});
+    } else if (kind == 6) {
+      system.add(
+          name, "rejecter",
+          {{"seed", fmt::format("{}", seed + i)}, {"shortest", "1e-4"}, {"longest", "3e-3"}});
+    } else {
+      system.add(name, "early",
+                 {{"instants", "0.0105 0.02 0.0305 0.0311 0.05 0.0605 0.07 0.08"},
+                  {"wants_events", below(2) == 0 ? "1" : "0"}});
+    }
+    inputs.push_back(name + ".u");
+    outputs.push_back(name + (3 <= kind && kind < 6 ? ".x" : ".y"));
+  }
+  for (const std::string& input : inputs) {
+    if (below(6) > 0) system.wire(outputs[below(outputs.size())], input);
+  }
+  return below(3) == 0 ? system.add("ball", "bouncing_ball", {{"start_height", "0.001"}}) : system;
+}
+
+/// With a state saved before `most_steps` steps of a unit.
+Results run_restless(const Assembly& system, bool in_rows, std::size_t most_steps) {
+  core::RunOptions options = fixed_steps(kRowsStep, kRowsStop);
+  options.steps_in_rows = options.steps_in_stretches = in_rows;
+  options.state_saving.most_steps = most_steps;
+  return run(system, options);
+}
+
+/// Of all units.
+std::uint64_t sum(const Results& results, std::uint64_t core::UnitStatistics::*count) {
+  std::uint64_t all = 0;
+  for (const auto& [name, unit] : results.units) all += unit.*count;
+  return all;
+}
+
 fs::path raw_fmu(const Scratch& scratch) {
   return make_raw_fmu(scratch, "raw",
                       "hasEventMode=\"true\" canHandleVariableCommunicationStepSize=\"true\"");
@@ -166,4 +215,30 @@ TEST_CASE("rows change nothing where most units are in rows, nor how a unit fail
   CHECK(failures > kRowsSystems / 20);
   CHECK(failures < kRowsSystems / 2);
   CHECK(events > kRowsSystems);
+}
+
+TEST_CASE("units that are taken back go on from where their rows were, bit for bit") {
+  std::uint64_t rollbacks = 0, repeated = 0;
+  for (unsigned seed = 0; seed < kRowsSystems; ++seed) {
+    const Assembly system = restless_rows(seed);
+    INFO("seed " << seed << "\n" << system.text());
+    const Results each = run_restless(system, false, 1);
+    for (const std::size_t most_steps : {2, 5, 100}) {
+      INFO("up to " << most_steps << " steps behind a saved state");
+      const Results singly = run_restless(system, false, most_steps);
+      const Results in_rows = run_restless(system, true, most_steps);
+      check_same_bytes(singly, each);
+      check_same_bytes(in_rows, each);
+      for (const auto& [name, unit] : in_rows.units) {
+        INFO(name);
+        CHECK(all_counts(unit) == all_counts(singly.units.at(name)));
+        CHECK(unit.repeated_steps == singly.units.at(name).repeated_steps);
+        CHECK_FALSE(unit.inexact_repetition);
+      }
+      rollbacks += sum(in_rows, &core::UnitStatistics::rollbacks);
+      repeated += sum(in_rows, &core::UnitStatistics::repeated_steps);
+    }
+  }
+  CHECK(rollbacks > 500 * kRowsSystems);
+  CHECK(repeated > 200 * kRowsSystems);
 }

@@ -31,6 +31,9 @@ class UnitRow {
   /// whether there is none; else, and where it throws what the unit's own step would, the progress
   /// says how far the units have come.
   virtual bool step(const StepInterval& interval, Progress& progress) = 0;
+  /// To be called before its units step on several threads: from now on, and until the next step of
+  /// the row, nothing that is noted here belongs to one of them.
+  virtual void release() {}
 };
 
 /// Of a unit whose steps cost less where they are made so.

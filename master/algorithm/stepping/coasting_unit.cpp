@@ -8,13 +8,6 @@
 #include "master/util/wall_clock.h"
 
 namespace stride::core {
-namespace {
-
-/// Of a unit's log.
-constexpr std::size_t kMostBytes = std::size_t{64} << 10;
-
-}  // namespace
-
 CoastingUnit::CoastingUnit(std::unique_ptr<Unit> unit, const UnitDescription& description,
                            SaveInterval interval, std::size_t cache)
     : ForwardingUnit(std::move(unit)),
@@ -51,6 +44,7 @@ void CoastingUnit::persist(StateArchive& state) {
 // ---- What the unit is given ----
 
 void CoastingUnit::set(std::span<const ValueReference> references, const ValueBlock& values) {
+  leave_row();
   inner().set(references, values);
   is_continuous_ = is_continuous_ && !is_in_step_ && StepLog::can_add(values);
   if (is_continuous_) log_.add_inputs(references, values);
@@ -76,11 +70,13 @@ void CoastingUnit::log_step(const StepInterval& interval, std::span<const BoundV
 }
 
 StepResult CoastingUnit::step(const StepInterval& interval, const StepValues& values) {
+  leave_row();
   log_inputs(values.inputs);
   return make_step(interval, values);
 }
 
 StepResult CoastingUnit::save_and_step(const StepInterval& interval, const StepValues& values) {
+  leave_before_save();
   if (is_save_due() && interval_.begin_single_step()) [[likely]] {
     stretch_ = 1;
     begin_log();
@@ -133,6 +129,7 @@ bool CoastingUnit::save_behind_inputs(StepValues& values, bool may_save_elsewher
 
 void CoastingUnit::begin_step(const StepInterval& interval, const StepValues& values,
                               const Extras& extras) {
+  leave_row();
   StepValues given = values;
   const bool saves = extras.saves_state && save_behind_inputs(given, true);
   if (!extras.saves_state) log_inputs(values.inputs);
@@ -154,13 +151,14 @@ StepResult CoastingUnit::finish_step() {
 }
 
 void CoastingUnit::enter_event_mode() {
-  is_continuous_ = false;
+  drop_row();
   inner().enter_event_mode();
 }
 
 // ---- Its states ----
 
 void CoastingUnit::save_state() {
+  leave_row();
   if (is_save_due()) return begin_stretch();
   note_save();
 }
@@ -210,7 +208,8 @@ void CoastingUnit::bound_log() {
 
 /// Inputs that were set since the state was saved are a part of what is restored.
 void CoastingUnit::restore_state() {
-  interval_.count_rollback();
+  count_rollback();
+  leave_row();
   state_.restore_state();
   log_.cut(mark_);
   is_continuous_ = stretch_ > 1;
@@ -244,6 +243,13 @@ void CoastingUnit::keep_outputs(std::span<const BoundValues> outputs) {
     } else {  // as most are
       std::ranges::copy(outputs[i].float64s, latest_.values[i].numbers<double>().begin());
     }
+  }
+}
+
+/// Those of a unit in a row: of one block, if it has any.
+void CoastingUnit::keep_outputs(std::span<const double> outputs) {
+  if (!latest_.values.empty()) {
+    std::ranges::copy(outputs, latest_.values.front().numbers<double>().begin());
   }
 }
 

@@ -18,6 +18,7 @@
 
 namespace stride::core {
 
+class CoastingRow;
 class StateArchive;
 
 /// Saves the state of its unit before some of the steps only, and notes in between what the unit is
@@ -42,12 +43,17 @@ class CoastingUnit : public ForwardingUnit, public StateSaving, public Concurren
     std::optional<InexactRepetition> inexact_repetition{};  ///< the first one
   };
 
+  /// The log of a unit has so many bytes at most.
+  static constexpr std::size_t kMostBytes = std::size_t{64} << 10;
+
   /// `unit` has the capability StateSaving. The description must outlive this object. `cache`: its
   /// share of the processor's caches, for what is noted [byte].
   CoastingUnit(std::unique_ptr<Unit> unit, const UnitDescription& description,
                SaveInterval interval, std::size_t cache);
 
   const Counts& counts() const { return counts_; }
+  const SaveInterval& interval() const { return interval_; }
+  std::size_t cache() const { return cache_; }
   /// The counts. What was saved is none of it: a run that is resumed begins a new stretch.
   void persist(StateArchive& state);
 
@@ -70,16 +76,62 @@ class CoastingUnit : public ForwardingUnit, public StateSaving, public Concurren
   /// Throws std::logic_error: it has one.
   void select_state(std::size_t slot) override;
 
+  // ---- In a row of units ----
+
+  /// What steps in the row.
+  Unit& in_row() { return inner(); }
+  /// From now on it steps in this row, which tells of it by the functions below; null: in none.
+  /// What `values` refers to must outlive the row.
+  void set_row(CoastingRow* row, std::size_t index, const StepValues& values);
+  /// Whether its state is to be saved before the next step.
+  bool is_save_due() const { return !is_continuous_ || steps() >= stretch_; }
+  /// Before a step of the row: saves the state where that is due, for a stretch of so many steps.
+  /// The row notes what it is given from here on.
+  void join_row(std::size_t stretch);
+  /// Makes this step, where it is made by itself.
+  StepResult step_in_row(const StepInterval& interval, const StepValues& values);
+  /// The position of the row's log at which its state is to be saved.
+  std::uint64_t due_in_row() const { return row_.joined + stretch_ - log_.steps(); }
+  /// Its step, the last one of the row's log, has ended so.
+  void end_step_in_row(const StepResult& result);
+  /// The last step in the row's log is none of this unit.
+  void leave_before_step();
+  /// Before anything is asked of the unit by itself: it takes over what the row notes of it.
+  void leave_row() {
+    if (row_.is_joined) [[unlikely]]
+      leave_behind_step();
+  }
+  /// The row has forgotten all: the state is to be saved before the next step.
+  void drop_row();
+
  private:
+  /// Where what it is given is noted, beside its own log.
+  struct InRow {
+    CoastingRow* row = nullptr;
+    std::size_t index = 0;
+    StepValues values{};
+    bool is_joined = false;
+    std::uint64_t joined = 0;  ///< the position of the first step in the row's log behind its own
+  };
+
   Capability* find_capability(CapabilityId id) override;
 
+  /// Since its state was saved.
+  std::size_t steps() const { return log_.steps() + (row_.is_joined ? steps_in_row() : 0); }
+  std::size_t steps_in_row() const;
+  void leave_before_save();
+  void count_rollback();
+  void leave_behind_step();
+  void take_steps(std::uint64_t end);
+  void take_last_step(Time reached);
+  void take_inputs(std::uint64_t position);
+  void take_step(std::uint64_t position, Time reached);
   void log_inputs(std::span<const BoundValues> inputs);
   StepInterval noted(const StepInterval& interval) const;
   StepResult make_step(const StepInterval& interval, const StepValues& values);
   void log_step(const StepInterval& interval, std::span<const BoundValues> outputs,
                 const StepResult& result);
   bool save_behind_inputs(StepValues& values, bool may_save_elsewhere);
-  bool is_save_due() const { return !is_continuous_ || log_.steps() >= stretch_; }
   void note_save();
   void choose_stretch();
   void begin_log();
@@ -89,6 +141,7 @@ class CoastingUnit : public ForwardingUnit, public StateSaving, public Concurren
   void repeat();
   void set_repeating(bool repeating);
   void keep_outputs(std::span<const BoundValues> outputs);
+  void keep_outputs(std::span<const double> outputs);
   void compare_outputs();
   void note_difference(const BoundValues& output, std::size_t element, const ValueBlock& before);
 
@@ -122,6 +175,7 @@ class CoastingUnit : public ForwardingUnit, public StateSaving, public Concurren
   StepLog log_;
   StepLog::Mark mark_;  ///< of the last save_state()
   KeptOutputs latest_, at_mark_;
+  InRow row_;
 };
 
 }  // namespace stride::core

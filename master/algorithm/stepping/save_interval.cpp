@@ -10,15 +10,9 @@ namespace {
 constexpr std::size_t kWarmUp = 64;
 /// What happened so many steps ago counts half.
 constexpr std::size_t kMemory = 4096;
-/// Noting what a unit is given costs about as much [ns], where the caches have no room for it.
-constexpr double kNoteCost = 50;
-/// Likewise where it goes to memory.
-constexpr double kFarNoteCost = 150;
 /// Where the caches have no room for the notes of so many steps, they have none for the rest that
 /// they take, either.
 constexpr std::size_t kFewNear = 16;
-/// What they cost then.
-constexpr double kCrampedNoteCost = 100;
 
 /// A moving average over the last eight or so. An interruption of the machine counts as little more
 /// than the rest.
@@ -38,7 +32,8 @@ void SaveInterval::choose() {
   }
   if (stretches_ < kWarmUp) return;
   chosen_ = static_cast<std::size_t>(std::clamp(best(), 1.0, static_cast<double>(most_)));
-  if (save_cost_ <= kFarNoteCost * static_cast<double>(near_)) chosen_ = std::min(chosen_, near_);
+  if (save_cost_ <= note_costs_.far * static_cast<double>(near_))
+    chosen_ = std::min(chosen_, near_);
 }
 
 void SaveInterval::add_costs(Cost save, Cost step) {
@@ -48,7 +43,7 @@ void SaveInterval::add_costs(Cost save, Cost step) {
 
 /// That no step was rolled back yet does not mean that none will be.
 double SaveInterval::best() const {
-  if (save_cost_ <= (near_ < kFewNear ? kCrampedNoteCost : kNoteCost)) return 1;
+  if (save_cost_ <= (near_ < kFewNear ? note_costs_.cramped : note_costs_.near)) return 1;
   const double share = static_cast<double>(rollbacks_ + 1) / static_cast<double>(steps_ + 1);
   return std::sqrt(2 * save_cost_ / (share * step_cost_));
 }

@@ -18,6 +18,16 @@ namespace stride::core {
 class SaveInterval {
  public:
   using Cost = std::chrono::nanoseconds;
+  /// What it costs to note what is given in a step [ns]. These are those of one unit by itself.
+  struct NoteCosts {
+    double near = 50;      ///< where the caches of the processor have room for it
+    double cramped = 100;  ///< where they have room for a few steps only
+    double far = 150;      ///< where it goes to memory
+
+    NoteCosts operator*(double factor) const {
+      return {near * factor, cramped * factor, far * factor};
+    }
+  };
 
   /// `most`: no interval is longer [steps]. `adapts`: begins with 1; otherwise it is always `most`.
   SaveInterval(std::size_t most, bool adapts);
@@ -40,6 +50,13 @@ class SaveInterval {
   /// Whether that save, and the first step of the stretch, are to be measured.
   bool is_measured() const { return is_measured_; }
   void add_costs(Cost save, Cost step);
+
+  /// Whether a save, as far as it was measured, costs less than to note so many steps of units by
+  /// themselves. Never, if it does not adapt.
+  bool is_save_cheaper(std::size_t steps) const {
+    return adapts_ && save_cost_ < NoteCosts{}.near * static_cast<double>(steps);
+  }
+  void set_note_costs(const NoteCosts& costs) { note_costs_ = costs; }
 
   void count_step() { ++steps_; }
   void count_rollback() { ++rollbacks_; }
@@ -71,6 +88,7 @@ class SaveInterval {
   bool is_measured_ = false;
   std::size_t chosen_;
   std::size_t stretches_ = 0;
+  NoteCosts note_costs_;
   double save_cost_ = 0, step_cost_ = 0;   ///< moving averages [ns]; 0 = not measured yet
   std::size_t steps_ = 0, rollbacks_ = 0;  ///< lately
 };

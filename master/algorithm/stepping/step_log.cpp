@@ -38,10 +38,14 @@ void StepLog::add_inputs(std::span<const BoundValues> inputs) {
     if (input.float64s.empty()) {
       add_inputs(input.references, *input.block);
     } else {  // as most are
-      add_assignment(input.references, ValueType::Float64, input.float64s.size(),
-                     std::as_bytes(input.float64s));
+      add_inputs(input.references, input.float64s);
     }
   }
+}
+
+void StepLog::add_inputs(std::span<const ValueReference> references,
+                         std::span<const double> values) {
+  add_assignment(references, ValueType::Float64, values.size(), std::as_bytes(values));
 }
 
 inline void StepLog::add_assignment(std::span<const ValueReference> references, ValueType type,

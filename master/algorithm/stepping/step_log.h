@@ -42,6 +42,7 @@ class StepLog {
   /// The references must outlive the log.
   void add_inputs(std::span<const ValueReference> references, const ValueBlock& values);
   void add_inputs(std::span<const BoundValues> inputs);
+  void add_inputs(std::span<const ValueReference> references, std::span<const double> values);
   /// `outputs` were read after it; they must outlive the log.
   void add_step(const StepInterval& interval, std::span<const BoundValues> outputs,
                 const StepResult& result);

@@ -246,6 +246,7 @@ inline Time Stepper::reached_by(UnitStep& unit_step, const StepInterval& interva
 void Stepper::step_together(std::span<const ThreadShare> shares,
                             std::span<const ThreadShare> batches, const StepInterval& interval) {
   if (!shares.empty()) {
+    for (const Row& row : rows_) row.units->release();
     pool().run(shares.size(), [&](std::size_t k) noexcept { step_share(shares[k], interval); });
     return;
   }

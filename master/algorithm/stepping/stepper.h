@@ -160,7 +160,10 @@ class Stepper {
   bool step_plainly(UnitStep& unit_step, const StepInterval& interval);
   void note_outcome(UnitStep& unit_step, const StepInterval& interval);
   void form_rows();
-  void form_rows(std::size_t first, std::span<const StepsInARow::Member> members);
+  std::vector<StepsInARow::Member> row_members(std::size_t first) const;
+  static std::unique_ptr<UnitRow> coasting_row(std::unique_ptr<UnitRow> units,
+                                               std::span<const UnitStep> steps,
+                                               std::span<const StepsInARow::Member> members);
   bool step_rows(std::span<Row> rows, UnitStep*& last, const StepInterval& interval);
   void note_plain_ones(Row& row, const StepInterval& interval);
   void note_step(UnitStep& unit_step, const StepResult& result);

@@ -2,47 +2,57 @@
 #include <utility>
 #include <vector>
 
+#include "master/algorithm/stepping/coasting_row.h"
 #include "master/algorithm/stepping/stepper.h"
 
 namespace stride::core {
 
-/// Of units that are plain, and whose states are not saved.
+/// Of successive units that are plain. Those whose states are saved are in rows of their own.
 void Stepper::form_rows() {
-  std::vector<StepsInARow::Member> members;
-  for (std::size_t i = 0; i <= unit_steps_.size(); ++i) {
-    const StepValues* const values =
-        i < unit_steps_.size() && unit_steps_[i].is_plain && !unit_steps_[i].saves_state
-            ? exchange_.fixed_step_values(unit_steps_[i].component)
-            : nullptr;
-    if (values != nullptr) {
-      members.push_back({unit_steps_[i].unit, *values});
-    } else {
-      form_rows(i - members.size(), members);
-      members.clear();
-    }
-  }
   std::size_t in_rows = 0;
+  for (std::size_t first = 0, size = 0; first < unit_steps_.size(); first += size) {
+    const std::vector<StepsInARow::Member> members = row_members(first);
+    std::unique_ptr<UnitRow> units;
+    if (!members.empty()) {
+      units = members.front().unit->require_capability<StepsInARow>().make_row(members);
+    }
+    size = units != nullptr ? units->size() : 1;
+    if (units == nullptr) continue;
+    const auto steps = std::span(unit_steps_).subspan(first, size);
+    if (steps.front().saves_state) units = coasting_row(std::move(units), steps, members);
+    rows_.push_back({std::move(units), steps});
+    in_rows += size;
+  }
   for (Row& row : rows_) {
     row.steps.front().begins_row = true;
     for (UnitStep& unit_step : row.steps) unit_step.row = &row;
-    in_rows += row.steps.size();
   }
   are_all_in_rows_ = in_rows == unit_steps_.size();
 }
 
-/// `first`: the position of the first of the members.
-void Stepper::form_rows(std::size_t first, std::span<const StepsInARow::Member> members) {
-  while (!members.empty()) {
-    auto* const capability = members.front().unit->capability<StepsInARow>();
-    std::unique_ptr<UnitRow> units;
-    if (capability != nullptr) units = capability->make_row(members);
-    const std::size_t size = units != nullptr ? units->size() : 1;
-    if (units != nullptr) {
-      rows_.push_back({std::move(units), std::span(unit_steps_).subspan(first, size)});
-    }
-    first += size;
-    members = members.subspan(size);
+/// As many units as may be in one row, from this position on.
+std::vector<StepsInARow::Member> Stepper::row_members(std::size_t first) const {
+  std::vector<StepsInARow::Member> members;
+  for (const UnitStep& unit_step : std::span(unit_steps_).subspan(first)) {
+    const StepValues* const values = exchange_.fixed_step_values(unit_step.component);
+    const bool saves = unit_step.saves_state;
+    if (!unit_step.is_plain || values == nullptr || saves != unit_steps_[first].saves_state) break;
+    if (saves && unit_step.state->interval().most() == 1) break;  // nothing is noted of it
+    if (unit_step.unit->capability<StepsInARow>() == nullptr) break;
+    members.push_back({saves ? &unit_step.state->in_row() : unit_step.unit, *values});
   }
+  return members;
+}
+
+/// `units`, which step so, as they do where their states are saved.
+std::unique_ptr<UnitRow> Stepper::coasting_row(std::unique_ptr<UnitRow> units,
+                                               std::span<const UnitStep> steps,
+                                               std::span<const StepsInARow::Member> members) {
+  std::vector<CoastingRow::Member> coasting;
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    coasting.push_back({steps[i].state, members[i].values});
+  }
+  return std::make_unique<CoastingRow>(std::move(units), coasting);
 }
 
 /// As step_plainly(), of the units of successive rows, up to the first one of which there is

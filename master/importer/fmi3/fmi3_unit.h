@@ -121,6 +121,12 @@ class Fmi3Unit final
                                       const core::StepValues& all);
   bool do_step(CallSequence& calls, const core::StepInterval& interval, double size,
                double tolerance, core::StepResult& result);
+  /// Whether a step has just reached its end.
+  [[gnu::always_inline]] bool is_plain_end(const core::StepInterval& interval, Status status,
+                                           const StepAnswer& answer, double tolerance) const {
+    return !(answer.needs_event | answer.terminate | answer.early) && status != Status::Discard &&
+           callback_failure_ == nullptr && is_end(interval, answer.last_successful, tolerance);
+  }
   core::StepResult evaluate(const core::StepInterval& interval, Status status,
                             const StepAnswer& answer);
 

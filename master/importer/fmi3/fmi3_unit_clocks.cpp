@@ -16,7 +16,7 @@ template <class Function, class... Arguments>
 void Fmi3Unit::call_clock(const char* name, Function* function, const Variable& clock,
                           Arguments... arguments) {
   if (function == nullptr) {
-    core::fail_run({options_.where, name_, clock.name, time_},
+    core::fail_run({options_.where, name_, clock.name, time()},
                    fmt::format("its library does not export {}", name),
                    "a unit with such a time-based clock must have it");
   }
@@ -30,7 +30,7 @@ Interval Fmi3Unit::checked_interval(const char* function, const Variable& clock,
   try {
     return make();
   } catch (const std::invalid_argument& mistake) {
-    core::fail_run({options_.where, name_, clock.name, time_},
+    core::fail_run({options_.where, name_, clock.name, time()},
                    fmt::format("{} gave no length of time: {}", function, mistake.what()));
   }
 }

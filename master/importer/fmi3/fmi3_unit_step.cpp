@@ -1,11 +1,12 @@
 // How a unit of FMI 3.0 steps.
 #include <algorithm>
-#include <limits>
+#include <memory>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "master/importer/fmi3/fmi3_unit.h"
+#include "master/importer/fmi3/fmi3_unit_row.h"
 #include "master/util/time_text.h"
 
 namespace stride::importer {
@@ -85,9 +86,7 @@ core::StepResult Fmi3Unit::save_with_step(core::Unit& unit, const core::StepInte
   const Status status = calls.call_discardable(
       "fmi3DoStep", fmi_.DoStep, interval.begin_seconds, size, never_goes_back, &answer.needs_event,
       &answer.terminate, &answer.early, &answer.last_successful);
-  const bool is_plain = !(answer.needs_event | answer.terminate | answer.early) &&
-                        status != Status::Discard && callback_failure_ == nullptr &&
-                        is_end(interval, answer.last_successful, tolerance);
+  const bool is_plain = is_plain_end(interval, status, answer, tolerance);
   if (!is_plain) [[unlikely]] {
     result = evaluate(interval, status, answer);
     if (result.rejected) return false;
@@ -116,133 +115,26 @@ core::StepResult Fmi3Unit::evaluate(const core::StepInterval& interval, Status s
 
 // ---- Steps in a row ----
 
-class Fmi3Unit::Row final : public core::UnitRow {
- public:
-  void add(Fmi3Unit& unit, const core::StepValues& values);
-
-  std::size_t size() const override { return members_.size(); }
-  bool step(const core::StepInterval& interval, Progress& progress) override;
-
- private:
-  struct InRow {
-    Fmi3Unit* unit;
-    const core::BoundValues *input, *output;  ///< null: none
-    core::StepValues values;
-  };
-  bool is_quick(const core::StepInterval& interval) const {
-    const double sum = interval.begin_seconds + interval.size_seconds;
-    return !is_watched_ && interval.size_seconds > 0 && sum <= stop_seconds_;
-  }
-  static bool step_quickly(const InRow& member, const core::StepInterval& interval,
-                           double tolerance, core::StepResult& result);
-  bool step_singly(const core::StepInterval& interval, Progress& progress);
-  void conclude(const InRow* last, Progress& progress);
-  static bool has_usual_signals(const InRow& member) {
-    return member.unit->signals_ == member.unit->mode_.signals();
-  }
-  void restore_signals(std::size_t stepped);
-
-  std::vector<InRow> members_;
-  bool is_watched_ = true;   ///< some are closely watched, and step as if each were alone
-  double stop_seconds_ = 0;  ///< the earliest of the units; known when they have stepped
-};
-
-void Fmi3Unit::Row::add(Fmi3Unit& unit, const core::StepValues& values) {
-  const auto [inputs, outputs] = values;
-  members_.push_back({&unit, inputs.empty() ? nullptr : &inputs.front(),
-                      outputs.empty() ? nullptr : &outputs.front(), values});
-}
-
-bool Fmi3Unit::Row::step(const core::StepInterval& interval, Progress& progress) {
-  if (!is_quick(interval)) [[unlikely]]
-    return step_singly(interval, progress);
-  const double tolerance = time_tolerance(interval);
-  const InRow* member = members_.data();
-  const InRow* const end = member + members_.size();
-  try {
-    while (member != end && step_quickly(*member, interval, tolerance, progress.result)) ++member;
-  } catch (...) {
-    conclude(member, progress);
-    throw;
-  }
-  if (member == end && has_usual_signals(members_.back())) [[likely]]
-    return true;
-  conclude(member, progress);
-  return member == end;
-}
-
-bool Fmi3Unit::Row::step_singly(const core::StepInterval& interval, Progress& progress) {
-  is_watched_ = false;
-  stop_seconds_ = std::numeric_limits<double>::infinity();
-  for (const InRow& member : members_) {
-    is_watched_ |= member.unit->calls_ < kCloselyWatched;
-    stop_seconds_ = std::min(stop_seconds_, member.unit->stop_seconds_);
-  }
-  for (const InRow& member : members_) {
-    progress.result = member.unit->step(interval, member.values);
-    if (!progress.result.reached_without_request(interval.to)) return false;
-    ++progress.plain;
-  }
-  return true;
-}
-
-/// Returns whether the unit has just reached the end. If not, `result` is how its step has ended.
-[[gnu::always_inline]] inline bool Fmi3Unit::Row::step_quickly(const InRow& member,
-                                                               const core::StepInterval& interval,
-                                                               double tolerance,
-                                                               core::StepResult& result) {
-  Fmi3Unit& unit = *member.unit;
-  unit.present_step_ = {interval.from, interval.to};
-  CallSequence calls(unit, "fmi3DoStep", interval.from, CallSequence::Kind::InRow);
-  if (member.input != nullptr) unit.set_reals(calls, *member.input);
-  const bool is_plain = unit.do_step(calls, interval, interval.size_seconds, tolerance, result);
-  if (!is_plain && result.rejected) [[unlikely]]
-    return false;
-  if (member.output != nullptr) unit.get_reals(calls, *member.output);
-  return is_plain || result.reached_without_request(interval.to);
-}
-
-/// `last`: the unit at which the row ends.
-void Fmi3Unit::Row::conclude(const InRow* last, Progress& progress) {
-  progress.plain = static_cast<std::size_t>(last - members_.data());
-  const std::size_t stepped = std::min(progress.plain + 1, members_.size());
-  if (!has_usual_signals(members_[stepped - 1])) restore_signals(stepped);
-}
-
-/// A unit that has changed them is named. Those behind it have had them, too.
-void Fmi3Unit::Row::restore_signals(std::size_t stepped) {
-  const core::ProcessorMode& mode = members_.front().unit->mode_;
-  const core::ProcessorMode left = core::ProcessorMode::present();
-  mode.set();
-  core::ProcessorMode::Signals before = mode.signals();
-  for (const InRow& member : std::span(members_).first(stepped)) {
-    const core::ProcessorMode::Signals behind = member.unit->signals_;
-    if (behind != before && behind != mode.signals()) {
-      member.unit->warn_of_mode("fmi3DoStep", left);
-    }
-    before = behind;
-  }
-}
-
 bool Fmi3Unit::can_be_in_row(const Member& member) const {
   const auto has_other_type = [](const core::BoundValues& values) {
     return values.block->type() != core::ValueType::Float64;
   };
   const auto [inputs, outputs] = member.values;
-  return !present_.has_note() && mode_.is_usual() && fmi_.SetFloat64 != nullptr &&
-         fmi_.GetFloat64 != nullptr && fmi_.DoStep != nullptr && inputs.size() <= 1 &&
-         outputs.size() <= 1 && std::ranges::none_of(inputs, has_other_type) &&
+  return row_ == nullptr && !present_.has_note() && !input_update_ && mode_.is_usual() &&
+         fmi_.SetFloat64 != nullptr && fmi_.GetFloat64 != nullptr && fmi_.DoStep != nullptr &&
+         inputs.size() <= 1 && outputs.size() <= 1 &&
+         std::ranges::none_of(inputs, has_other_type) &&
          std::ranges::none_of(outputs, has_other_type);
 }
 
 std::unique_ptr<core::UnitRow> Fmi3Unit::make_row(std::span<const Member> members) {
-  auto row = std::make_unique<Row>();
-  for (const Member& member : members) {
-    auto* const unit = dynamic_cast<Fmi3Unit*>(member.unit);
-    if (unit == nullptr || !unit->can_be_in_row(member) || unit->mode_ != mode_) break;
-    row->add(*unit, member.values);
-  }
-  return row->size() > 0 ? std::move(row) : nullptr;
+  const auto can_be_in_it = [&](const Member& member) {
+    const auto* const unit = dynamic_cast<const Fmi3Unit*>(member.unit);
+    return unit != nullptr && unit->can_be_in_row(member) && unit->mode_ == mode_;
+  };
+  const auto end = std::ranges::find_if_not(members, can_be_in_it);
+  if (end == members.begin()) return nullptr;
+  return std::make_unique<Row>(std::span(members.begin(), end));
 }
 
 // ---- Inputs within a step ----

@@ -102,3 +102,11 @@ TEST_CASE("an interval that does not adapt is the greatest one, and a limit lowe
   interval.limit(5);
   CHECK(interval.most() == 1);
 }
+
+TEST_CASE("a save is compared with what it costs to note steps, where costs are measured") {
+  SaveInterval interval(7, true), other(7, false);
+  for (SaveInterval* const each : {&interval, &other}) each->add_costs(1us, 1us);
+  CHECK(interval.is_save_cheaper(25));
+  CHECK_FALSE(interval.is_save_cheaper(15));
+  CHECK_FALSE(other.is_save_cheaper(1000));
+}
