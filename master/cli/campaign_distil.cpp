@@ -247,8 +247,8 @@ std::string Distillation::page() const {
   text += arguments_.tolerance.empty()
               ? "`run.sh` also compares all outputs with those in `golden/`, bit by bit.\n"
               : fmt::format(
-                    "Real numbers at the end may differ by {}; `golden/` has what the device "
-                    "did.\n",
+                    "Compared are numbers of messages and values at the end, of which real ones "
+                    "may differ by {}; `golden/` has\nwhat the device did.\n",
                     arguments_.tolerance);
   text +=
       "\n| case | ended | it alone has | compared with | repeated by |\n|---|---|---|---|---|\n";

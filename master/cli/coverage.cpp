@@ -1,6 +1,7 @@
 // stride coverage: what runs and campaigns have covered together.
 #include <ctime>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <stdexcept>
 #include <vector>
@@ -15,6 +16,7 @@
 #include "master/cli/output_paths.h"
 #include "master/coverage/coverage_json.h"
 #include "master/coverage/ucis.h"
+#include "master/recorders/results_folder.h"
 #include "master/util/error.h"
 #include "master/util/input_file.h"
 #include "master/util/replacement.h"
@@ -38,6 +40,18 @@ fs::path coverage_file(const fs::path& path) {
   core::fail_input({.where = {path.string(), 0}},
                    fmt::format("there is no {} in this folder", coverage::kCoverageFile),
                    "name the results of a run with coverage, or a campaign whose table was made");
+}
+
+/// What is named twice would count twice.
+void require_different(const std::vector<fs::path>& files) {
+  std::map<fs::path, const fs::path*> known;
+  for (const fs::path& file : files) {
+    const auto [first, is_new] = known.emplace(recorders::resolved(file), &file);
+    if (is_new) continue;
+    core::fail_input({.where = {file.string(), 0}},
+                     fmt::format("this is {}, too, and would count twice", first->second->string()),
+                     "name it once");
+  }
 }
 
 coverage::Report merged(const std::vector<fs::path>& files) {
@@ -78,6 +92,7 @@ void show_coverage(const CoverageArguments& arguments) {
     outputs.push_back({"--ucis " + arguments.ucis.string(), arguments.ucis});
   }
   refuse_kept_paths(outputs, inputs);
+  require_different(files);
   const coverage::Report report = merged(files);
   if (!arguments.out.empty()) coverage::write_coverage(arguments.out, report);
   if (!arguments.ucis.empty()) write_ucis(arguments.ucis, report, files);

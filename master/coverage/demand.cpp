@@ -31,13 +31,17 @@ std::string points_text(const GroupReport& group) {
 core::Verdict verdict(const Demand& demand, const GroupReport& group, Time reached,
                       bool is_complete) {
   const PointReport* const point = demand.point ? &group.points[*demand.point] : nullptr;
-  const double percentage =
-      (point != nullptr ? point->percentage() : group.percentage()).value_or(0);
+  const std::optional<double> percentage =
+      point != nullptr ? point->percentage() : group.percentage();
   const bool is_met = percentage >= demand.min;
   core::Verdict verdict;
   verdict.name = demand.name;
   verdict.kind = "covered";
   verdict.where = demand.where;
+  if (!percentage) {
+    verdict.text = "there is no bin that counts";
+    return verdict;
+  }
   verdict.text = fmt::format("{}: {}", percentage_text(percentage),
                              point != nullptr ? bins_text(*point) : points_text(group));
   if (!is_met && !is_complete) {
@@ -49,7 +53,7 @@ core::Verdict verdict(const Demand& demand, const GroupReport& group, Time reach
     verdict.text += fmt::format("; expected {} % at least", demand.min);
     verdict.time = reached;
   }
-  verdict.margin = core::Margin{percentage - demand.min, "percentage points", reached};
+  verdict.margin = core::Margin{*percentage - demand.min, "percentage points", reached};
   return verdict;
 }
 

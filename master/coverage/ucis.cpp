@@ -111,7 +111,7 @@ class UcisWriter {
       if (point.kind != Kind::Cross && !point.bins.empty()) write_point(point);
     }
     for (const PointReport& point : group.points) {
-      if (point.kind == Kind::Cross) write_cross(point, group);
+      if (point.kind == Kind::Cross && !point.bins.empty()) write_cross(point, group);
     }
     xml_.close();
   }
@@ -124,7 +124,7 @@ class UcisWriter {
   void begin_point(const char* element_name, const PointReport& point) {
     xml_.open(element_name);
     attributes({{"name", point.name}, {"key", "0"}});
-    element("options", {{"weight", point.is_open ? "0" : "1"},
+    element("options", {{"weight", point.percentage() ? "1" : "0"},
                         {"goal", "100"},
                         {"at_least", std::to_string(point.at_least)}});
   }

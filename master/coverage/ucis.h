@@ -20,7 +20,7 @@ struct UcisOrigin {
 /// An XML document (UCIS 1.0, chapter 9): an instance and a covergroup for each component, a
 /// coverpoint or a cross for each point. Bins are known by their names; as ranges of integers,
 /// which UCIS has for them, they are numbered. Points without any bin are left out, which the
-/// format cannot hold; those that are open have no weight.
+/// format cannot hold; those without a percentage have no weight.
 std::string ucis_document(const Report& report, const UcisOrigin& origin);
 
 }  // namespace stride::coverage

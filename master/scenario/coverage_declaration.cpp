@@ -1,6 +1,7 @@
 #include "master/scenario/coverage_declaration.h"
 
 #include <array>
+#include <set>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -68,6 +69,10 @@ void read_words(const xml::Element& element, PointDeclaration& point) {
   if (!element.attribute("words")) return;
   point.words = core::words_of(element.required("words"));
   if (point.words.empty()) element.fail("words: expected some, with blanks between them");
+  std::set<std::string> known;
+  for (const std::string& word : point.words) {
+    if (!known.insert(word).second) element.fail(fmt::format("words: '{}' is there twice", word));
+  }
 }
 
 void read_lengths(const xml::Element& element, PointDeclaration& point) {

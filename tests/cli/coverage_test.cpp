@@ -207,6 +207,8 @@ TEST_CASE("coverage is written for other tools, and never over what is read") {
                                                Contains("physicalName=\"out/coverage.json\"") &&
                                                Contains("<coverpoint name=\"input\"") &&
                                                Contains("<cross name=\"input × y\""));
+  CHECK_THAT(input_error_of(workspace.stride({"coverage", "out", "./out/coverage.json"})),
+             Contains("this is out/coverage.json, too, and would count twice"));
   const Outcome over = workspace.stride({"coverage", "out", "--ucis", "out/coverage.json"});
   CHECK_THAT(input_error_of(over), Contains("--ucis out/coverage.json"));
   CHECK(coverage_in(workspace / "out")["scenario"] == "test");

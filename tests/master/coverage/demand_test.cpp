@@ -45,6 +45,19 @@ TEST_CASE("a run that broke off may have met the demand already, and else could 
   CHECK_FALSE(verdict_of(0, 60, false).margin);
 }
 
+TEST_CASE("a demand of what has no bin that counts is undecided") {
+  PointDefinition level =
+      values_of("level", 0, equal_ranges(0, 4, 2, false, core::ValueType::Float64));
+  for (DeclaredBin& bin : level.bins) bin.is_ignored = true;
+  const Device device(group_of({level}));
+  for (const std::optional<std::size_t> point : {std::optional<std::size_t>(0), {}}) {
+    const auto verdict = verdicts(std::vector{Demand{"d", "d", 0, point, 0}},
+                                  device.coverage.report("s"), at(2), true);
+    CHECK_FALSE(verdict.at(0).passed);
+    CHECK(verdict.at(0).text == "there is no bin that counts");
+  }
+}
+
 TEST_CASE("a percentage is never rounded up") {
   CHECK(percentage_text(99.999) == "99.99 %");
   CHECK(percentage_text(100) == "100 %");

@@ -106,6 +106,8 @@ TEST_CASE("what is missing, unknown or no number in coverage is refused with its
              Contains("edges and bins exclude each other"));
   CHECK_THAT(coverage_error("<stride:Values signal='d' atLeast='0'/>"), Contains("1 at least"));
   CHECK_THAT(coverage_error("<stride:Gaps event='f' min='2' max='1'/>"), Contains("no gap"));
+  CHECK_THAT(coverage_error("<stride:Words event='f' words='read write read'/>"),
+             Contains("words: 'read' is there twice"));
   CHECK_THAT(coverage_error("<stride:Colours event='f'/>"), Contains("Colours"));
   CHECK_THAT(covered_error("<stride:Covered component='a'/>"), Contains("min"));
   CHECK_THAT(covered_error("<stride:Covered component='a' min='101'/>"), Contains("from 0 to 100"));
