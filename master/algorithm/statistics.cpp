@@ -34,11 +34,7 @@ void persist_unit(StateArchive& state, UnitStatistics& unit) {
   persist_sum(state, unit.event_time);
   persist_sum(state, unit.step_time_uncertainty);
   persist_sum(state, unit.event_time_uncertainty);
-  bool has_host = unit.host.has_value();
-  state.value(has_host);
-  if (!has_host) return unit.host.reset();
-  if (!unit.host) unit.host.emplace();
-  persist_host(state, *unit.host);
+  state.optional(unit.host, [&](auto& host) { persist_host(state, host); });
 }
 
 void persist_phases(StateArchive& state, PhaseTimes& times) {

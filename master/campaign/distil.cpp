@@ -95,15 +95,6 @@ class Cover {
   std::vector<std::size_t> chosen_;              ///< places
 };
 
-/// Whether the bin is a part of the percentage, or of an open point.
-bool counts(const coverage::GroupDefinition& group, const std::string& point,
-            const std::string& bin) {
-  const auto of = std::ranges::find(group.points, point, &coverage::PointDefinition::name);
-  const auto declared = std::ranges::find(of->bins, bin, &coverage::DeclaredBin::name);
-  if (declared != of->bins.end()) return !declared->is_ignored;
-  return of->is_open && !of->ignores(bin);
-}
-
 }  // namespace
 
 std::vector<DistilledCase> distil(std::span<const DistilCandidate> candidates) {
@@ -119,22 +110,29 @@ std::string ending_of(const CaseResult& result) {
   return fmt::format("{} by {}", name(result.outcome), fmt::join(failed, ", "));
 }
 
-std::set<std::string> covered_bins(const CaseResult& result, const std::string& component,
-                                   std::span<const coverage::GroupDefinition> coverage) {
+CountedBins::CountedBins(std::string component, std::span<const coverage::GroupDefinition> coverage)
+    : component_(std::move(component)),
+      coverage_(coverage),
+      definition_(coverage::hash(coverage)) {}
+
+std::set<std::string> CountedBins::of(const CaseResult& result) const {
   std::set<std::string> bins;
   if (!result.coverage) return bins;
-  const bool is_known = result.coverage->definition == coverage::hash(coverage);
-  const auto definition = std::ranges::find(coverage, component, &coverage::GroupDefinition::name);
+  const bool is_known = result.coverage->definition == definition_;
   for (const coverage::CoveredGroup& group : result.coverage->bins) {
-    if (group.component != component) continue;
+    if (group.component != component_) continue;
     for (const coverage::CoveredPoint& point : group.points) {
       for (const coverage::CoveredBin& bin : point.bins) {
-        if (is_known && !counts(*definition, point.name, bin.name)) continue;
-        bins.insert(point.name + ": " + bin.name);
+        if (!is_known || counts(point.name, bin.name)) bins.insert(point.name + ": " + bin.name);
       }
     }
   }
   return bins;
+}
+
+bool CountedBins::counts(const std::string& point, const std::string& bin) const {
+  const auto group = std::ranges::find(coverage_, component_, &coverage::GroupDefinition::name);
+  return std::ranges::find(group->points, point, &coverage::PointDefinition::name)->counts(bin);
 }
 
 }  // namespace stride::campaign

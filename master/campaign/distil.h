@@ -36,11 +36,23 @@ std::vector<DistilledCase> distil(std::span<const DistilCandidate> candidates);
 /// and the same failed checks and verdicts it is the same.
 std::string ending_of(const CaseResult& result);
 
-/// The bins of this component that a case has hit, and that count: "POINT: BIN". Empty where its
-/// record has no coverage. `coverage` is that of the scenario; of a case whose units give another
-/// one all bins count.
-std::set<std::string> covered_bins(const CaseResult& result, const std::string& component,
-                                   std::span<const coverage::GroupDefinition> coverage);
+/// The bins of a component that cases have hit, and that count: "POINT: BIN".
+class CountedBins {
+ public:
+  /// `coverage` is that of the scenario, and must outlive this object.
+  CountedBins(std::string component, std::span<const coverage::GroupDefinition> coverage);
+
+  /// Empty where the record has no coverage of it. Of a case whose units give another definition
+  /// all bins count.
+  std::set<std::string> of(const CaseResult& result) const;
+
+ private:
+  bool counts(const std::string& point, const std::string& bin) const;
+
+  std::string component_;
+  std::span<const coverage::GroupDefinition> coverage_;
+  std::string definition_;
+};
 
 }  // namespace stride::campaign
 

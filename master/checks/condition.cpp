@@ -9,17 +9,13 @@
 #include <fmt/format.h>
 
 #include "master/checks/difference.h"
+#include "master/model/number_range.h"
 
 namespace stride::checks {
 namespace {
 
 using core::ValueBlock;
 using core::ValueType;
-
-bool has_order(ValueType type) {
-  return type != ValueType::Boolean && type != ValueType::Clock && type != ValueType::Enumeration &&
-         type != ValueType::String && type != ValueType::Binary;
-}
 
 /// The only element.
 template <class T>
@@ -36,7 +32,7 @@ const T& only(const ValueBlock& block) {
 }  // namespace
 
 Condition::Condition(const core::Variable& variable, const ConditionText& text)
-    : variable_(variable), has_order_(has_order(variable.type)) {
+    : variable_(variable), has_order_(core::is_number(variable.type)) {
   variable_.dimensions.clear();
   variable_.size = 1;
   read_bounds(text);

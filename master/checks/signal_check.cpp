@@ -86,18 +86,13 @@ void SignalCheck::extend_range() {
 }
 
 void SignalCheck::persist(core::StateArchive& state) {
-  const auto persist_point = [&](std::optional<Point>& point) {
-    bool is_known = point.has_value();
-    state.value(is_known);
-    if (!is_known) return point.reset();
-    if (!point) point.emplace();
-    state.value(point->truth, Truth::NotANumber);
-    state.value(point->robustness);
-    state.value(point->time);
-  };
-  persist_point(before_);
-  persist_point(after_);
-  persist_point(decisive_);
+  for (std::optional<Point>* const each : {&before_, &after_, &decisive_}) {
+    state.optional(*each, [&](Point& point) {
+      state.value(point.truth, Truth::NotANumber);
+      state.value(point.robustness);
+      state.value(point.time);
+    });
+  }
   state.value(points_);
   state.value(decided_at_);
   state.value(last_);

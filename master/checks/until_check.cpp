@@ -57,17 +57,13 @@ void UntilCheck::extend_margin(Time time, double holds, double ends) {
 }
 
 void UntilCheck::persist(core::StateArchive& state) {
-  const auto persist_distance = [&](std::optional<Distance>& distance) {
-    bool is_known = distance.has_value();
-    state.value(is_known);
-    if (!is_known) return distance.reset();
-    if (!distance) distance.emplace();
-    state.value(distance->robustness);
-    state.value(distance->is_of_end);
-    state.value(distance->time);
-  };
-  persist_distance(least_held_);
-  persist_distance(best_);
+  for (std::optional<Distance>* const each : {&least_held_, &best_}) {
+    state.optional(*each, [&](Distance& distance) {
+      state.value(distance.robustness);
+      state.value(distance.is_of_end);
+      state.value(distance.time);
+    });
+  }
   state.value(points_);
   state.value(decided_at_);
   state.value(has_ended_);

@@ -59,14 +59,14 @@ constexpr std::string_view kEndsItem = "ends: ";
 Cases read_cases(const CampaignInput& input, const campaign::CaseFolder& folder,
                  const std::string& component) {
   Cases cases;
+  const campaign::CountedBins bins(component, input.scenario().loaded().coverage());
   for (std::uint64_t i = 0; i < input.plan().size(); ++i) {
     auto record = folder.read(i);
     if (!record) {
       ++cases.missing;
       continue;
     }
-    campaign::DistilCandidate candidate{
-        i, campaign::covered_bins(record->result, component, input.scenario().loaded().coverage())};
+    campaign::DistilCandidate candidate{i, bins.of(record->result)};
     cases.has_coverage = cases.has_coverage || !candidate.items.empty();
     candidate.items.insert(std::string(kEndsItem) + campaign::ending_of(record->result));
     cases.items.insert(candidate.items.begin(), candidate.items.end());

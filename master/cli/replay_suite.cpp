@@ -83,13 +83,6 @@ scenario::LoadedScenario load_case(const CampaignInput& input, std::uint64_t ind
   return scenario::LoadedScenario(request);
 }
 
-std::size_t place_of(const scenario::LoadedScenario& loaded, const std::string& component) {
-  const auto& components = loaded.system().components();
-  std::size_t place = 0;
-  while (components[place].name != component) ++place;
-  return place;
-}
-
 replay::DeviceRecord record_in(const fs::path& folder, const recorders::ResultFiles& files,
                                const std::string& component, const core::UnitDescription& device) {
   const auto path = [&](const std::string& name) {
@@ -142,7 +135,7 @@ std::optional<std::string> ReplaySuite::add(std::uint64_t index,
                                             const campaign::CaseResult& result) {
   const std::string name = replay_name(input_.plan(), index);
   const scenario::LoadedScenario loaded = load_case(input_, index);
-  const replay::ReplaySource source{loaded, place_of(loaded, options_.component),
+  const replay::ReplaySource source{loaded, loaded.system().find_component(options_.component, {}),
                                     input_.folder() / cases_.stimuli_name(index) /
                                         capture::stimuli_file_name(options_.component)};
   std::optional<std::string> why;

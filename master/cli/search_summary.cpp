@@ -109,9 +109,7 @@ std::string parameter_table(const std::vector<std::uint64_t>& shown, const Liste
 
 std::string parameter_title(const campaign::Plan& plan, const campaign::CampaignScenario& scenario,
                             std::size_t column) {
-  const std::string unit = scenario.unit_of_measure(column);
-  const std::string& name = plan.columns()[column].parameter.name;
-  return unit.empty() ? name : fmt::format("{} [{}]", name, unit);
+  return core::with_unit(plan.columns()[column].parameter.name, scenario.unit_of_measure(column));
 }
 
 std::string nominal_text(const campaign::ValueKind& kind, std::optional<double> nominal) {

@@ -142,17 +142,16 @@ void write_coverage(const std::filesystem::path& file, const Report& report) {
 
 Report read_coverage(const std::filesystem::path& file) {
   const std::string text = core::read_input(file);
+  std::string what;
   try {
     return report_of(Json::parse(text));
   } catch (const Json::exception& mistake) {
-    core::fail_input(
-        {.where = {file.string(), 0}},
-        fmt::format("this is no coverage of stride: {}", core::message_text(mistake.what())),
-        "name a coverage.json that 'stride run' or 'stride campaign' has written");
+    what = fmt::format("this is no coverage of stride: {}", core::message_text(mistake.what()));
   } catch (const std::invalid_argument& mistake) {
-    core::fail_input({.where = {file.string(), 0}}, mistake.what(),
-                     "name a coverage.json that 'stride run' or 'stride campaign' has written");
+    what = mistake.what();
   }
+  core::fail_input({.where = {file.string(), 0}}, what,
+                   "name a coverage.json that 'stride run' or 'stride campaign' has written");
 }
 
 Json to_json(const CoveredBins& covered) {

@@ -44,20 +44,18 @@ std::optional<Kind> kind_of(std::string_view name) {
   return static_cast<Kind>(found - kKindNames.begin());
 }
 
-bool means(const std::string& pattern, const std::string& name) {
-  return pattern == name || core::matches_glob(pattern, name);
-}
-
-bool mean(std::span<const std::string> patterns, const std::string& name) {
-  return std::ranges::any_of(patterns, [&](const std::string& p) { return means(p, name); });
-}
-
 bool PointDefinition::ignores(const std::string& bin) const {
-  return !is_open || bin == kFurther || mean(ignored, bin);
+  const auto is_meant = [&](const std::string& pattern) { return core::means(pattern, bin); };
+  return !is_open || bin == kFurther || std::ranges::any_of(ignored, is_meant);
+}
+
+bool PointDefinition::counts(const std::string& bin) const {
+  const auto declared = std::ranges::find(bins, bin, &DeclaredBin::name);
+  return declared != bins.end() ? !declared->is_ignored : !ignores(bin);
 }
 
 void append_crossed(std::string& text, std::string_view bin) {
-  if (!text.empty()) text.append(" × ");
+  if (!text.empty()) text.append(kCrossJoint);
   text.append(bin);
 }
 

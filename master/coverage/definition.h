@@ -52,6 +52,8 @@ struct PointDefinition {
 
   /// Whether a bin with this name, which was not declared, is ignored.
   bool ignores(const std::string& bin) const;
+  /// Whether a bin with this name, declared or not, is not ignored.
+  bool counts(const std::string& bin) const;
 };
 
 /// A covergroup: the points of one component.
@@ -63,13 +65,11 @@ struct GroupDefinition {
   core::Location where{};
 };
 
-/// Whether a glob, or the plain name itself, means this name.
-bool means(const std::string& pattern, const std::string& name);
-bool mean(std::span<const std::string> patterns, const std::string& name);
-
 /// The bins of a cross of these points: of each bin that counts with each one of the others. Throws
 /// std::invalid_argument if there are more than kMostBins.
 std::vector<DeclaredBin> cross_bins(std::span<const PointDefinition* const> parts);
+/// What is between the names in that of a cross, or of one of its bins.
+inline constexpr std::string_view kCrossJoint = " × ";
 /// "a × b", into a text that is there.
 void append_crossed(std::string& text, std::string_view bin);
 

@@ -128,6 +128,27 @@ auto* find(std::vector<Named>& all, const std::string& name, std::string Named::
   return found == all.end() ? nullptr : &*found;
 }
 
+std::vector<GroupReport> empty_groups(std::span<const GroupDefinition> definitions) {
+  std::vector<GroupReport> groups;
+  for (const GroupDefinition& definition : definitions) {
+    GroupReport& group = groups.emplace_back();
+    group.component = definition.name;
+    group.goal = definition.goal;
+    for (const PointDefinition& point : definition.points) {
+      PointReport& added = group.points.emplace_back();
+      added.name = point.name;
+      added.kind = point.kind;
+      added.signal = point.signal;
+      added.unit = point.unit;
+      added.at_least = point.at_least;
+      added.is_open = point.is_open;
+      for (const std::size_t part : point.of) added.of.push_back(definition.points[part].name);
+      for (const DeclaredBin& bin : point.bins) added.bins.push_back({bin.name, bin.is_ignored});
+    }
+  }
+  return groups;
+}
+
 }  // namespace
 
 bool bin_order(const std::string& a, const std::string& b) {
@@ -169,24 +190,9 @@ std::optional<double> GroupReport::percentage() const {
 bool GroupReport::misses_goal() const { return goal && percentage().value_or(0) < *goal; }
 
 Report empty_report(std::string scenario, std::span<const GroupDefinition> definitions) {
-  Report report{.scenario = std::move(scenario), .definition = hash(definitions)};
-  for (const GroupDefinition& definition : definitions) {
-    GroupReport& group = report.groups.emplace_back();
-    group.component = definition.name;
-    group.goal = definition.goal;
-    for (const PointDefinition& point : definition.points) {
-      PointReport& added = group.points.emplace_back();
-      added.name = point.name;
-      added.kind = point.kind;
-      added.signal = point.signal;
-      added.unit = point.unit;
-      added.at_least = point.at_least;
-      added.is_open = point.is_open;
-      for (const std::size_t part : point.of) added.of.push_back(definition.points[part].name);
-      for (const DeclaredBin& bin : point.bins) added.bins.push_back({bin.name, bin.is_ignored});
-    }
-  }
-  return report;
+  return {.scenario = std::move(scenario),
+          .definition = hash(definitions),
+          .groups = empty_groups(definitions)};
 }
 
 CoveredBins covered_bins(const Report& report) {
@@ -226,7 +232,7 @@ void add_case(Report& report, std::span<const GroupDefinition> definitions,
 
 std::vector<std::optional<double>> percentages(std::span<const GroupDefinition> definitions,
                                                const CoveredBins& covered) {
-  Report report = empty_report("", definitions);
+  Report report{.groups = empty_groups(definitions)};
   add_case(report, definitions, covered, 0);
   std::vector<std::optional<double>> all;
   for (const GroupReport& group : report.groups) all.push_back(group.percentage());

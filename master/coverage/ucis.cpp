@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <span>
+#include <string_view>
 #include <utility>
 
 #include "master/util/xml/writer.h"
@@ -16,23 +16,24 @@ constexpr const char* kNoFile = "1";
 
 using BinNumbers = std::vector<std::size_t>;  ///< of each part of a cross
 
-/// Of each combination of bins, by the name that the cross has for it.
-std::map<std::string, BinNumbers> combinations(std::span<const PointReport* const> parts) {
-  std::map<std::string, BinNumbers> found{{"", {}}};
-  for (const PointReport* const part : parts) {
-    std::map<std::string, BinNumbers> longer;
-    for (const auto& [name, numbers] : found) {
-      for (std::size_t i = 0; i < part->bins.size(); ++i) {
-        std::string crossed = name;
-        append_crossed(crossed, part->bins[i].name);
-        BinNumbers with_this = numbers;
-        with_this.push_back(i);
-        longer.emplace(std::move(crossed), std::move(with_this));
-      }
-    }
-    found = std::move(longer);
+/// Adds the numbers of the bins whose names are crossed to the rest of this name. Returns whether
+/// there are such.
+bool find_numbers(std::string_view rest, std::span<const PointReport* const> parts,
+                  BinNumbers& numbers) {
+  if (parts.empty()) return rest.empty();
+  const auto& bins = parts.front()->bins;
+  for (std::size_t i = 0; i < bins.size(); ++i) {
+    std::string_view behind = rest;
+    const std::string_view joint = numbers.empty() ? "" : kCrossJoint;
+    if (!behind.starts_with(joint)) return false;
+    behind.remove_prefix(joint.size());
+    if (!behind.starts_with(bins[i].name)) continue;
+    behind.remove_prefix(bins[i].name.size());
+    numbers.push_back(i);
+    if (find_numbers(behind, parts.subspan(1), numbers)) return true;
+    numbers.pop_back();
   }
-  return found;
+  return false;
 }
 
 class UcisWriter {
@@ -159,25 +160,21 @@ class UcisWriter {
     // a part without any bin is not in the document
     if (std::ranges::any_of(parts, [](const PointReport* part) { return part->bins.empty(); }))
       return;
-    const auto numbers_of = combinations(parts);
     begin_point("cross", point);
     for (const std::string& name : point.of) text("crossExpr", name);
     for (std::size_t i = 0; i < point.bins.size(); ++i) {
-      write_cross_bin(point.bins[i], i, numbers_of);
+      write_cross_bin(point.bins[i], i, parts);
     }
     xml_.close();
   }
 
   void write_cross_bin(const BinCount& bin, std::size_t number,
-                       const std::map<std::string, BinNumbers>& numbers_of) {
+                       std::span<const PointReport* const> parts) {
     xml_.open("crossBin");
     attributes({{"name", bin.name}, {"key", std::to_string(number)}, {"type", type_of(bin)}});
-    const auto numbers = numbers_of.find(bin.name);
-    if (numbers == numbers_of.end()) {
-      text("index", "-1");
-    } else {
-      for (const std::size_t index : numbers->second) text("index", std::to_string(index));
-    }
+    BinNumbers numbers;
+    if (!find_numbers(bin.name, parts, numbers)) text("index", "-1");
+    for (const std::size_t index : numbers) text("index", std::to_string(index));
     write_contents(bin);
     xml_.close();
   }

@@ -77,6 +77,13 @@ const Variable* UnitDescription::resize(ValueReference structural_parameter, std
   return nullptr;
 }
 
+const Variable* UnitDescription::carried_by(const Variable& clock) const {
+  const auto carried = std::ranges::find_if(variables, [&](const Variable& other) {
+    return other.causality == clock.causality && other.belongs_to(clock.reference);
+  });
+  return carried == variables.end() ? nullptr : &*carried;
+}
+
 bool UnitDescription::is_sampled(const Variable& variable) const {
   return variable.is_clocked() &&
          std::all_of(variable.clocks.begin(), variable.clocks.end(), [&](ValueReference clock) {

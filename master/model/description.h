@@ -207,6 +207,13 @@ struct UnitDescription {
   bool is_message(const Variable& variable) const {
     return variable.is_clocked() && !is_sampled(variable);
   }
+  /// Of a clock: the first variable of its causality that belongs to it; null if it is a bare one.
+  const Variable* carried_by(const Variable& clock) const;
+  /// Whether its ticks are reported as messages: of a clock that carries values, these are.
+  bool is_reported(const Variable& variable) const {
+    if (variable.type != ValueType::Clock) return is_message(variable);
+    return variable.is_triggered_clock() && carried_by(variable) == nullptr;
+  }
 };
 
 }  // namespace stride::core

@@ -59,8 +59,7 @@ std::string meant_word(ValueType type, const std::string& word) {
 }  // namespace
 
 std::optional<std::string> meant_value(ValueType type, const std::string& text) {
-  const bool is_number = range_of(type) && type != ValueType::Enumeration;
-  const bool may_differ = is_number || type == ValueType::Boolean;
+  const bool may_differ = is_number(type) || type == ValueType::Boolean;
   if (!may_differ) return std::nullopt;
   std::string meant;
   bool differs = false;

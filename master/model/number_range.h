@@ -26,6 +26,11 @@ std::optional<NumberRange> range_of(ValueType type);
 /// Enumeration is one, too.
 inline bool is_integer(ValueType type) { return range_of(type) && !is_real(type); }
 
+/// Whether its values have an order: all numbers but Enumeration.
+inline bool is_number(ValueType type) {
+  return range_of(type).has_value() && type != ValueType::Enumeration;
+}
+
 }  // namespace stride::core
 
 #endif

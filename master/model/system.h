@@ -75,6 +75,9 @@ class System {
 
   const std::string& name() const { return name_; }
   const std::vector<Component>& components() const { return components_; }
+  /// The index of the component with this name. Throws Error (Input) at `where`, with the nearest
+  /// name, if there is none.
+  std::size_t find_component(const std::string& name, const Location& where) const;
   const std::vector<Connection>& connections() const { return connections_; }
   /// Those that end at the input: several, where they end at different elements.
   std::span<const Connection> connections_to(VariableId input) const;
@@ -146,7 +149,6 @@ class System {
   static std::vector<StartValue> listed(GivenValues values);
   void resize(const StartDeclaration& declaration, VariableId structural_parameter,
               std::size_t size);
-  std::size_t find_component(const std::string& name, const Location& where) const;
   [[noreturn]] void fail_unknown(const Context& context, const UnitDescription& description,
                                  const SystemDeclaration* expecting);
   void check_connectors(const SystemDeclaration& declaration, Diagnostics& diagnostics);

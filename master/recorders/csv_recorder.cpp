@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "master/recorders/signal_text.h"
+#include "master/util/message_text.h"
 #include "master/util/state_archive.h"
 
 namespace stride::recorders {
@@ -17,11 +18,10 @@ void CsvRecorder::on_start(std::span<const core::Signal> signals) {
   file_.write("time");
   for (const core::Signal& signal : signals) {
     const core::Variable& variable = system_.variable(signal.id);
-    const std::string unit = variable.unit.empty() ? "" : fmt::format(" [{}]", variable.unit);
     for (std::size_t i = 0; i < variable.size; ++i) {
       columns_.push_back({signal.block, signal.first + i});
       file_.write(',');
-      file_.write(csv_field(column_name(system_, signal.id, i) + unit));
+      file_.write(csv_field(core::with_unit(column_name(system_, signal.id, i), variable.unit)));
     }
   }
   file_.write('\n');

@@ -9,6 +9,7 @@
 
 #include "master/model/array_element.h"
 #include "master/util/csv_reader.h"
+#include "master/util/message_text.h"
 
 namespace stride::replay {
 namespace {
@@ -19,10 +20,9 @@ std::map<std::string, std::string> outputs_by_title(const std::string& component
   std::map<std::string, std::string> outputs;
   for (const core::Variable& variable : device.variables) {
     if (!is_recorded(device, variable)) continue;
-    const std::string unit = variable.unit.empty() ? "" : fmt::format(" [{}]", variable.unit);
     for (std::size_t i = 0; i < variable.size; ++i) {
       const std::string name = core::element_name(variable, i);
-      outputs[component + "." + name + unit] = name;
+      outputs[core::with_unit(component + "." + name, variable.unit)] = name;
     }
   }
   return outputs;

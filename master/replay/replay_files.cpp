@@ -39,11 +39,10 @@ std::string ReplayFiles::add_unit(const ReplaySource& source) {
 }
 
 void ReplayFiles::write(const std::string& name, const ReplaySource& source) {
-  summarise_stimuli(source.stimuli);
   unit_of_[name] = add_unit(source);
+  expect(name, source, {});
   scenario::pack_stimuli(
       {.library = source.stimuli, .resources = {}, .bundled = {}, .output = player_file(name)});
-  expect(name, source, {});
 }
 
 void ReplayFiles::expect(const std::string& name, const ReplaySource& source,

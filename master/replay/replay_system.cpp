@@ -253,13 +253,7 @@ bool is_recorded(const core::UnitDescription& device, const core::Variable& vari
 }
 
 bool is_reported(const core::UnitDescription& device, const core::Variable& variable) {
-  if (variable.causality != core::Causality::Output) return false;
-  if (variable.type != core::ValueType::Clock) return device.is_message(variable);
-  return variable.is_triggered_clock() &&
-         std::ranges::none_of(device.variables, [&](const core::Variable& other) {
-           return other.causality == core::Causality::Output &&
-                  other.belongs_to(variable.reference);
-         });
+  return variable.causality == core::Causality::Output && device.is_reported(variable);
 }
 
 std::string replay_system(const ReplayRequest& request) { return ReplayWriter(request).document(); }

@@ -14,6 +14,7 @@
 #include "master/report/page.h"
 #include "master/report/page_data.h"
 #include "master/util/error.h"
+#include "master/util/message_text.h"
 #include "master/util/replacement.h"
 #include "master/util/untrusted_folder.h"
 
@@ -38,7 +39,7 @@ std::string_view component_of(std::string_view signal,
 std::string title(std::string_view component, const Column& column) {
   const std::string whose(component.empty() ? "outputs" : component);
   if (!core::is_real(column.type())) return fmt::format("{}: states and counts", whose);
-  return column.unit().empty() ? whose : fmt::format("{} [{}]", whose, column.unit());
+  return core::with_unit(whose, column.unit());
 }
 
 /// Writes the members of the data, one after the other, so that no two large ones are in memory.

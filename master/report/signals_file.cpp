@@ -11,14 +11,10 @@
 #include "master/report/table.h"
 #include "master/report/thinning.h"
 #include "master/util/input_file.h"
+#include "master/util/message_text.h"
 
 namespace stride::report {
 namespace {
-
-/// "name [unit]", as the header has it.
-std::string heading(const SignalInfo& info) {
-  return info.unit.empty() ? info.name : fmt::format("{} [{}]", info.name, info.unit);
-}
 
 Column deduced_column(const std::string& heading) {
   const std::size_t at = heading.rfind(" [");
@@ -29,7 +25,7 @@ Column deduced_column(const std::string& heading) {
 std::vector<Column> make_columns(std::span<const std::string> headings,
                                  std::span<const SignalInfo> infos) {
   std::map<std::string, const SignalInfo*> known;
-  for (const SignalInfo& info : infos) known.emplace(heading(info), &info);
+  for (const SignalInfo& info : infos) known.emplace(core::with_unit(info.name, info.unit), &info);
   std::vector<Column> columns;
   for (const std::string& heading : headings) {
     const auto found = known.find(heading);

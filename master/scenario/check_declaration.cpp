@@ -1,11 +1,11 @@
 #include "master/scenario/check_declaration.h"
 
 #include <array>
-#include <stdexcept>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "master/scenario/parse_attribute.h"
 #include "master/ssp/ssp.h"
 #include "master/util/time_text.h"
 
@@ -13,13 +13,7 @@ namespace stride::scenario {
 namespace {
 
 std::optional<Duration> read_duration(const xml::Element& element, const char* attribute) {
-  const auto text = element.attribute(attribute);
-  if (!text) return std::nullopt;
-  try {
-    return core::parse_seconds(*text);
-  } catch (const std::invalid_argument& mistake) {
-    element.fail(fmt::format("{}: {}", attribute, mistake.what()));
-  }
+  return parse_optional_attribute(element, attribute, core::parse_seconds);
 }
 
 checks::Window read_window(const xml::Element& element) {
@@ -56,9 +50,11 @@ void read_lasting(const xml::Element& element, CheckDeclaration& check) {
   check.window = read_window(element);
 }
 
+constexpr const char* kCondition = "Condition";
+
 void read_until(const xml::Element& element, CheckDeclaration& check) {
   read_lasting(element, check);
-  const auto ending = element.child({ssp::kStrideScenario, "Condition"});
+  const auto ending = element.child({ssp::kStrideScenario, kCondition});
   if (!ending) element.fail("it has no <stride:Condition signal=\"…\" …/>, which ends it");
   ending->allow_children({});
   ending->allow_attributes({"signal", "min", "max", "above", "below", "equals", "tolerance"});
@@ -93,8 +89,7 @@ void read_answer(const xml::Element& element, CheckDeclaration& check) {
   element.allow_attributes({"name", "request", "reply", "within", "repeats", "from", "to"});
   check.subject = element.required("request");
   check.reply = element.required("reply");
-  element.required("within");
-  check.within = *read_duration(element, "within");
+  check.within = parse_attribute(element, "within", core::parse_seconds);
   check.repeats = element.flag("repeats");
   check.window = read_window(element);
 }
@@ -103,11 +98,12 @@ struct Word {
   const char* element;
   checks::Kind kind;
   void (*read)(const xml::Element& element, CheckDeclaration& check);
+  const char* child = nullptr;  ///< the only one that it has
 };
 constexpr std::array kWords{Word{"Always", checks::Kind::Always, read_lasting},
                             Word{"Never", checks::Kind::Never, read_lasting},
                             Word{"Eventually", checks::Kind::Eventually, read_lasting},
-                            Word{"Until", checks::Kind::Until, read_until},
+                            Word{"Until", checks::Kind::Until, read_until, kCondition},
                             Word{"Final", checks::Kind::Final, read_final},
                             Word{"Count", checks::Kind::Count, read_count},
                             Word{"Answer", checks::Kind::Answer, read_answer}};
@@ -116,20 +112,16 @@ constexpr std::array kWords{Word{"Always", checks::Kind::Always, read_lasting},
 
 std::vector<CheckDeclaration> read_checks(const xml::Element& checks) {
   checks.allow_attributes({});
-  checks.allow_children({{ssp::kStrideScenario, "Always"},
-                         {ssp::kStrideScenario, "Never"},
-                         {ssp::kStrideScenario, "Eventually"},
-                         {ssp::kStrideScenario, "Until"},
-                         {ssp::kStrideScenario, "Final"},
-                         {ssp::kStrideScenario, "Count"},
-                         {ssp::kStrideScenario, "Answer"},
-                         {ssp::kStrideScenario, "Covered"}});
+  std::vector<xml::Name> known;
+  for (const Word& word : kWords) known.emplace_back(ssp::kStrideScenario, word.element);
+  known.emplace_back(ssp::kStrideScenario, "Covered");
+  checks.allow_children(known);
   std::vector<CheckDeclaration> found;
   for (const xml::Element& element : checks.children()) {
     for (const Word& word : kWords) {
       if (!element.is(ssp::kStrideScenario, word.element)) continue;
-      if (word.kind == checks::Kind::Until) {
-        element.allow_children({{ssp::kStrideScenario, "Condition"}});
+      if (word.child != nullptr) {
+        element.allow_children({{ssp::kStrideScenario, word.child}});
       } else {
         element.allow_children({});
       }

@@ -63,8 +63,7 @@ class Selection {
   /// instead.
   bool is_reported(const NamedVariable& variable) const;
   bool is_triggered(const NamedVariable& clock) const;
-  /// The first one; null if it is a bare clock.
-  const NamedVariable* carried_by(const NamedVariable& clock) const;
+  const core::UnitDescription& description(const NamedVariable& variable) const;
   [[noreturn]] void fail_unsuitable(const CheckDeclaration& check, const NamedVariable& named,
                                     bool wants_message) const;
   [[noreturn]] void fail_unknown(const CheckDeclaration& check, const std::string& pattern,
@@ -106,11 +105,12 @@ void Selection::check_window(const CheckDeclaration& check) const {
                      "compare it with <stride:Always>, <stride:Never>, <stride:Eventually> or "
                      "<stride:Final>");
   }
-  const NamedVariable* const carried = carried_by(named);
-  core::fail_input(context, fmt::format("ticks of '{}' cannot be checked", named.name),
-                   carried == nullptr || !is_triggered(named)
-                       ? "it ticks by the time alone"
-                       : fmt::format("name what it carries: '{}'", carried->name));
+  const core::Variable* const carried = description(named).carried_by(system_.variable(named.id));
+  core::fail_input(
+      context, fmt::format("ticks of '{}' cannot be checked", named.name),
+      carried == nullptr || !is_triggered(named)
+          ? "it ticks by the time alone"
+          : fmt::format("name what it carries: '{}'", system_.prefix(named.id) + carried->name));
 }
 
 [[noreturn]] void Selection::fail_unknown(const CheckDeclaration& check, const std::string& pattern,
@@ -133,20 +133,14 @@ bool Selection::is_triggered(const NamedVariable& clock) const {
   return system_.variable(clock.id).is_triggered_clock();
 }
 
-const NamedVariable* Selection::carried_by(const NamedVariable& clock) const {
-  const core::Variable& variable = system_.variable(clock.id);
-  const auto carried = std::ranges::find_if(finder_.all(), [&](const NamedVariable& other) {
-    const core::Variable& candidate = system_.variable(other.id);
-    return other.id.component == clock.id.component && candidate.causality == variable.causality &&
-           candidate.belongs_to(variable.reference);
-  });
-  return carried == finder_.all().end() ? nullptr : &*carried;
+const core::UnitDescription& Selection::description(const NamedVariable& variable) const {
+  return *system_.components()[variable.id.component].description;
 }
 
 bool Selection::is_reported(const NamedVariable& variable) const {
   if (variable.is_signal) return false;
-  const bool is_clock = system_.variable(variable.id).clock.has_value();
-  return !is_clock || (is_triggered(variable) && carried_by(variable) == nullptr);
+  const core::Variable& described = system_.variable(variable.id);
+  return described.type != core::ValueType::Clock || description(variable).is_reported(described);
 }
 
 std::vector<Element> Selection::find_elements(const CheckDeclaration& check,
@@ -157,8 +151,7 @@ std::vector<Element> Selection::find_elements(const CheckDeclaration& check,
     const core::Variable& described = system_.variable(variable.id);
     for (std::size_t i = 0; i < described.size; ++i) {
       std::string name = system_.prefix(variable.id) + core::element_name(described, i);
-      const bool is_one = name == pattern || core::matches_glob(pattern, name);
-      if (is_whole || is_one) found.push_back({&variable, i, std::move(name)});
+      if (is_whole || core::means(pattern, name)) found.push_back({&variable, i, std::move(name)});
     }
   };
   if (core::is_glob(pattern)) {  // or the name of an element, which has brackets

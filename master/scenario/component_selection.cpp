@@ -17,9 +17,7 @@ std::vector<std::size_t> ComponentSelector::select(const ComponentPattern& patte
   std::vector<std::size_t> selected;
   if (core::is_glob(pattern.text)) {
     for (std::size_t i = 0; i < names_.size(); ++i) {
-      const bool is_match =
-          names_[i] == pattern.text || core::matches_glob(pattern.text, names_[i]);
-      if (is_match) selected.push_back(i);
+      if (core::means(pattern.text, names_[i])) selected.push_back(i);
     }
   } else if (const auto found = places_.find(pattern.text); found != places_.end()) {
     selected = found->second;

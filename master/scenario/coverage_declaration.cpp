@@ -1,11 +1,12 @@
 #include "master/scenario/coverage_declaration.h"
 
+#include <algorithm>
 #include <array>
 #include <set>
-#include <stdexcept>
 
 #include <fmt/format.h>
 
+#include "master/scenario/parse_attribute.h"
 #include "master/ssp/ssp.h"
 #include "master/util/time_text.h"
 #include "master/util/words.h"
@@ -14,16 +15,6 @@ namespace stride::scenario {
 namespace {
 
 constexpr double kWhole = 100;
-
-std::optional<Duration> read_gap(const xml::Element& element, const char* attribute) {
-  const auto text = element.attribute(attribute);
-  if (!text) return std::nullopt;
-  try {
-    return core::parse_seconds(*text);
-  } catch (const std::invalid_argument& mistake) {
-    element.fail(fmt::format("{}: {}", attribute, mistake.what()));
-  }
-}
 
 std::optional<double> read_percentage(const xml::Element& element, const char* attribute) {
   const auto percentage = element.number<double>(attribute);
@@ -84,8 +75,8 @@ void read_lengths(const xml::Element& element, PointDeclaration& point) {
 void read_gaps(const xml::Element& element, PointDeclaration& point) {
   element.allow_attributes({"name", "event", "min", "max", "atLeast"});
   point.subject = element.required("event");
-  point.shortest = read_gap(element, "min");
-  point.longest = read_gap(element, "max");
+  point.shortest = parse_optional_attribute(element, "min", core::parse_seconds);
+  point.longest = parse_optional_attribute(element, "max", core::parse_seconds);
   if (point.shortest && point.longest && *point.shortest >= *point.longest) {
     element.fail("no gap is longer than min and shorter than max");
   }
@@ -117,14 +108,10 @@ void read_ignored(const xml::Element& element, GroupDeclaration& group) {
 
 GroupDeclaration read_group(const xml::Element& element) {
   element.allow_attributes({"component", "goal", "atLeast"});
-  element.allow_children({{ssp::kStrideScenario, "Values"},
-                          {ssp::kStrideScenario, "Transitions"},
-                          {ssp::kStrideScenario, "Words"},
-                          {ssp::kStrideScenario, "Lengths"},
-                          {ssp::kStrideScenario, "Sequences"},
-                          {ssp::kStrideScenario, "Gaps"},
-                          {ssp::kStrideScenario, "Cross"},
-                          {ssp::kStrideScenario, "Ignore"}});
+  std::vector<xml::Name> known;
+  for (const PointWord& word : kPoints) known.emplace_back(ssp::kStrideScenario, word.element);
+  known.emplace_back(ssp::kStrideScenario, "Ignore");
+  element.allow_children(known);
   GroupDeclaration group{element.required("component"), read_percentage(element, "goal")};
   group.at_least = read_at_least(element).value_or(1);
   group.where = element.where();
@@ -145,6 +132,10 @@ GroupDeclaration read_group(const xml::Element& element) {
 }
 
 }  // namespace
+
+const char* element_name(PointKind kind) {
+  return std::ranges::find(kPoints, kind, &PointWord::kind)->element;
+}
 
 std::vector<GroupDeclaration> read_coverage(const xml::Element& coverage) {
   const xml::Name group(ssp::kStrideScenario, "Group");

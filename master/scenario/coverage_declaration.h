@@ -61,6 +61,9 @@ struct CoveredDeclaration {
   core::Location where{};
 };
 
+/// Of the element that declares such a point: "Values".
+const char* element_name(PointKind kind);
+
 /// Reads <stride:Coverage>, and the <stride:Covered> in <stride:Checks>. Both throw core::Error
 /// (Input) for what is unknown, missing or no number.
 std::vector<GroupDeclaration> read_coverage(const xml::Element& coverage);

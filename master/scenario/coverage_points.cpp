@@ -10,6 +10,8 @@
 #include <fmt/format.h>
 
 #include "master/model/array_element.h"
+#include "master/model/number_range.h"
+#include "master/util/glob.h"
 #include "master/util/suggest.h"
 #include "master/util/words.h"
 
@@ -22,11 +24,6 @@ using coverage::PointDefinition;
 constexpr std::uint64_t kDefaultBins = 10;
 /// An integer with no more values has a bin for each.
 constexpr double kMostItems = 64;
-
-bool is_number(ValueType type) {
-  return type != ValueType::Boolean && type != ValueType::String && type != ValueType::Binary &&
-         type != ValueType::Clock && type != ValueType::Enumeration;
-}
 
 bool is_bytes(ValueType type) { return type == ValueType::Binary || type == ValueType::String; }
 
@@ -69,14 +66,14 @@ coverage::Items items_of(const core::Variable& variable) {
 }
 
 bool has_few_values(const core::Variable& variable, const Range& range) {
-  return is_number(variable.type) && !core::is_real(variable.type) && range.is_whole() &&
+  return core::is_number(variable.type) && !core::is_real(variable.type) && range.is_whole() &&
          *range.max >= *range.min && *range.max - *range.min < kMostItems;
 }
 
 /// Throws std::invalid_argument.
 coverage::Classes classes_of(const core::Variable& variable, std::size_t element,
                              const PointDeclaration& declared) {
-  if (!is_number(variable.type)) {
+  if (!core::is_number(variable.type)) {
     if (variable.type != ValueType::Boolean && variable.type != ValueType::Enumeration) {
       throw std::invalid_argument(fmt::format("it is {}, whose values have no bins",
                                               core::name_with_article(variable.type)));
@@ -154,25 +151,16 @@ bool CoveragePoints::is_signal(const core::Variable& variable) const {
          !description_.is_message(variable);
 }
 
-/// Where a clock carries values, these are what is reported.
-bool CoveragePoints::is_message(const core::Variable& variable) const {
-  if (variable.type != ValueType::Clock) return description_.is_message(variable);
-  return variable.is_triggered_clock() &&
-         std::ranges::none_of(description_.variables, [&](const core::Variable& other) {
-           return other.causality == variable.causality && other.belongs_to(variable.reference);
-         });
-}
-
 std::vector<CoveragePoints::Subject> CoveragePoints::find(const PointDeclaration& declared) const {
   const std::string& pattern = declared.subject;
   const bool wants_signal = coverage::is_of_signal(declared.kind);
   std::vector<Subject> found;
   for (std::size_t i = 0; i < description_.variables.size(); ++i) {
     const core::Variable& variable = description_.variables[i];
-    if (wants_signal ? !is_signal(variable) : !is_message(variable)) continue;
-    const bool is_whole = coverage::means(pattern, variable.name) ||
+    if (wants_signal ? !is_signal(variable) : !description_.is_reported(variable)) continue;
+    const bool is_whole = core::means(pattern, variable.name) ||
                           std::ranges::any_of(variable.aliases, [&](const std::string& alias) {
-                            return coverage::means(pattern, alias);
+                            return core::means(pattern, alias);
                           });
     if (!wants_signal) {
       if (is_whole) found.push_back({i, 0, variable.name});
@@ -180,7 +168,7 @@ std::vector<CoveragePoints::Subject> CoveragePoints::find(const PointDeclaration
     }
     for (std::size_t k = 0; k < variable.size; ++k) {
       std::string name = core::element_name(variable, k);
-      if (is_whole || coverage::means(pattern, name)) found.push_back({i, k, std::move(name)});
+      if (is_whole || core::means(pattern, name)) found.push_back({i, k, std::move(name)});
     }
   }
   if (found.empty()) fail_unknown(declared);
@@ -191,16 +179,16 @@ void CoveragePoints::fail_unknown(const PointDeclaration& declared) const {
   const bool wants_signal = coverage::is_of_signal(declared.kind);
   std::vector<std::string> names;
   for (const core::Variable& variable : description_.variables) {
-    const bool fits = wants_signal ? is_signal(variable) : is_message(variable);
+    const bool fits = wants_signal ? is_signal(variable) : description_.is_reported(variable);
     if (fits) names.push_back(variable.name);
     if (fits || variable.name != declared.subject) continue;
     core::fail_input(
         {.where = declared.where},
         fmt::format("'{}' is not a {}", variable.name, wants_signal ? "signal" : "message"),
-        is_signal(variable)    ? "cover it with <stride:Values> or <stride:Transitions>"
-        : is_message(variable) ? "cover it with <stride:Words>, <stride:Lengths>, "
-                                 "<stride:Sequences> or <stride:Gaps>"
-                               : "name what the clock carries");
+        is_signal(variable) ? "cover it with <stride:Values> or <stride:Transitions>"
+        : description_.is_reported(variable) ? "cover it with <stride:Words>, <stride:Lengths>, "
+                                               "<stride:Sequences> or <stride:Gaps>"
+                                             : "name what the clock carries");
   }
   core::fail_input({.where = declared.where},
                    fmt::format("the component has no {} '{}'", wants_signal ? "signal" : "message",
@@ -275,7 +263,7 @@ void CoveragePoints::add_values(const Subject& subject, std::uint64_t at_least,
   const bool has_items =
       variable.type == ValueType::Boolean || variable.type == ValueType::Enumeration;
   const bool is_input = variable.causality == core::Causality::Input;
-  if (!has_items && (!is_input || !is_number(variable.type))) return;
+  if (!has_items && (!is_input || !core::is_number(variable.type))) return;
   try {
     points.push_back(point({PointKind::Values}, subject));
   } catch (const std::invalid_argument&) {
@@ -295,7 +283,8 @@ std::vector<PointDefinition> CoveragePoints::automatic(
     const core::Variable& variable = description_.variables[i];
     const bool is_input = variable.causality == core::Causality::Input;
     if (!is_input && variable.causality != core::Causality::Output) continue;
-    if (is_input && is_message(variable)) add_messages({i, 0, variable.name}, at_least, points);
+    if (is_input && description_.is_reported(variable))
+      add_messages({i, 0, variable.name}, at_least, points);
     if (!is_signal(variable) || variable.size != 1) continue;
     add_values({i, 0, variable.name}, at_least, points, without_range);
   }

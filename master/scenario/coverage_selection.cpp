@@ -9,6 +9,7 @@
 
 #include "master/scenario/coverage_points.h"
 #include "master/util/diagnostics.h"
+#include "master/util/glob.h"
 #include "master/util/suggest.h"
 
 namespace stride::scenario {
@@ -23,18 +24,6 @@ std::vector<std::string> point_names(const GroupDefinition& group) {
   std::vector<std::string> names;
   for (const PointDefinition& point : group.points) names.push_back(point.name);
   return names;
-}
-
-std::size_t find_component(const core::System& system, const std::string& name,
-                           const core::Location& where) {
-  std::vector<std::string> names;
-  for (const core::Component& component : system.components()) names.push_back(component.name);
-  const auto found = std::ranges::find(names, name);
-  if (found == names.end()) {
-    core::fail_input({.where = where}, fmt::format("there is no component '{}'", name),
-                     core::suggestion(name, names));
-  }
-  return static_cast<std::size_t>(found - names.begin());
 }
 
 void add_point(GroupDefinition& group, PointDefinition point, const core::Location& where) {
@@ -109,7 +98,7 @@ bool ignore(PointDefinition& point, const std::string& bins) {
   point.ignored.push_back(bins);
   bool any = point.is_open;
   for (coverage::DeclaredBin& bin : point.bins) {
-    if (!coverage::means(bins, bin.name)) continue;
+    if (!core::means(bins, bin.name)) continue;
     bin.is_ignored = any = true;
   }
   return any;
@@ -121,7 +110,7 @@ void ignore(GroupDefinition& group, const IgnoreDeclaration& declared, bool is_o
   std::vector<std::string> bins;
   for (PointDefinition& point : group.points) {
     if ((point.kind == PointKind::Cross) != is_of_crosses) continue;
-    if (!coverage::means(declared.points, point.name)) continue;
+    if (!core::means(declared.points, point.name)) continue;
     any |= ignore(point, declared.bins);
     for (const coverage::DeclaredBin& bin : point.bins) bins.push_back(bin.name);
   }
@@ -134,8 +123,7 @@ void ignore(GroupDefinition& group, const IgnoreDeclaration& declared, bool is_o
 void require_point(const GroupDefinition& group, const std::string& pattern,
                    const core::Location& where) {
   const std::vector<std::string> names = point_names(group);
-  if (std::ranges::any_of(names,
-                          [&](const auto& name) { return coverage::means(pattern, name); })) {
+  if (std::ranges::any_of(names, [&](const auto& name) { return core::means(pattern, name); })) {
     return;
   }
   core::fail_input({.where = where}, fmt::format("the component has no point '{}'", pattern),
@@ -157,7 +145,7 @@ class CoverageSelection {
   void add_group(const GroupDeclaration& declared) {
     GroupDefinition group{
         .name = declared.component, .goal = declared.goal, .where = declared.where};
-    group.component = find_component(system_, declared.component, declared.where);
+    group.component = system_.find_component(declared.component, declared.where);
     check_new(group);
     const CoveragePoints points(group.component,
                                 *system_.components()[group.component].description);
@@ -263,7 +251,7 @@ coverage::Demand CoverageSelection::demand(const CoveredDeclaration& declared, s
 
 void CoverageSelection::add_demand(const CoveredDeclaration& declared) {
   const core::Context context{.where = declared.where};
-  find_component(system_, declared.component, declared.where);
+  system_.find_component(declared.component, declared.where);
   const auto group =
       std::ranges::find(selected_.groups, declared.component, &GroupDefinition::name);
   if (group == selected_.groups.end()) {
@@ -281,7 +269,7 @@ void CoverageSelection::add_demand(const CoveredDeclaration& declared) {
   std::vector<std::size_t> points;
   for (std::size_t i = 0; i < group->points.size(); ++i) {
     const PointDefinition& point = group->points[i];
-    if (!point.is_open && coverage::means(*declared.points, point.name)) points.push_back(i);
+    if (!point.is_open && core::means(*declared.points, point.name)) points.push_back(i);
   }
   if (points.empty()) {
     core::fail_input(context,

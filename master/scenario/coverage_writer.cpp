@@ -1,6 +1,7 @@
 #include "master/scenario/coverage_writer.h"
 
 #include <optional>
+#include <string>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -9,26 +10,6 @@
 
 namespace stride::scenario {
 namespace {
-
-const char* element_name(PointKind kind) {
-  switch (kind) {
-    case PointKind::Values:
-      return "stride:Values";
-    case PointKind::Transitions:
-      return "stride:Transitions";
-    case PointKind::Words:
-      return "stride:Words";
-    case PointKind::Lengths:
-      return "stride:Lengths";
-    case PointKind::Sequences:
-      return "stride:Sequences";
-    case PointKind::Gaps:
-      return "stride:Gaps";
-    case PointKind::Cross:
-      break;
-  }
-  return "stride:Cross";
-}
 
 template <class Number>
 void write_number(xml::Writer& writer, const char* name, const std::optional<Number>& number) {
@@ -41,7 +22,8 @@ void write_gap(xml::Writer& writer, const char* name, const std::optional<Durati
 
 /// Each member is there only where the kind has it.
 void write_point(xml::Writer& writer, const PointDeclaration& point) {
-  writer.open(element_name(point.kind));
+  const std::string element = fmt::format("stride:{}", element_name(point.kind));
+  writer.open(element.c_str());
   if (!point.name.empty()) writer.attribute("name", point.name);
   if (point.kind == PointKind::Cross) {
     writer.attribute("of", fmt::format("{}", fmt::join(point.of, " ")));

@@ -1,7 +1,9 @@
 #ifndef STRIDE_MASTER_SCENARIO_PARSE_ATTRIBUTE_H
 #define STRIDE_MASTER_SCENARIO_PARSE_ATTRIBUTE_H
 
+#include <optional>
 #include <stdexcept>
+#include <string>
 #include <utility>
 
 #include <fmt/format.h>
@@ -19,6 +21,14 @@ auto parse_attribute(const xml::Element& element, const char* name, Parse&& pars
   } catch (const std::invalid_argument& mistake) {
     element.fail(fmt::format("{}: {}", name, mistake.what()));
   }
+}
+
+/// Likewise; nothing where it is not there.
+template <class Parse>
+auto parse_optional_attribute(const xml::Element& element, const char* name, Parse&& parse)
+    -> std::optional<decltype(parse(std::string()))> {
+  if (!element.attribute(name)) return std::nullopt;
+  return parse_attribute(element, name, parse);
 }
 
 }  // namespace stride::scenario

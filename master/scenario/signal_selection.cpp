@@ -120,13 +120,10 @@ std::vector<NamedVariable> named_variables(const core::System& system) {
 }
 
 bool is_meant(const core::System& system, core::VariableId id, const std::string& pattern) {
-  const auto is_matched = [&](const std::string& name) {
-    return name == pattern || core::matches_glob(pattern, name);
-  };
-  if (is_matched(system.full_name(id))) return true;
+  if (core::means(pattern, system.full_name(id))) return true;
   const std::vector<std::string>& aliases = system.variable(id).aliases;
   return std::any_of(aliases.begin(), aliases.end(), [&](const std::string& alias) {
-    return is_matched(system.prefix(id) + alias);
+    return core::means(pattern, system.prefix(id) + alias);
   });
 }
 

@@ -9,6 +9,9 @@ namespace stride::core {
 /// one, `[a-c]` and `[!a-c]` for one within or outside the set, `\` takes away a special meaning.
 bool matches_glob(const std::string& pattern, const std::string& text);
 
+/// Whether a pattern, or a plain name with special characters, means this name.
+bool means(const std::string& pattern, const std::string& name);
+
 /// Whether the pattern has any of these special characters.
 bool is_glob(const std::string& pattern);
 

@@ -91,6 +91,10 @@ std::string name_text(std::string_view name) {
   return escaped(escaped(name, '\n', "\\x0a"), '\0', "\\x00");
 }
 
+std::string with_unit(const std::string& name, const std::string& unit) {
+  return unit.empty() ? name : name + " [" + unit + "]";
+}
+
 std::string first_line(std::string_view text) {
   return std::string(text.substr(0, text.find('\n')));
 }

@@ -19,6 +19,9 @@ std::string message_text(std::string_view message);
 /// for what an exception of the standard library quotes, whose text NUL would end.
 std::string name_text(std::string_view name);
 
+/// "name [unit]", as files and tables have it; the name alone where there is no unit of measure.
+std::string with_unit(const std::string& name, const std::string& unit);
+
 /// Without what follows it.
 std::string first_line(std::string_view text);
 

@@ -88,11 +88,16 @@ class StateArchive {
   void value(std::string& text) { numbers(text); }
   template <class T>
   void value(std::optional<T>& optional) {
+    this->optional(optional, [this](T& element) { value(element); });
+  }
+  /// `persist(element)` does so with what is in it, if there is something.
+  template <class T, class Persist>
+  void optional(std::optional<T>& optional, Persist&& persist) {
     bool has_value = optional.has_value();
     value(has_value);
     if (!has_value) return optional.reset();
     if (!optional) optional.emplace();
-    value(*optional);
+    persist(*optional);
   }
 
   /// Each element, of a size that may have changed.

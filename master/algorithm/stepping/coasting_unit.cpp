@@ -29,16 +29,13 @@ void CoastingUnit::select_state(std::size_t) {
 void CoastingUnit::persist(StateArchive& state) {
   state.value(counts_.saves);
   state.value(counts_.repeated_steps);
-  bool is_inexact = counts_.inexact_repetition.has_value();
-  state.value(is_inexact);
-  if (!is_inexact) return counts_.inexact_repetition.reset();
-  if (!counts_.inexact_repetition) counts_.inexact_repetition.emplace();
-  InexactRepetition& repetition = *counts_.inexact_repetition;
-  state.value(repetition.time);
-  state.value(repetition.variable);
-  state.value(repetition.first);
-  state.value(repetition.second);
-  interval_.limit(1);
+  state.optional(counts_.inexact_repetition, [&](InexactRepetition& repetition) {
+    state.value(repetition.time);
+    state.value(repetition.variable);
+    state.value(repetition.first);
+    state.value(repetition.second);
+    interval_.limit(1);
+  });
 }
 
 // ---- What the unit is given ----

@@ -240,7 +240,7 @@ void Element::allow_attributes(std::initializer_list<std::string_view> names) co
   }
 }
 
-void Element::allow_children(std::initializer_list<Name> names) const {
+void Element::allow_children(std::span<const Name> names) const {
   for (const Element& element : children()) {
     const Name found = element.name();
     if (std::find(names.begin(), names.end(), found) != names.end()) continue;

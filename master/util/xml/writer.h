@@ -18,7 +18,8 @@ class Writer {
   Writer();
   ~Writer();
 
-  /// Begins an element within the one that is open; the attributes follow, then what it holds.
+  /// Begins an element within the one that is open; the attributes follow, then what it holds. The
+  /// name must outlive the element.
   void open(const char* name);
   void attribute(const char* name, const std::string& value);
   void text(const std::string& text);

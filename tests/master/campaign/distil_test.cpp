@@ -147,16 +147,16 @@ TEST_CASE("covered bins are those of the component that count") {
   PointDefinition words{.name = "words", .kind = Kind::Words, .is_open = true, .ignored = {"x*"}};
   const std::vector<GroupDefinition> groups{{0, "sensor", {}, {field, words}}};
   CaseResult result;
-  CHECK(covered_bins(result, "sensor", groups).empty());
+  CHECK(CountedBins("sensor", groups).of(result).empty());
   result.coverage = {hash(groups),
                      {{"sensor",
                        {{"field", {{"[0, 1)", 3, 0.5}, {"> 2", 1, 0.25}}},
                         {"words", {{"read", 1, 1}, {"x1", 1, 1}}}}},
                       {"reader", {{"y", {{"z", 1, 0}}}}}}};
-  CHECK(covered_bins(result, "sensor", groups) == Items{"field: [0, 1)", "words: read"});
-  CHECK(covered_bins(result, "led", groups).empty());
+  CHECK(CountedBins("sensor", groups).of(result) == Items{"field: [0, 1)", "words: read"});
+  CHECK(CountedBins("led", groups).of(result).empty());
   // of another definition nothing more is known
   result.coverage->definition = "another";
-  CHECK(covered_bins(result, "sensor", groups) ==
+  CHECK(CountedBins("sensor", groups).of(result) ==
         Items{"field: > 2", "field: [0, 1)", "words: read", "words: x1"});
 }

@@ -11,19 +11,7 @@ using namespace stride::coverage;
 
 namespace {
 
-Report json_example() {
-  GroupDefinition group =
-      group_of({values_of("level", 0, equal_ranges(0, 2, 2, false, core::ValueType::Float64)),
-                messages_of(Kind::Words, "words")});
-  group.points.push_back(cross_of(group, {0, 1}));
-  group.goal = 90;
-  Device device(group);
-  device.point(0, 0.5);
-  device.message(1, "read");
-  device.point(1, 7);
-  device.point(2, 7);
-  return device.coverage.report("example");
-}
+Report json_example() { return example_report("example", 90); }
 
 std::string reading_refusal(const std::string& text) {
   const tests::Scratch scratch;

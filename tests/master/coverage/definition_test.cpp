@@ -5,6 +5,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "master/util/glob.h"
 #include "tests/master/coverage/support.h"
 
 using namespace stride;
@@ -19,9 +20,9 @@ TEST_CASE("the names of kinds read back") {
 }
 
 TEST_CASE("a pattern means a name that it is, also one with brackets") {
-  CHECK(means("[0, 1)", "[0, 1)"));
-  CHECK(means("set_*", "set_led"));
-  CHECK_FALSE(means("set_*", "reset_led"));
+  CHECK(core::means("[0, 1)", "[0, 1)"));
+  CHECK(core::means("set_*", "set_led"));
+  CHECK_FALSE(core::means("set_*", "reset_led"));
 }
 
 TEST_CASE("a cross has the bins that count in all of its parts, up to a limit") {

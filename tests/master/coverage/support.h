@@ -108,6 +108,21 @@ inline GroupDefinition group_of(std::vector<PointDefinition> points) {
   return {0, "device", {}, std::move(points)};
 }
 
+/// A level in two bins, words, and a cross of both; covered in part, by a message if `has_message`.
+inline Report example_report(std::string scenario, double goal, bool has_message = true) {
+  GroupDefinition group =
+      group_of({values_of("level", 0, equal_ranges(0, 2, 2, false, core::ValueType::Float64)),
+                messages_of(Kind::Words, "words")});
+  group.points.push_back(cross_of(group, {0, 1}));
+  group.goal = goal;
+  Device device(group);
+  device.point(0, 0.5);
+  if (has_message) device.message(1, "read");
+  device.point(1, 7);
+  device.point(2, 7);
+  return device.coverage.report(std::move(scenario));
+}
+
 }  // namespace stride::coverage
 
 #endif

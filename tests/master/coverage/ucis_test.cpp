@@ -11,20 +11,7 @@ using namespace stride::coverage;
 
 namespace {
 
-/// A level in two bins, words, and a cross of both.
-Report ucis_example(bool has_message) {
-  GroupDefinition group =
-      group_of({values_of("level", 0, equal_ranges(0, 2, 2, false, core::ValueType::Float64)),
-                messages_of(Kind::Words, "words")});
-  group.points.push_back(cross_of(group, {0, 1}));
-  group.goal = 90.5;
-  Device device(group);
-  device.point(0, 0.5);
-  if (has_message) device.message(1, "read");
-  device.point(1, 7);
-  device.point(2, 7);
-  return device.coverage.report("an example");
-}
+Report ucis_example(bool has_message) { return example_report("an example", 90.5, has_message); }
 
 /// Within the only group.
 template <class Look>

@@ -26,10 +26,18 @@ export function svg(tag, attributes = {}, ...children) {
   return element;
 }
 
+/** Custom properties, too. */
+function setStyle(style, properties) {
+  for (const [name, value] of Object.entries(properties)) {
+    if (name.startsWith("--")) style.setProperty(name, value);
+    else style[name] = value;
+  }
+}
+
 function assign(element, properties) {
   for (const [name, value] of Object.entries(properties)) {
     if (value === undefined || value === null) continue;
-    if (name === "style") Object.assign(element.style, value);
+    if (name === "style") setStyle(element.style, value);
     else if (name in element && !name.includes("-")) element[name] = value;
     else element.setAttribute(name, value);
   }

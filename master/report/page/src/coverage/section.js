@@ -33,15 +33,11 @@ function cell(bin, point, most, { tip, show }) {
     "aria-label": lines.join(", "),
     style: bin.count > 0 && !bin.ignored ? { "--depth": `${Math.round(35 + 65 * depthOf(bin.count, most))}%` } : {},
     onclick: () => bin.first !== undefined && show(bin),
+    onmouseenter: () => tip.show(cover, lines),
+    onmouseleave: () => tip.hide(),
+    onfocus: () => tip.show(cover, lines),
+    onblur: () => tip.hide(),
   });
-  for (const [event, act] of [
-    ["pointerenter", () => tip.show(cover, lines)],
-    ["focus", () => tip.show(cover, lines)],
-    ["pointerleave", () => tip.hide()],
-    ["blur", () => tip.hide()],
-  ]) {
-    cover.addEventListener(event, act);
-  }
   return cover;
 }
 
