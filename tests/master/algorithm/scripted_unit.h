@@ -326,7 +326,7 @@ class ScriptedUnit : public Unit,
   void free() override { on_free(*this); }
   HostStatistics host_statistics() const override { return host.value(); }
 
- private:
+ protected:
   Capability* find_capability(CapabilityId id) override {
     if (id == HostDiagnostics::kId && !host) return nullptr;
     if (id == ConcurrentSteps::kId && !is_concurrent) return nullptr;
@@ -335,6 +335,7 @@ class ScriptedUnit : public Unit,
                                                                                             id);
   }
 
+ private:
   template <class Block, class Move>
   void move_values(std::span<const ValueReference> references, Block& outside, Move&& move) {
     std::size_t at = 0;

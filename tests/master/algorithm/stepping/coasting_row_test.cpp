@@ -1,6 +1,7 @@
 #include "master/algorithm/stepping/coasting_row.h"
 
 #include <array>
+#include <chrono>
 #include <string>
 
 #include <catch2/catch.hpp>
@@ -53,9 +54,14 @@ struct PlainRow : UnitRow {
   }
 };
 
-/// Three units in a row, saved before each `most`-th step.
+void spend(std::chrono::microseconds duration) {
+  const auto end = std::chrono::steady_clock::now() + duration;
+  while (std::chrono::steady_clock::now() < end) continue;
+}
+
+/// Three units in a row, saved before each `most`-th step unless the interval adapts.
 struct CoastingRows {
-  explicit CoastingRows(std::size_t most = 4) {
+  explicit CoastingRows(std::size_t most = 4, bool adapts = false) {
     auto plain = std::make_unique<PlainRow>();
     plain->calls = &calls;
     std::vector<CoastingRow::Member> members;
@@ -68,7 +74,7 @@ struct CoastingRows {
                                             : StepResult{.reached = to};
       };
       coasting[i] = std::make_unique<CoastingUnit>(std::move(unit), *description,
-                                                   SaveInterval(most, false), kRowCache);
+                                                   SaveInterval(most, adapts), kRowCache);
       values[i] = {{&bound[2 * i], 1}, {&bound[2 * i + 1], 1}};
       plain->members.push_back({&coasting[i]->in_row(), values[i]});
       members.push_back({coasting[i].get(), values[i]});
@@ -257,6 +263,37 @@ TEST_CASE("a unit of a row that does not repeat what it did is saved before each
   f.step(4);
   f.step(5);
   CHECK(f.journal == "A b+ b C a+ a b+ b c+ c A b+ b C ");
+}
+
+TEST_CASE("the more often units of a row are taken back the more often all are saved") {
+  constexpr auto kCost = std::chrono::microseconds(5);  // of a save, and of a step
+  constexpr int kSteps = 4000;
+  const int rollback_each = GENERATE(0, 50);
+  CoastingRows f(1000, true);
+  for (Summing* unit : f.units) {
+    unit->on_state = [kCost](bool) { spend(kCost); };
+    unit->on_step = [kCost](ScriptedUnit&, Time, Time to) {
+      spend(kCost);
+      return StepResult{.reached = to};
+    };
+  }
+  for (int i = 0; i < kSteps; ++i) {
+    f.step(i);
+    if (rollback_each == 0 || i % rollback_each != rollback_each - 1) continue;
+    for (std::size_t unit = 0; unit < 3; ++unit) {
+      f.coasting[unit]->restore_state();
+      f.coasting[unit]->step(StepInterval(at(1e-3 * i), at(1e-3 * (i + 1))), f.values[unit]);
+    }
+  }
+  // about each sqrt(2 * 4000)-th step without rollbacks, and each tenth with them
+  const CoastingUnit::Counts& counts = f.coasting[1]->counts();
+  if (rollback_each == 0) {
+    CHECK(counts.saves < 250);
+    CHECK(counts.repeated_steps == 0);
+  } else {
+    CHECK(counts.saves > 300);
+    CHECK(counts.repeated_steps < 15 * kSteps / 50);
+  }
 }
 
 TEST_CASE("units of a row that is released have all that was noted of them") {
