@@ -193,6 +193,9 @@ fmi3Status fmi3DoStep(fmi3Instance handle, fmi3Float64 point, fmi3Float64 size,
   *terminate = is(instance, "ends");
   *early = is(instance, "early") || is(instance, "arrives");
   if (is(instance, "lies") || is(instance, "early")) *reached = point + size / 2;
+  if (is(instance, "strays")) {
+    *reached = instance->steps > instance->calm_steps + 20 ? INFINITY : point + size / 2;
+  }
   if (is(instance, "drifts")) *reached = point + size * (1 + 1e-9);
   if (is(instance, "warning")) {
     /* a pointer of its own, as some generators give it for the environment */

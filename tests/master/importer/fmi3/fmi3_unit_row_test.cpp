@@ -142,8 +142,8 @@ struct Meddling {
 
 TEST_CASE("units in a row do, answer and fail as they do one by one") {
   const std::string what =
-      GENERATE("plain", "needs", "ends", "early", "arrives", "lies", "drifts", "warning", "babbles",
-               "mumbles", "fatal", "error", "discard", "pending", "unheard", "insists");
+      GENERATE("plain", "needs", "ends", "early", "arrives", "lies", "strays", "drifts", "warning",
+               "babbles", "mumbles", "fatal", "error", "discard", "pending", "unheard", "insists");
   const std::string name = what + GENERATE("", "@120");  // while it is closely watched, and later
   INFO(name);
   const Scratch scratch, other_scratch;
