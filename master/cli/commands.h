@@ -13,6 +13,7 @@ void add_resume(CLI::App& app);
 void add_check(CLI::App& app);
 void add_inspect(CLI::App& app);
 void add_complete(CLI::App& app);
+void add_new(CLI::App& app);
 void add_pack(CLI::App& app);
 void add_build(CLI::App& app);
 void add_campaign(CLI::App& app);

@@ -198,6 +198,7 @@ void add_all(CLI::App& app) {
   stride::cli::add_check(app);
   stride::cli::add_inspect(app);
   stride::cli::add_verify(app);
+  stride::cli::add_new(app);
   stride::cli::add_complete(app);
   stride::cli::add_pack(app);
   stride::cli::add_build(app);

@@ -48,6 +48,16 @@ cp -r "$project" "$work/project"
 oscillator=$work/project/build/units/oscillator.fmu
 [ -f "$oscillator" ] || fail "there is no $oscillator"
 
+step "What stride new writes is built, tested, and run, as it says"
+for kind in unit systemc; do
+  (cd "$work" && "$stride" new "my_$kind" "--$kind" > "$work/table" &&
+    sed -n 's/^  \(cmake\|ctest\|cd\|stride\)/\1/p' "$work/table" > "$work/commands" &&
+    PATH="$work/stride/bin:$PATH" CMAKE_GENERATOR="$generator" bash -e "$work/commands" > "$work/log" 2>&1) ||
+    { cat "$work/table" "$work/log"; fail "the new $kind does not do what it should"; }
+  [ "$(grep -c '' "$work/commands")" -eq 5 ] || { cat "$work/table"; fail "other commands"; }
+  grep -q '100% tests passed, 0 tests failed out of 2' "$work/log" || { cat "$work/log"; fail "not both tests passed"; }
+done
+
 step "stride inspect"
 "$stride" inspect "$oscillator" > "$work/table"
 grep -Eq '^  frequency +parameter +Float64 +Hz +0.5 ' "$work/table" || { cat "$work/table"; fail "no frequency"; }
