@@ -8,7 +8,7 @@ packages_build=(
   nlohmann-json3-dev zlib1g-dev
 )
 packages_test=(
-  binutils catch2 chromium chromium-driver clang-format-14 fish fonts-dejavu-core gtkwave libbenchmark-dev
+  binutils catch2 chromium chromium-driver clang-format-14 dpkg-dev fish fonts-dejavu-core gtkwave libbenchmark-dev
   libpython3.11 libxml2-utils mandoc mold munge parallel python3 python3-venv python3-pip slurm-client slurmctld slurmd
   unzip zip zsh
 )
