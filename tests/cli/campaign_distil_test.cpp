@@ -140,6 +140,31 @@ TEST_CASE("the cases that are chosen cover what all cover, and so do their repla
   CHECK(hits("replays.json") == hits("cases/coverage.json"));
 }
 
+TEST_CASE("where bins are to have several visits, the cases that are chosen have them") {
+  Parts parts = checked_filters();
+  parts.annotation +=
+      "<stride:Coverage><stride:Group component='second' atLeast='2'>"
+      "<stride:Values name='in' signal='u' edges='-1 -0.3 0 0.3 0.6'/>"
+      "</stride:Group></stride:Coverage>";
+  const Distilled space(inputs({"0.5", "0.25", "-0.5", "9", "5", "0.75"}, kCapture), parts);
+  space.check_distilled();
+  Arguments merge{"coverage", "--out", "replays.json"};
+  for (const std::string& name : space.replays())
+    merge.push_back("elsewhere/moved/results/" + name);
+  REQUIRE(space.stride(merge).exit_code == 0);
+  const auto covered = [&](const std::string& file) {
+    std::set<std::string> names;
+    const json report = json::parse(read(space / file));
+    for (const auto& bin : report["groups"][0]["points"][0]["bins"]) {
+      if (bin["count"] > 1 && !bin.contains("ignored")) names.insert(bin["name"]);
+    }
+    return names;
+  };
+  // the two that are negative are hit by one case only
+  CHECK(covered("cases/coverage.json") == std::set<std::string>{"[0, 0.3)", "[0.3, 0.6]"});
+  CHECK(covered("replays.json") == covered("cases/coverage.json"));
+}
+
 TEST_CASE("a replay that covers something else is in no suite") {
   Parts parts = checked_filters();
   parts.annotation +=
