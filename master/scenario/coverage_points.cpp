@@ -164,9 +164,13 @@ void set_lengths(PointDefinition& point, const core::Variable& variable,
 
 }  // namespace
 
-bool CoveragePoints::is_signal(const core::Variable& variable) const {
-  return variable.type != ValueType::Clock && variable.causality != core::Causality::Independent &&
-         !description_.is_message(variable);
+bool CoveragePoints::is_signal(std::size_t variable) const {
+  return description_.variables[variable].causality != core::Causality::Independent &&
+         system_.is_signal({component_, variable});
+}
+
+bool CoveragePoints::is_reported(std::size_t variable) const {
+  return system_.is_reported({component_, variable});
 }
 
 std::vector<CoveragePoints::Subject> CoveragePoints::find(const PointDeclaration& declared) const {
@@ -175,7 +179,7 @@ std::vector<CoveragePoints::Subject> CoveragePoints::find(const PointDeclaration
   std::vector<Subject> found;
   for (std::size_t i = 0; i < description_.variables.size(); ++i) {
     const core::Variable& variable = description_.variables[i];
-    if (wants_signal ? !is_signal(variable) : !description_.is_reported(variable)) continue;
+    if (wants_signal ? !is_signal(i) : !is_reported(i)) continue;
     const bool is_whole = core::means(pattern, variable.name) ||
                           std::ranges::any_of(variable.aliases, [&](const std::string& alias) {
                             return core::means(pattern, alias);
@@ -196,17 +200,18 @@ std::vector<CoveragePoints::Subject> CoveragePoints::find(const PointDeclaration
 void CoveragePoints::fail_unknown(const PointDeclaration& declared) const {
   const bool wants_signal = coverage::is_of_signal(declared.kind);
   std::vector<std::string> names;
-  for (const core::Variable& variable : description_.variables) {
-    const bool fits = wants_signal ? is_signal(variable) : description_.is_reported(variable);
+  for (std::size_t i = 0; i < description_.variables.size(); ++i) {
+    const core::Variable& variable = description_.variables[i];
+    const bool fits = wants_signal ? is_signal(i) : is_reported(i);
     if (fits) names.push_back(variable.name);
     if (fits || variable.name != declared.subject) continue;
     core::fail_input(
         {.where = declared.where},
         fmt::format("'{}' is not a {}", variable.name, wants_signal ? "signal" : "message"),
-        is_signal(variable) ? "cover it with <stride:Values> or <stride:Transitions>"
-        : description_.is_reported(variable) ? "cover it with <stride:Words>, <stride:Lengths>, "
-                                               "<stride:Sequences> or <stride:Gaps>"
-                                             : "name what the clock carries");
+        is_signal(i)     ? "cover it with <stride:Values> or <stride:Transitions>"
+        : is_reported(i) ? "cover it with <stride:Words>, <stride:Lengths>, "
+                           "<stride:Sequences> or <stride:Gaps>"
+                         : "name what the clock carries");
   }
   core::fail_input({.where = declared.where},
                    fmt::format("the component has no {} '{}'", wants_signal ? "signal" : "message",
@@ -301,9 +306,8 @@ std::vector<PointDefinition> CoveragePoints::automatic(
     const core::Variable& variable = description_.variables[i];
     const bool is_input = variable.causality == core::Causality::Input;
     if (!is_input && variable.causality != core::Causality::Output) continue;
-    if (is_input && description_.is_reported(variable))
-      add_messages({i, 0, variable.name}, at_least, points);
-    if (!is_signal(variable) || variable.size != 1) continue;
+    if (is_input && is_reported(i)) add_messages({i, 0, variable.name}, at_least, points);
+    if (!is_signal(i) || variable.size != 1) continue;
     add_values({i, 0, variable.name}, at_least, points, without_range);
   }
   return points;

@@ -170,8 +170,7 @@ class CoverageSelection {
         .name = declared.component, .goal = declared.goal, .where = declared.where};
     group.component = system_.find_component(declared.component, declared.where);
     check_new(group);
-    const CoveragePoints points(group.component,
-                                *system_.components()[group.component].description);
+    const CoveragePoints points(system_, group.component);
     if (declared.points.empty()) {
       add_automatic(group, points, declared);
     } else {

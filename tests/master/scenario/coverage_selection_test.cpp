@@ -174,6 +174,35 @@ TEST_CASE("mistakes in points are named, with the nearest name") {
       Contains("a second point 'led'"));
 }
 
+TEST_CASE(
+    "outputs that are messages since their clock is connected to a triggered one are covered so") {
+  auto description = std::make_shared<core::UnitDescription>();
+  description->has_event_mode = true;
+  auto& variables = description->variables;
+  variables.push_back(variable("tx", 1, ValueType::Clock, Causality::Input));
+  variables.back().clock.emplace().variability = core::IntervalVariability::Countdown;
+  variables.push_back(variable("out", 2, ValueType::Int32, Causality::Output));
+  variables.back().clocks = {1};
+  variables.push_back(variable("rx", 3, ValueType::Clock, Causality::Input));
+  variables.back().clock.emplace();
+  core::SystemDeclaration declaration;
+  declaration.components = {{"a", description, {}, {}}, {"b", description, {}, {}}};
+  declaration.connections.push_back({"a", "tx", "b", "rx", false, {}});
+  const core::System system(declaration);
+  PointDeclaration values = point(PointKind::Values, "out");
+  values.edges = {0, 1};
+  const PointDeclaration words = point(PointKind::Words, "out");
+  const auto select = [&](const std::string& component, const PointDeclaration& declared) {
+    GroupDeclaration of = group({declared});
+    of.component = component;
+    return error_of([&] { select_coverage(system, std::vector{of}, {}); });
+  };
+  CHECK(select("a", words) == "(no error)");
+  CHECK_THAT(select("a", values), Contains("'out' is not a signal") && Contains("<stride:Words>"));
+  CHECK(select("b", values) == "(no error)");
+  CHECK_THAT(select("b", words), Contains("'out' is not a message"));
+}
+
 TEST_CASE("bins of integers that no value can be in are mistakes") {
   PointDeclaration level = point(PointKind::Values, "level");
   level.edges = {1, 1.5, 1.8, 3};
