@@ -196,6 +196,9 @@ TEST_CASE("a device that does something else fails its suite") {
   CHECK_THAT(read(space / "suite/case_000000.ssd"), Contains("tolerance=\"0.01\""));
   CHECK(space.run_suite({"--set", "second.time_constant=0.999"}).exit_code == 0);
   CHECK(space.run_suite({"--set", "second.time_constant=0.5"}).exit_code == 1);
+  // as of a run, the exit code is none of a failure
+  const Outcome cut = space.run_suite({"--stop", "0.5"});
+  CHECK((cut.exit_code == 0 && cut.out == "case_000000: undecided\n"));
 }
 
 TEST_CASE("only bits that differ before the end are seen in the golden outputs") {
