@@ -229,6 +229,29 @@ TEST_CASE("what a device was set to, by the scenario, the case and in the run, i
                  Contains("<stride:EarlyReturn components=\"sink\" allowed=\"false\"/>"));
 }
 
+TEST_CASE("inputs that were set, forced or held in the run are so in the replay") {
+  const auto check = [](const std::string& connections, const std::string& interventions,
+                        const std::string& unit = "feedthrough.fmu") {
+    INFO(interventions);
+    const Distilled space(inputs({"0.5"}, all_of("second")),
+                          Parts{component("first", "minimal.fmu") +
+                                    component("other", "inverter.fmu") + component("second", unit),
+                                connections, "<stride:Step size='0.125'/>" + interventions},
+                          0);
+    space.check_distilled();
+  };
+  check("",
+        "<stride:Set variable='second.u' value='2' at='0.5'/>"
+        "<stride:Set variable='second.u' value='3' at='0.7'/>");
+  const std::string wire = connection("first.y", "second.u");
+  check(wire, "<stride:Force variable='second.u' value='2' from='0.5' until='0.75'/>");
+  check(wire, "<stride:Force variable='second.u' value='2' from='0.55'/>");
+  check(wire, "<stride:Force variable='second.u' from='0.25' until='0.7'/>");
+  check(connection("other.y", "second.u"),
+        "<stride:Force variable='second.u' value='false' from='0.25' until='0.7'/>",
+        "inverter.fmu");
+}
+
 TEST_CASE("values of every type, arrays and messages are those of the case") {
   std::string wires = connection("source.send.clock", "sink.receive.clock") +
                       connection("source.send.frame", "sink.receive.frame");
