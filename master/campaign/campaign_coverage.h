@@ -3,35 +3,38 @@
 #define STRIDE_MASTER_CAMPAIGN_CAMPAIGN_COVERAGE_H
 
 #include <cstdint>
+#include <map>
 #include <optional>
-#include <span>
+#include <string>
 
+#include "master/campaign/case_definitions.h"
 #include "master/campaign/case_record.h"
 #include "master/campaign/plan.h"
-#include "master/coverage/definition.h"
 #include "master/coverage/report.h"
 
 namespace stride::campaign {
 
-/// Of the cases with the same definition of coverage as the scenario: one in which units are others
-/// may have another one, and is not counted.
+/// Merged point by point: what has other bins in some cases, since their units are others, is
+/// beside the rest, as coverage::merge() has it.
 class CampaignCoverage {
  public:
-  /// `definitions`, of the scenario, must outlive this object.
-  CampaignCoverage(const Plan& plan, std::span<const coverage::GroupDefinition> definitions);
+  /// The definitions must outlive this object.
+  CampaignCoverage(const Plan& plan, CaseDefinitions& definitions);
 
-  /// In ascending order of the index.
+  /// In any order of the index.
   void add(const CaseResult& result, std::uint64_t index);
 
-  /// Nothing if the scenario declares no coverage.
-  const std::optional<coverage::Report>& report() const { return report_; }
-  /// How many cases have another definition.
-  std::uint64_t otherwise_covered() const { return otherwise_covered_; }
+  /// Nothing if the scenario declares no coverage. Without any case that of the scenario, with
+  /// nothing hit.
+  std::optional<coverage::Report> report() const;
+  /// How many cases are not in it, since nothing says any more which bins they had.
+  std::uint64_t unknown() const { return unknown_; }
 
  private:
-  std::span<const coverage::GroupDefinition> definitions_;
-  std::optional<coverage::Report> report_;
-  std::uint64_t otherwise_covered_ = 0;
+  const std::string scenario_;
+  CaseDefinitions& definitions_;
+  std::map<std::string, coverage::Report> reports_;  ///< by the hashes of their definitions
+  std::uint64_t unknown_ = 0;
 };
 
 }  // namespace stride::campaign

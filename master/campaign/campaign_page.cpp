@@ -268,15 +268,14 @@ std::vector<std::string> links_to(const CaseFolder& cases, const CaseColumns& co
 }  // namespace
 
 void write_campaign_page(const fs::path& file, const Plan& plan, const CaseFolder& cases,
-                         const std::string& report,
-                         std::span<const coverage::GroupDefinition> coverage,
+                         const std::string& report, CaseDefinitions coverage,
                          std::uint64_t most_cases) {
   const std::string_view text = report::campaign_page();
   const std::size_t mark = text.find(report::kDataMark);
   if (mark == std::string_view::npos) {
     core::fail_input({}, "this stride was built without reports (STRIDE_REPORT=OFF)");
   }
-  const CaseColumns columns = read_case_columns(plan, cases, most_cases, coverage);
+  const CaseColumns columns = read_case_columns(plan, cases, most_cases, std::move(coverage));
   core::Replacement page(file);
   page.file().write(text.substr(0, mark));
   PageWriter(page.file(), plan, columns)

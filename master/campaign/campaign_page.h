@@ -4,12 +4,11 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <span>
 #include <string>
 
+#include "master/campaign/case_definitions.h"
 #include "master/campaign/case_folder.h"
 #include "master/campaign/plan.h"
-#include "master/coverage/definition.h"
 
 namespace stride::campaign {
 
@@ -19,12 +18,11 @@ inline constexpr std::uint64_t kMostShownCases = 100'000;
 
 /// Writes the page to the file, which has its new content at once or not at all. Records that are
 /// missing are shown as such. `report` is the name of the page in the results of a case; links to
-/// it are relative. `coverage` is that of the scenario. The same records make the same bytes.
+/// it are relative. The same records make the same bytes.
 /// Throws core::Error (Input) in a build without pages, and if the file cannot be written.
 void write_campaign_page(const std::filesystem::path& file, const Plan& plan,
                          const CaseFolder& cases, const std::string& report,
-                         std::span<const coverage::GroupDefinition> coverage = {},
-                         std::uint64_t most_cases = kMostShownCases);
+                         CaseDefinitions coverage = {}, std::uint64_t most_cases = kMostShownCases);
 
 }  // namespace stride::campaign
 

@@ -127,7 +127,7 @@ void become_numbers(ParameterColumn& column, const ValueKind& kind) {
 }  // namespace
 
 CaseColumns read_case_columns(const Plan& plan, const CaseFolder& cases, std::uint64_t most,
-                              std::span<const coverage::GroupDefinition> coverage) {
+                              CaseDefinitions coverage) {
   CaseColumns columns;
   CampaignCoverage covered(plan, coverage);
   for (const Parameter& parameter : plan.campaign().parameters) {

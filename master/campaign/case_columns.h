@@ -6,13 +6,12 @@
 #include <cstdint>
 #include <map>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
+#include "master/campaign/case_definitions.h"
 #include "master/campaign/case_folder.h"
 #include "master/campaign/plan.h"
-#include "master/coverage/definition.h"
 #include "master/coverage/report.h"
 
 namespace stride::campaign {
@@ -72,7 +71,7 @@ struct CaseColumns {
 /// of equal size, chosen by random numbers that are the same each time: no pattern of the plan
 /// shows in them.
 CaseColumns read_case_columns(const Plan& plan, const CaseFolder& cases, std::uint64_t most,
-                              std::span<const coverage::GroupDefinition> coverage = {});
+                              CaseDefinitions coverage = {});
 
 }  // namespace stride::campaign
 

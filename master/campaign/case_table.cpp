@@ -10,6 +10,7 @@
 #include "master/campaign/campaign_coverage.h"
 #include "master/campaign/plan_folder.h"
 #include "master/coverage/coverage_json.h"
+#include "master/coverage/merge.h"
 #include "master/recorders/signal_text.h"
 #include "master/util/message_text.h"
 #include "master/util/output_file.h"
@@ -36,8 +37,8 @@ std::string number_text(std::optional<double> number) {
 
 class TableWriter {
  public:
-  TableWriter(const Plan& plan, std::vector<CheckColumn> checks,
-              std::span<const coverage::GroupDefinition> coverage, core::OutputFile& file)
+  TableWriter(const Plan& plan, std::vector<CheckColumn> checks, CaseDefinitions& coverage,
+              core::OutputFile& file)
       : plan_(plan), checks_(std::move(checks)), coverage_(coverage), file_(file) {}
 
   void write_header() {
@@ -51,7 +52,7 @@ class TableWriter {
     for (const Aggregate& aggregate : plan_.campaign().aggregates) {
       put(csv_field("aggregate:" + aggregate.name));
     }
-    for (const coverage::GroupDefinition& group : coverage_) {
+    for (const coverage::GroupDefinition& group : coverage_.of_scenario()) {
       put(csv_field("coverage:" + group.name));
     }
     put("reached"), put("hash"), put("wall_time"), put("began"), put("host");
@@ -71,7 +72,7 @@ class TableWriter {
     for (std::size_t i = 0; i < plan_.campaign().aggregates.size(); ++i) {
       put(i < known.aggregates.size() ? number_text(known.aggregates[i]) : "");
     }
-    if (!coverage_.empty()) put_coverage(known);
+    if (!coverage_.of_scenario().empty()) put_coverage(known, row.index);
     put(number_text(known.reached));
     put(plan_.hash(row));
     put(result != nullptr ? number_text(known.wall_time) : "");
@@ -94,18 +95,17 @@ class TableWriter {
     put(is_known && found->margin ? number_text(found->margin->value) : "");
   }
 
-  void put_coverage(const CaseResult& result) {
-    std::vector<std::optional<double>> percentages(coverage_.size());
-    if (result.coverage && result.coverage->definition == definition_) {
-      percentages = coverage::percentages(coverage_, result.coverage->bins);
-    }
+  /// The groups are those of the scenario, whatever the units are.
+  void put_coverage(const CaseResult& result, std::uint64_t index) {
+    std::vector<std::optional<double>> percentages(coverage_.of_scenario().size());
+    const auto* const own = result.coverage ? coverage_.of(*result.coverage, index) : nullptr;
+    if (own != nullptr) percentages = coverage::percentages(*own, result.coverage->bins);
     for (const auto& percentage : percentages) put(number_text(percentage));
   }
 
   const Plan& plan_;
   std::vector<CheckColumn> checks_;
-  std::span<const coverage::GroupDefinition> coverage_;
-  const std::string definition_ = coverage::hash(coverage_);
+  CaseDefinitions& coverage_;
   core::OutputFile& file_;
 };
 
@@ -120,8 +120,7 @@ void add_columns(const CaseResult& result, std::vector<CheckColumn>& columns) {
 }  // namespace
 
 CaseSummary write_case_tables(const Plan& plan, const CaseFolder& cases, const CaseScratch& scratch,
-                              std::size_t most_failures,
-                              std::span<const coverage::GroupDefinition> coverage) {
+                              std::size_t most_failures, CaseDefinitions coverage) {
   CaseSummary summary{.totals = {.cases = plan.size()}};
   CampaignCoverage covered(plan, coverage);
   std::vector<CheckColumn> columns;
@@ -140,7 +139,7 @@ CaseSummary write_case_tables(const Plan& plan, const CaseFolder& cases, const C
   }
   lines.close();
   summary.coverage = covered.report();
-  summary.otherwise_covered = covered.otherwise_covered();
+  summary.without_bins = covered.unknown();
   core::OutputFile table(scratch.file(kCaseTable));
   TableWriter writer(plan, std::move(columns), coverage, table);
   writer.write_header();

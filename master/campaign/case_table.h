@@ -4,13 +4,12 @@
 
 #include <cstdint>
 #include <optional>
-#include <span>
 #include <vector>
 
+#include "master/campaign/case_definitions.h"
 #include "master/campaign/case_folder.h"
 #include "master/campaign/case_record.h"
 #include "master/campaign/plan.h"
-#include "master/coverage/definition.h"
 #include "master/coverage/report.h"
 
 namespace stride::campaign {
@@ -38,17 +37,15 @@ struct CaseSummary {
   CaseTotals totals;
   std::vector<FailedCase> first_failures{};
   std::optional<coverage::Report> coverage{};  ///< if the scenario declares coverage
-  std::uint64_t otherwise_covered = 0;         ///< cases whose coverage is defined otherwise
+  std::uint64_t without_bins = 0;              ///< cases that are not in it: CampaignCoverage
 };
 
 /// Reads all records, and writes cases.csv (RFC 4180) and cases.jsonl, a row or a line for each
-/// case in order of the index, and coverage.json if `coverage`, that of the scenario, has groups;
-/// each file is there as a whole or not at all. A case in which units are others may have another
-/// definition of its coverage: it is not counted. Needs constant memory, but for the bins.
-/// Throws core::Error (Run) if a file cannot be written.
+/// case in order of the index, and coverage.json if the scenario has groups of it; each file is
+/// there as a whole or not at all. Needs constant memory, but for the bins. Throws core::Error
+/// (Run) if a file cannot be written.
 CaseSummary write_case_tables(const Plan& plan, const CaseFolder& cases, const CaseScratch& scratch,
-                              std::size_t most_failures,
-                              std::span<const coverage::GroupDefinition> coverage = {});
+                              std::size_t most_failures, CaseDefinitions coverage = {});
 
 }  // namespace stride::campaign
 

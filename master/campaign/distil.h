@@ -3,55 +3,73 @@
 #define STRIDE_MASTER_CAMPAIGN_DISTIL_H
 
 #include <cstdint>
+#include <map>
 #include <set>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "master/campaign/case_definitions.h"
 #include "master/campaign/case_record.h"
 #include "master/coverage/definition.h"
 
 namespace stride::campaign {
 
-/// A case, and all that it is good for: what it covers, and how it has ended.
+/// A case, and all that it is good for: what it covers and how often, and how it has ended, which
+/// is once.
 struct DistilCandidate {
   std::uint64_t index = 0;
-  std::set<std::string> items{};
+  std::map<std::string, std::uint64_t> items{};  ///< each once at least
 };
+
+/// How often an item is wanted; once where it is not here.
+using Wanted = std::map<std::string, std::uint64_t>;
 
 struct DistilledCase {
   std::uint64_t index = 0;
-  std::set<std::string> alone{};  ///< the items that no other chosen one has
+  std::set<std::string> alone{};  ///< the items of which the other chosen ones have too few
 };
 
-/// Cases that together have all items of all candidates, and of which none can be left out;
-/// ascending. By greedy set cover, which takes the case with the most items that are still missing
-/// (of several the first), and then removal of those that have become redundant, the last case
-/// first. For m items that is at most 1 + 1/2 + … + 1/m times as many as the fewest that would do
-/// (V. Chvátal, "A greedy heuristic for the set-covering problem", Mathematics of Operations
-/// Research 4, 1979). No two candidates have one index.
-std::vector<DistilledCase> distil(std::span<const DistilCandidate> candidates);
+/// Cases that together have all items of all candidates, each as often as it is wanted, or once if
+/// all candidates together have it less often, and of which none can be left out; ascending. By
+/// greedy cover, which takes the case that adds the most of what is still missing (of several the
+/// first), and then removal of those that have become redundant, the last case first. Where each of
+/// m items is wanted once that is at most 1 + 1/2 + … + 1/m times as many as the fewest that would
+/// do (V. Chvátal, "A greedy heuristic for the set-covering problem", Mathematics of Operations
+/// Research 4, 1979); otherwise m is the sum of how often items are wanted (L. A. Wolsey, "An
+/// analysis of the greedy algorithm for the submodular set covering problem", Combinatorica 2,
+/// 1982). No two candidates have one index.
+std::vector<DistilledCase> distil(std::span<const DistilCandidate> candidates,
+                                  const Wanted& wanted = {});
 
 /// How a case has ended: "passed", "failed by 'a', 'b'", "crashed". Of cases with the same outcome
 /// and the same failed checks and verdicts it is the same.
 std::string ending_of(const CaseResult& result);
 
-/// The bins of a component that cases have hit, and that count: "POINT: BIN".
+/// The bins of a component that cases have hit, and that count: "POINT: BIN". Of a point that means
+/// something else in a case than in the scenario it is "POINT@DEFINITION: BIN".
 class CountedBins {
  public:
-  /// `coverage` is that of the scenario, and must outlive this object.
-  CountedBins(std::string component, std::span<const coverage::GroupDefinition> coverage);
+  /// The definitions must outlive this object.
+  CountedBins(std::string component, CaseDefinitions& definitions)
+      : component_(std::move(component)), definitions_(definitions) {}
 
-  /// Empty where the record has no coverage of it. Of a case whose units give another definition
-  /// all bins count.
-  std::set<std::string> of(const CaseResult& result) const;
+  /// With the number of visits. Empty where the record has no coverage of it, or nothing says any
+  /// more which bins it had.
+  std::map<std::string, std::uint64_t> of(const CaseResult& result, std::uint64_t index);
+  /// The visits after which the bins are covered, of all that of() has returned, where these are
+  /// more than one.
+  const Wanted& wanted() const { return wanted_; }
 
  private:
-  bool counts(const std::string& point, const std::string& bin) const;
+  const coverage::GroupDefinition* group_in(const CaseDefinitions::Definitions& all) const;
+  std::string title(const coverage::GroupDefinition& group,
+                    const coverage::PointDefinition& point) const;
 
   std::string component_;
-  std::span<const coverage::GroupDefinition> coverage_;
-  std::string definition_;
+  CaseDefinitions& definitions_;
+  Wanted wanted_;
 };
 
 }  // namespace stride::campaign

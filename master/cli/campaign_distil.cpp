@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <iterator>
+#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
+#include <ranges>
 #include <set>
 #include <string>
 #include <utility>
@@ -48,7 +49,8 @@ struct DistilArguments {
 struct Cases {
   std::vector<campaign::DistilCandidate> candidates;  ///< those with stimuli
   std::map<std::uint64_t, campaign::CaseResult> results;
-  std::set<std::string> items;        ///< of all cases with a record
+  std::map<std::string, std::uint64_t> items;  ///< of all cases with a record, and how often
+  campaign::Wanted wanted;
   std::uint64_t missing = 0;          ///< without a record
   std::uint64_t without_stimuli = 0;  ///< which never had a step
   bool has_coverage = false;
@@ -56,20 +58,29 @@ struct Cases {
 
 constexpr std::string_view kEndsItem = "ends: ";
 
+void add_items(const std::map<std::string, std::uint64_t>& items,
+               std::map<std::string, std::uint64_t>& all) {
+  for (const auto& [item, count] : items) {
+    std::uint64_t& sum = all[item];
+    sum += std::min(count, std::numeric_limits<std::uint64_t>::max() - sum);
+  }
+}
+
 Cases read_cases(const CampaignInput& input, const campaign::CaseFolder& folder,
                  const std::string& component) {
   Cases cases;
-  const campaign::CountedBins bins(component, input.scenario().loaded().coverage());
+  campaign::CaseDefinitions definitions = input.case_definitions();
+  campaign::CountedBins bins(component, definitions);
   for (std::uint64_t i = 0; i < input.plan().size(); ++i) {
     auto record = folder.read(i);
     if (!record) {
       ++cases.missing;
       continue;
     }
-    campaign::DistilCandidate candidate{i, bins.of(record->result)};
+    campaign::DistilCandidate candidate{i, bins.of(record->result, i)};
     cases.has_coverage = cases.has_coverage || !candidate.items.empty();
-    candidate.items.insert(std::string(kEndsItem) + campaign::ending_of(record->result));
-    cases.items.insert(candidate.items.begin(), candidate.items.end());
+    candidate.items.emplace(std::string(kEndsItem) + campaign::ending_of(record->result), 1);
+    add_items(candidate.items, cases.items);
     const fs::path stimuli = folder.stimuli_name(i) / capture::stimuli_file_name(component);
     if (core::is_file(input.folder() / stimuli)) {
       cases.candidates.push_back(std::move(candidate));
@@ -78,6 +89,7 @@ Cases read_cases(const CampaignInput& input, const campaign::CaseFolder& folder,
       ++cases.without_stimuli;
     }
   }
+  cases.wanted = bins.wanted();
   return cases;
 }
 
@@ -110,7 +122,7 @@ class Distillation {
                        fmt::format("run them: stride campaign run {}", input_.word()));
     }
     do {
-      chosen_ = campaign::distil(cases_.candidates);
+      chosen_ = campaign::distil(cases_.candidates, cases_.wanted);
     } while (!write_chosen());
     std::set<std::uint64_t> kept;
     for (const auto& one : chosen_) kept.insert(one.index);
@@ -164,13 +176,17 @@ class Distillation {
                                    unusable_.begin()->first, unusable_.begin()->second));
   }
 
+  /// What all cases have, and those with a replay have not, or not as often as it is wanted.
   std::vector<std::string> lost_items() const {
-    std::set<std::string> kept;
-    for (const auto& candidate : cases_.candidates) {
-      kept.insert(candidate.items.begin(), candidate.items.end());
-    }
+    std::map<std::string, std::uint64_t> kept;
+    for (const auto& candidate : cases_.candidates) add_items(candidate.items, kept);
     std::vector<std::string> lost;
-    std::ranges::set_difference(cases_.items, kept, std::back_inserter(lost));
+    for (const auto& [item, count] : cases_.items) {
+      const auto often = cases_.wanted.find(item);
+      const bool is_often = often != cases_.wanted.end() && count >= often->second;
+      const auto left = kept.find(item);
+      if (left == kept.end() || (is_often && left->second < often->second)) lost.push_back(item);
+    }
     return lost;
   }
 
@@ -206,7 +222,7 @@ class Distillation {
       return static_cast<std::size_t>(std::ranges::count_if(
           items, [](const std::string& item) { return item.starts_with(kEndsItem); }));
     };
-    const std::size_t ends = count(cases_.items) - count(lost);
+    const std::size_t ends = count(std::views::keys(cases_.items)) - count(lost);
     const std::string ways = fmt::format("{} {} to end", ends, ends == 1 ? "way" : "ways");
     if (!cases_.has_coverage) {
       return fmt::format("They have {}; the records have no coverage of it, so only these count",

@@ -10,6 +10,7 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
 #include "master/campaign/campaign_file.h"
 #include "master/campaign/case_range.h"
@@ -53,6 +54,17 @@ fs::path campaign_folder(const CampaignArguments& arguments) {
   if (core::is_folder(arguments.file)) return arguments.file;
   return arguments.out.empty() ? campaign::default_folder(arguments.file) : arguments.out;
 }
+
+class NoWarnings {
+ public:
+  NoWarnings() { spdlog::set_level(spdlog::level::err); }
+  ~NoWarnings() { spdlog::set_level(before_); }
+  NoWarnings(const NoWarnings&) = delete;
+  NoWarnings& operator=(const NoWarnings&) = delete;
+
+ private:
+  const spdlog::level::level_enum before_ = spdlog::get_level();
+};
 
 campaign::Campaign read_with_warnings(const fs::path& file) {
   campaign::Campaign read = campaign::read_campaign(file);
@@ -146,6 +158,20 @@ void CampaignInput::make_plan() const {
     }
     std::this_thread::sleep_for(kPause);
   }
+}
+
+scenario::LoadedScenario CampaignInput::load_case(std::uint64_t index) const {
+  const NoWarnings quiet;
+  scenario::ScenarioRequest request = plan_.request(plan_.at(index));
+  request.files = scenario_.loaded().scenario().files;
+  request.units = scenario_.units();
+  return scenario::LoadedScenario(request);
+}
+
+campaign::CaseDefinitions CampaignInput::case_definitions() const {
+  return campaign::CaseDefinitions(scenario_.loaded().coverage(), [this](std::uint64_t index) {
+    return load_case(index).coverage();
+  });
 }
 
 void CampaignInput::require_case(std::uint64_t index, const char* option) const {

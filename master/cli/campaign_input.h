@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "master/campaign/campaign_scenario.h"
+#include "master/campaign/case_definitions.h"
 #include "master/campaign/definition.h"
 #include "master/campaign/plan.h"
 #include "master/cli/crash_guard.h"
@@ -54,6 +55,11 @@ class CampaignInput {
   void require_plan() const;
   /// Checks and writes the plan, unless it is there. Throws core::Error (Input) if another one is.
   void make_plan() const;
+  /// The scenario of a case, without warnings: those of the campaign's have been printed. Throws
+  /// core::Error (Input).
+  scenario::LoadedScenario load_case(std::uint64_t index) const;
+  /// Loads the scenarios of cases with other definitions of coverage; this object must outlive it.
+  campaign::CaseDefinitions case_definitions() const;
   /// Throws core::Error (Input) for an index, given by this option, that no case has.
   void require_case(std::uint64_t index, const char* option) const;
 

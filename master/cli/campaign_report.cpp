@@ -47,7 +47,8 @@ void write_campaign_report(const fs::path& file, const CampaignInput& input,
                            const campaign::CaseFolder& cases) {
   const scenario::LoadedScenario& loaded = input.scenario().loaded();
   campaign::write_campaign_page(file, input.plan(), cases,
-                                loaded.scenario().annotation.results.report, loaded.coverage());
+                                loaded.scenario().annotation.results.report,
+                                input.case_definitions());
 }
 
 void add_campaign_report(CLI::App& group) {

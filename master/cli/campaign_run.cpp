@@ -22,6 +22,7 @@
 #include "master/cli/case_options.h"
 #include "master/cli/case_pool.h"
 #include "master/cli/case_runner.h"
+#include "master/cli/coverage_table.h"
 #include "master/cli/crash_guard.h"
 #include "master/cli/interruption.h"
 #include "master/cli/missing_cases.h"
@@ -84,9 +85,10 @@ void print_coverage(const campaign::CaseSummary& summary) {
   for (const coverage::GroupReport& group : summary.coverage->groups) {
     print_text("Coverage of {}\n", group_text(group, "; the goal is"));
   }
-  if (summary.otherwise_covered == 0) return;
-  print_text("{} not counted in it, since their units have other bins\n",
-             cases_text(summary.otherwise_covered));
+  print_text("{}", told_apart_table(*summary.coverage));
+  if (summary.without_bins == 0) return;
+  print_text("{} not counted in it, since nothing says any more which bins they had\n",
+             cases_text(summary.without_bins));
 }
 
 void print_summary(const CampaignInput& input, const campaign::CaseSummary& summary) {
@@ -157,8 +159,8 @@ void run_missing(const CampaignRunArguments& arguments, const CampaignInput& inp
   const Interruption interruption;
   MissingCases(input.plan(), input.scenario(), cases, scratch, missing_options(arguments, input))
       .run();
-  const campaign::CaseSummary summary = write_case_tables(
-      input.plan(), cases, scratch, kShownFailures, input.scenario().loaded().coverage());
+  const campaign::CaseSummary summary =
+      write_case_tables(input.plan(), cases, scratch, kShownFailures, input.case_definitions());
   if (!arguments.junit.empty()) {
     write_campaign_junit(arguments.junit, input.plan(), cases, summary.totals);
   }
@@ -236,8 +238,8 @@ campaign::CaseSummary print_status(const CampaignInput& input) {
       {campaign::kCaseTable, campaign::kCaseLines, coverage::kCoverageFile, campaign::kRunning});
   const campaign::CaseFolder cases(input.plan(), input.folder());
   const campaign::CaseScratch scratch(cases);
-  const campaign::CaseSummary summary = write_case_tables(
-      input.plan(), cases, scratch, kShownFailures, input.scenario().loaded().coverage());
+  const campaign::CaseSummary summary =
+      write_case_tables(input.plan(), cases, scratch, kShownFailures, input.case_definitions());
   print_summary(input, summary);
   return summary;
 }

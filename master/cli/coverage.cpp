@@ -15,6 +15,7 @@
 #include "master/cli/output.h"
 #include "master/cli/output_paths.h"
 #include "master/coverage/coverage_json.h"
+#include "master/coverage/merge.h"
 #include "master/coverage/ucis.h"
 #include "master/recorders/results_folder.h"
 #include "master/util/error.h"
@@ -54,20 +55,32 @@ void require_different(const std::vector<fs::path>& files) {
   }
 }
 
-coverage::Report merged(const std::vector<fs::path>& files) {
-  coverage::Report report = coverage::read_coverage(files.front());
-  for (std::size_t i = 1; i < files.size(); ++i) {
-    const coverage::Report other = coverage::read_coverage(files[i]);
+struct Merged {
+  coverage::Report report;
+  FilesOfPoints where;
+};
+
+Merged merged(const std::vector<fs::path>& files) {
+  constexpr std::size_t kMostNames = 3;
+  Merged merged;
+  std::map<std::pair<std::string, std::string>, std::vector<std::string>> having;
+  for (const fs::path& file : files) {
+    const coverage::Report report = coverage::read_coverage(file);
+    for (const coverage::GroupReport& group : report.groups) {
+      for (const coverage::PointReport& point : group.points) {
+        having[{group.component, point.definition}].push_back(file.string());
+      }
+    }
     try {
-      coverage::merge(report, other);
-    } catch (const std::invalid_argument& difference) {
-      core::fail_input({.where = {files[i].string(), 0}},
-                       fmt::format("this is of another coverage than {}: {}",
-                                   files.front().string(), difference.what()),
-                       "merge coverage of the same definition only");
+      coverage::merge(merged.report, report);
+    } catch (const std::invalid_argument& mistake) {
+      core::fail_input({.where = {file.string(), 0}}, mistake.what(),
+                       "one of the files is not as stride has written it");
     }
   }
-  return report;
+  if (files.size() == 1) return merged;
+  for (const auto& [point, all] : having) merged.where[point] = core::abridged(all, kMostNames);
+  return merged;
 }
 
 /// It has to say when it was written.
@@ -93,10 +106,11 @@ void show_coverage(const CoverageArguments& arguments) {
   }
   refuse_kept_paths(outputs, inputs);
   require_different(files);
-  const coverage::Report report = merged(files);
+  const auto& [report, where] = merged(files);
   if (!arguments.out.empty()) coverage::write_coverage(arguments.out, report);
   if (!arguments.ucis.empty()) write_ucis(arguments.ucis, report, files);
-  print_text("{}{}", coverage_table(report), arguments.missing ? missing_table(report) : "");
+  print_text("{}{}{}", coverage_table(report), told_apart_table(report, where),
+             arguments.missing ? missing_table(report) : "");
 }
 
 }  // namespace
@@ -106,8 +120,7 @@ void add_coverage(CLI::App& app) {
       app.add_subcommand("coverage", "Show what runs and campaigns have covered together");
   const auto arguments = std::make_shared<CoverageArguments>();
   command
-      ->add_option("PATH", arguments->paths,
-                   "Results of runs, campaigns, or files coverage.json, of the same definition")
+      ->add_option("PATH", arguments->paths, "Results of runs, campaigns, or files coverage.json")
       ->required()
       ->type_name("");
   command->add_option("--out,--output,-o", arguments->out, "Write the merged coverage to this file")

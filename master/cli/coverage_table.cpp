@@ -4,6 +4,7 @@
 
 #include "master/cli/table.h"
 #include "master/coverage/demand.h"
+#include "master/coverage/told_apart.h"
 
 namespace stride::cli {
 namespace {
@@ -32,9 +33,9 @@ std::string coverage_table(const coverage::Report& report) {
     table.add({group.component, "", "", coverage::percentage_text(group.percentage()),
                goal_text(group.goal)});
     for (const coverage::PointReport& point : group.points) {
-      table.add({"  " + point.name, point.is_open ? "open" : std::to_string(point.countable()),
-                 std::to_string(point.covered()), coverage::percentage_text(point.percentage()),
-                 ""});
+      table.add(
+          {"  " + label(group, point), point.is_open ? "open" : std::to_string(point.countable()),
+           std::to_string(point.covered()), coverage::percentage_text(point.percentage()), ""});
     }
   }
   return "\nCoverage\n" + table.text();
@@ -65,11 +66,27 @@ std::string missing_table(const coverage::Report& report) {
     for (const coverage::PointReport& point : group.points) {
       for (const coverage::BinCount& bin : point.bins) {
         if (bin.is_ignored || bin.count >= point.at_least) continue;
-        table.add({group.component, point.name, bin.name, std::to_string(bin.count)});
+        table.add({group.component, label(group, point), bin.name, std::to_string(bin.count)});
       }
     }
   }
   return table.size() == 0 ? "" : "\nNot covered\n" + table.text();
+}
+
+std::string told_apart_table(const coverage::Report& report, const FilesOfPoints& where) {
+  Table table({{"component"}, {"point"}, {"in"}, {"why"}});
+  const char* const word = report.runs == report.cases ? "cases" : "runs";
+  for (const coverage::ToldApart& point : coverage::told_apart(report)) {
+    std::string in = fmt::format("{} of {} {}", point.runs, report.runs, word);
+    const auto place = where.find({point.component, point.definition});
+    if (place != where.end()) {
+      in += ": " + place->second;
+    } else if (point.first_case) {
+      in += fmt::format(", from case {} on", *point.first_case);
+    }
+    table.add({point.component, point.point, in, point.why});
+  }
+  return table.size() == 0 ? "" : "\nNot alike in all runs\n" + table.text();
 }
 
 std::vector<recorders::CoverageSummary> coverage_summaries(const coverage::Report& report) {

@@ -2,8 +2,10 @@
 #ifndef STRIDE_MASTER_CLI_COVERAGE_TABLE_H
 #define STRIDE_MASTER_CLI_COVERAGE_TABLE_H
 
+#include <map>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "master/coverage/definition.h"
@@ -18,6 +20,11 @@ std::string coverage_table(const coverage::Report& report);
 std::string coverage_table(std::span<const coverage::GroupDefinition> groups);
 /// With its title: the bins that count and do not have their visits; empty if there are none.
 std::string missing_table(const coverage::Report& report);
+
+/// With its title: the points that not all runs have alike, of how many runs and why; empty if
+/// there are none. `where` says of a component and the definition of a point in which files it is.
+using FilesOfPoints = std::map<std::pair<std::string, std::string>, std::string>;
+std::string told_apart_table(const coverage::Report& report, const FilesOfPoints& where = {});
 
 std::vector<recorders::CoverageSummary> coverage_summaries(const coverage::Report& report);
 

@@ -10,6 +10,8 @@
 
 #include <fmt/format.h>
 
+#include "master/model/number_range.h"
+
 namespace stride::coverage {
 namespace {
 
@@ -38,6 +40,33 @@ std::string edge_text(double edge) {
   return static_cast<double>(narrow) == edge ? fmt::format("{}", narrow) : fmt::format("{}", edge);
 }
 
+/// Of the bin from this edge on.
+std::string range_name(const std::vector<double>& edges, std::size_t i) {
+  const char* const end = i + 2 == edges.size() ? "]" : ")";
+  return fmt::format("[{}, {}{}", edge_text(edges[i]), edge_text(edges[i + 1]), end);
+}
+
+/// Each bin of an integer variable has to hold one that its type has.
+void require_integers(const std::vector<double>& edges, core::ValueType type) {
+  const core::NumberRange all = *core::range_of(type);
+  for (const double edge : edges) {
+    if (std::abs(edge) <= kExactIntegers) continue;
+    throw std::invalid_argument(fmt::format(
+        "expected edges up to {:.0f}, as far as bins of integers are exact, and there is {:.0f}",
+        kExactIntegers, edge));
+  }
+  for (std::size_t i = 0; i + 1 < edges.size(); ++i) {
+    const bool is_last = i + 2 == edges.size();
+    const double end = edges[i + 1];
+    const double least = std::max(std::ceil(edges[i]), static_cast<double>(all.least));
+    const double most =
+        std::min(is_last ? std::floor(end) : std::ceil(end) - 1, static_cast<double>(all.most));
+    if (least <= most) continue;
+    throw std::invalid_argument(
+        fmt::format("no {} is in the bin {}", core::name(type), range_name(edges, i)));
+  }
+}
+
 }  // namespace
 
 std::size_t Ranges::bin_of(double value) const {
@@ -50,10 +79,7 @@ std::size_t Ranges::bin_of(double value) const {
 
 std::vector<DeclaredBin> Ranges::bins() const {
   std::vector<DeclaredBin> bins;
-  for (std::size_t i = 0; i < size(); ++i) {
-    const char* const end = i + 1 == size() ? "]" : ")";
-    bins.push_back({fmt::format("[{}, {}{}", edge_text(edges_[i]), edge_text(edges_[i + 1]), end)});
-  }
+  for (std::size_t i = 0; i < size(); ++i) bins.push_back({range_name(edges_, i)});
   bins.push_back({fmt::format("< {}", edge_text(edges_.front())), true});
   bins.push_back({fmt::format("> {}", edge_text(edges_.back())), true});
   bins.push_back({"NaN", true});
@@ -120,6 +146,7 @@ Ranges ranges_between(std::vector<double> edges, core::ValueType type) {
     throw std::invalid_argument(
         fmt::format("expected ascending edges, and {} does not follow {}", edges[i], edges[i - 1]));
   }
+  if (core::is_integer(type)) require_integers(edges, type);
   return Ranges(std::move(edges));
 }
 

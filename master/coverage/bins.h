@@ -32,6 +32,9 @@ inline constexpr const char* kFurther = "(further bins)";
 /// Nor more bins that were declared.
 inline constexpr std::size_t kMostBins = 10'000;
 
+/// Of integers up to there a double is one and no other.
+inline constexpr double kExactIntegers = 9'007'199'254'740'991;
+
 /// Not in any bin, since nothing has been seen.
 inline constexpr std::size_t kNoBin = static_cast<std::size_t>(-1);
 
@@ -79,7 +82,8 @@ std::size_t bin_of(const Classes& classes, const core::ValueBlock& block, std::s
 /// std::invalid_argument, whose text contains what was expected, where these are no ranges.
 Ranges equal_ranges(double low, double high, std::size_t count, bool is_logarithmic,
                     core::ValueType type);
-/// Throws likewise.
+/// Throws likewise, also for an integer variable where a bin has no value of its type, or an edge
+/// is beyond kExactIntegers.
 Ranges ranges_between(std::vector<double> edges, core::ValueType type);
 
 /// The bin of a message of so many bytes: "0", "1", "2-3", "4-7", ...; with a greatest length the

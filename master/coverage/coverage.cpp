@@ -116,7 +116,7 @@ void Coverage::persist(core::StateArchive& state) {
 }
 
 Report Coverage::report(std::string scenario) const {
-  Report report = empty_report(std::move(scenario), definitions_);
+  Report report = empty_report(std::move(scenario), definitions_, 1);
   for (std::size_t i = 0; i < groups_.size(); ++i) {
     for (std::size_t k = 0; k < groups_[i].points.size(); ++k) {
       take_counts(report.groups[i].points[k], groups_[i].points[k]->tally());

@@ -2,10 +2,12 @@
 
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "master/coverage/told_apart.h"
 #include "master/util/error.h"
 #include "master/util/input_file.h"
 #include "master/util/message_text.h"
@@ -31,28 +33,47 @@ Json bin_json(const BinCount& bin) {
   return json;
 }
 
-Json point_json(const PointReport& point) {
-  Json json = {{"name", point.name}, {"kind", name(point.kind)}};
+/// What goes without saying is left out: the place, and of how many runs it is.
+Json point_json(const PointReport& point, std::size_t place, std::uint64_t runs) {
+  Json json = {{"name", point.name}, {"definition", point.definition}, {"kind", name(point.kind)}};
+  if (point.place != place) json["place"] = point.place;
+  if (point.runs != runs) json["runs"] = point.runs;
+  if (point.first_case) json["first_case"] = *point.first_case;
   if (point.kind == Kind::Cross) {
     json["of"] = point.of;
+    json["of_definitions"] = point.of_definitions;
   } else {
     json["signal"] = point.signal;
     json["unit"] = point.unit;
   }
   json["at_least"] = point.at_least;
   json["open"] = point.is_open;
+  if (point.declared != (point.is_open ? 0 : point.bins.size())) json["declared"] = point.declared;
   json["percentage"] = percentage_json(point.percentage());
   json["bins"] = Json::array();
   for (const BinCount& bin : point.bins) json["bins"].push_back(bin_json(bin));
   return json;
 }
 
-Json group_json(const GroupReport& group) {
+Json group_json(const GroupReport& group, std::size_t place, std::uint64_t runs) {
   Json json = {{"component", group.component}};
+  if (group.place != place) json["place"] = group.place;
   if (group.goal) json["goal"] = *group.goal;
   json["percentage"] = percentage_json(group.percentage());
   json["points"] = Json::array();
-  for (const PointReport& point : group.points) json["points"].push_back(point_json(point));
+  for (std::size_t i = 0; i < group.points.size(); ++i) {
+    json["points"].push_back(point_json(group.points[i], i, runs));
+  }
+  return json;
+}
+
+Json told_apart_json(const ToldApart& point) {
+  Json json = {{"component", point.component},
+               {"point", point.point},
+               {"definition", point.definition},
+               {"runs", point.runs}};
+  if (point.first_case) json["first_case"] = *point.first_case;
+  json["why"] = point.why;
   return json;
 }
 
@@ -82,14 +103,34 @@ BinCount bin_of(const Json& json) {
   return bin;
 }
 
-PointReport point_of(const Json& json) {
-  PointReport point{json.at("name").get<std::string>()};
+std::uint64_t count_or(const Json& json, const char* key, std::uint64_t otherwise) {
+  return json.contains(key) ? count_of(json[key]) : otherwise;
+}
+
+/// merge() relies on it.
+void require_order(const PointReport& point) {
+  for (std::size_t i = point.declared + 1; i < point.bins.size(); ++i) {
+    if (bin_order(point.bins[i - 1].name, point.bins[i].name)) continue;
+    fail_value(
+        fmt::format("point '{}': bin '{}' is not in its place", point.name, point.bins[i].name));
+  }
+}
+
+PointReport point_of(const Json& json, std::size_t place, std::uint64_t runs) {
+  PointReport point{json.at("name").get<std::string>(), json.at("definition").get<std::string>()};
+  point.place = count_or(json, "place", place);
+  point.runs = count_or(json, "runs", runs);
+  if (json.contains("first_case")) point.first_case = count_of(json["first_case"]);
   const std::string kind = json.at("kind").get<std::string>();
   const auto known = kind_of(kind);
   if (!known) fail_value(fmt::format("'{}' is no kind of a point", kind));
   point.kind = *known;
   if (point.kind == Kind::Cross) {
     point.of = json.at("of").get<std::vector<std::string>>();
+    point.of_definitions = json.at("of_definitions").get<std::vector<std::string>>();
+    if (point.of_definitions.size() != point.of.size()) {
+      fail_value(fmt::format("point '{}': there are not as many definitions as parts", point.name));
+    }
   } else {
     point.signal = json.at("signal").get<std::string>();
     point.unit = json.at("unit").get<std::string>();
@@ -97,13 +138,30 @@ PointReport point_of(const Json& json) {
   point.at_least = count_of(json.at("at_least"));
   point.is_open = json.at("open").get<bool>();
   for (const Json& bin : json.at("bins")) point.bins.push_back(bin_of(bin));
+  point.declared = count_or(json, "declared", point.is_open ? 0 : point.bins.size());
+  if (point.declared > point.bins.size()) {
+    fail_value(fmt::format("point '{}': more bins are declared than there are", point.name));
+  }
+  require_order(point);
   return point;
 }
 
-GroupReport group_of(const Json& json) {
+/// Each point once, of which the name and the definition tell it.
+void add_point(GroupReport& group, PointReport point) {
+  for (const PointReport& other : group.points) {
+    if (other.name != point.name || other.definition != point.definition) continue;
+    fail_value(fmt::format("'{}': point '{}' is there twice", group.component, point.name));
+  }
+  group.points.push_back(std::move(point));
+}
+
+GroupReport group_of(const Json& json, std::size_t place, std::uint64_t runs) {
   GroupReport group{json.at("component").get<std::string>()};
+  group.place = count_or(json, "place", place);
   if (json.contains("goal")) group.goal = number_of(json["goal"]);
-  for (const Json& point : json.at("points")) group.points.push_back(point_of(point));
+  for (const Json& point : json.at("points")) {
+    add_point(group, point_of(point, group.points.size(), runs));
+  }
   return group;
 }
 
@@ -116,7 +174,15 @@ Report report_of(const Json& json) {
   }
   Report report{json.at("scenario").get<std::string>(), json.at("definition").get<std::string>()};
   if (json.contains("cases")) report.cases = count_of(json["cases"]);
-  for (const Json& group : json.at("groups")) report.groups.push_back(group_of(group));
+  report.runs = count_or(json, "runs", report.cases.value_or(1));
+  for (const Json& group : json.at("groups")) {
+    GroupReport read = group_of(group, report.groups.size(), report.runs);
+    for (const GroupReport& other : report.groups) {
+      if (other.component != read.component) continue;
+      fail_value(fmt::format("the component '{}' is there twice", read.component));
+    }
+    report.groups.push_back(std::move(read));
+  }
   return report;
 }
 
@@ -128,8 +194,14 @@ Json to_json(const Report& report) {
                {"scenario", report.scenario},
                {"definition", report.definition}};
   if (report.cases) json["cases"] = *report.cases;
+  if (report.runs != report.cases.value_or(1)) json["runs"] = report.runs;
   json["groups"] = Json::array();
-  for (const GroupReport& group : report.groups) json["groups"].push_back(group_json(group));
+  for (std::size_t i = 0; i < report.groups.size(); ++i) {
+    json["groups"].push_back(group_json(report.groups[i], i, report.runs));
+  }
+  for (const ToldApart& point : told_apart(report)) {
+    json["told_apart"].push_back(told_apart_json(point));
+  }
   return json;
 }
 

@@ -15,22 +15,11 @@ namespace {
 constexpr std::array<const char*, 7> kKindNames{"values",    "transitions", "words", "lengths",
                                                 "sequences", "gaps",        "cross"};
 
+constexpr std::size_t kPointDigits = 16;
+
 /// Of any text, so that no two lists of fields are written alike.
 void add_field(std::string& text, std::string_view field) {
   text += fmt::format("{}:{}\n", field.size(), field);
-}
-
-void add_point(std::string& text, const GroupDefinition& group, const PointDefinition& point) {
-  for (const std::string& field : {point.name, std::string(name(point.kind)), point.signal}) {
-    add_field(text, field);
-  }
-  add_field(text, fmt::format("{} {} {}", point.at_least, point.is_open, point.bins.size()));
-  for (const DeclaredBin& bin : point.bins) {
-    add_field(text, bin.name);
-    add_field(text, bin.is_ignored ? "ignored" : "");
-  }
-  for (const std::string& pattern : point.ignored) add_field(text, pattern);
-  for (const std::size_t part : point.of) add_field(text, group.points[part].name);
 }
 
 }  // namespace
@@ -77,15 +66,40 @@ std::vector<DeclaredBin> cross_bins(std::span<const PointDefinition* const> part
   return bins;
 }
 
-std::string hash(std::span<const GroupDefinition> groups) {
+std::string hash(const GroupDefinition& group, const PointDefinition& point) {
   std::string text;
-  for (const GroupDefinition& group : groups) {
-    add_field(text, group.name);
+  for (const std::string& field :
+       {point.name, std::string(name(point.kind)), point.signal, point.unit}) {
+    add_field(text, field);
+  }
+  add_field(text, fmt::format("{} {} {}", point.at_least, point.is_open, point.bins.size()));
+  for (const DeclaredBin& bin : point.bins) {
+    add_field(text, bin.name);
+    add_field(text, bin.is_ignored ? "ignored" : "");
+  }
+  for (const std::string& pattern : point.ignored) add_field(text, pattern);
+  for (const std::size_t part : point.of) add_field(text, hash(group, group.points[part]));
+  return core::sha256(text).substr(0, kPointDigits);
+}
+
+std::string hash(std::span<const GroupDigest> groups) {
+  std::string text;
+  for (const GroupDigest& group : groups) {
+    add_field(text, group.component);
     add_field(text, group.goal ? fmt::format("{}", *group.goal) : "");
     add_field(text, std::to_string(group.points.size()));
-    for (const PointDefinition& point : group.points) add_point(text, group, point);
+    for (const std::string& point : group.points) add_field(text, point);
   }
   return core::sha256(text);
+}
+
+std::string hash(std::span<const GroupDefinition> groups) {
+  std::vector<GroupDigest> digests;
+  for (const GroupDefinition& group : groups) {
+    GroupDigest& digest = digests.emplace_back(GroupDigest{group.name, group.goal});
+    for (const PointDefinition& point : group.points) digest.points.push_back(hash(group, point));
+  }
+  return hash(digests);
 }
 
 }  // namespace stride::coverage

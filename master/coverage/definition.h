@@ -73,7 +73,20 @@ inline constexpr std::string_view kCrossJoint = " × ";
 /// "a × b", into a text that is there.
 void append_crossed(std::string& text, std::string_view bin);
 
+/// The same for points of a component that mean the same, of any scenario: what they are called,
+/// what is counted, in which unit and into which bins; of a cross also what its parts mean. 16
+/// hexadecimal digits.
+std::string hash(const GroupDefinition& group, const PointDefinition& point);
+
+/// What a definition is told by.
+struct GroupDigest {
+  std::string component;
+  std::optional<double> goal{};
+  std::vector<std::string> points{};  ///< hash() of each
+};
+
 /// The same for the same definitions, whatever the scenario: 64 hexadecimal digits.
+std::string hash(std::span<const GroupDigest> groups);
 std::string hash(std::span<const GroupDefinition> groups);
 
 }  // namespace stride::coverage

@@ -23,16 +23,24 @@ struct BinCount {
   bool operator==(const BinCount&) const = default;
 };
 
+/// What runs have counted of one definition of a point. Of several runs a group may have more than
+/// one of the same name, with other definitions.
 struct PointReport {
   std::string name;
+  std::string definition{};  ///< hash() of it
+  std::size_t place = 0;     ///< in its group, of the definitions the first one
   Kind kind = Kind::Values;
   std::string signal{};
   std::string unit{};
-  std::vector<std::string> of{};  ///< of a cross: the names of its parts
+  std::vector<std::string> of{};              ///< of a cross: the names of its parts,
+  std::vector<std::string> of_definitions{};  ///< and their definitions
   std::uint64_t at_least = 1;
   bool is_open = false;
+  std::size_t declared = 0;  ///< how many of the bins were declared
   /// Those that were declared in their order, and behind them the others in that of bin_order().
   std::vector<BinCount> bins{};
+  std::uint64_t runs = 0;                     ///< that have had it
+  std::optional<std::uint64_t> first_case{};  ///< of a campaign: the first case that had it
 
   std::size_t countable() const;  ///< bins that are not ignored
   std::size_t covered() const;    ///< those of them with at_least visits
@@ -44,6 +52,7 @@ struct PointReport {
 struct GroupReport {
   std::string component;
   std::optional<double> goal{};
+  std::size_t place = 0;  ///< among the groups, of the definitions the first one
   std::vector<PointReport> points{};
 
   /// The mean of those of the points; nothing where none has one.
@@ -57,6 +66,7 @@ struct Report {
   std::string scenario{};                ///< or several, with commas
   std::string definition{};              ///< hash() of it
   std::optional<std::uint64_t> cases{};  ///< of a campaign
+  std::uint64_t runs = 0;                ///< cases or others
   std::vector<GroupReport> groups{};
   bool operator==(const Report&) const = default;
 };
@@ -81,25 +91,14 @@ struct CoveredGroup {
 using CoveredBins = std::vector<CoveredGroup>;
 
 /// In which order bins stand that were not declared: by the number that their names begin with, if
-/// both begin with one, else as texts.
+/// both begin with one, else as texts. No two names are equal in it.
 bool bin_order(const std::string& a, const std::string& b);
 
-/// Of a run that has not begun.
-Report empty_report(std::string scenario, std::span<const GroupDefinition> definitions);
+/// Of so many runs in which nothing was hit.
+Report empty_report(std::string scenario, std::span<const GroupDefinition> definitions,
+                    std::uint64_t runs);
 
 CoveredBins covered_bins(const Report& report);
-/// Adds what a case has hit; in ascending order of the cases. Groups and points that the
-/// definitions have not are passed over. `report` began as an empty_report() of them.
-void add_case(Report& report, std::span<const GroupDefinition> definitions,
-              const CoveredBins& covered, std::uint64_t index);
-/// The percentages of the groups after one run that has hit this.
-std::vector<std::optional<double>> percentages(std::span<const GroupDefinition> definitions,
-                                               const CoveredBins& covered);
-
-/// Adds the counts of another one of the same definition. Of a bin that both have hit the first
-/// visit is the one in the earlier case, or at the earlier instant. Throws std::invalid_argument
-/// with the first difference if the definitions are not the same.
-void merge(Report& report, const Report& other);
 
 }  // namespace stride::coverage
 

@@ -6,6 +6,9 @@
 #include <string_view>
 #include <utility>
 
+#include <fmt/format.h>
+
+#include "master/coverage/told_apart.h"
 #include "master/util/xml/writer.h"
 
 namespace stride::coverage {
@@ -109,7 +112,7 @@ class UcisWriter {
     write_source("cgSourceId");
     xml_.close();
     for (const PointReport& point : group.points) {
-      if (point.kind != Kind::Cross && !point.bins.empty()) write_point(point);
+      if (point.kind != Kind::Cross && !point.bins.empty()) write_point(point, group);
     }
     for (const PointReport& point : group.points) {
       if (point.kind == Kind::Cross && !point.bins.empty()) write_cross(point, group);
@@ -122,17 +125,23 @@ class UcisWriter {
     return std::to_string(static_cast<int>(std::ceil(goal.value_or(100))));
   }
 
-  void begin_point(const char* element_name, const PointReport& point) {
+  void begin_point(const char* element_name, const PointReport& point, const GroupReport& group) {
+    const std::string name = label(group, point);
     xml_.open(element_name);
-    attributes({{"name", point.name}, {"key", "0"}});
-    element("options", {{"weight", point.percentage() ? "1" : "0"},
-                        {"goal", "100"},
-                        {"at_least", std::to_string(point.at_least)}});
+    attributes({{"name", name}, {"key", "0"}});
+    Attributes options{{"weight", point.percentage() ? "1" : "0"}, {"goal", "100"}};
+    for (const ToldApart& apart : apart_) {
+      if (apart.component != group.component || apart.point != name) continue;
+      options.emplace_back("comment",
+                           fmt::format("{} of {} runs: {}", apart.runs, report_.runs, apart.why));
+    }
+    options.emplace_back("at_least", std::to_string(point.at_least));
+    element("options", options);
   }
   static const char* type_of(const BinCount& bin) { return bin.is_ignored ? "ignore" : "bins"; }
 
-  void write_point(const PointReport& point) {
-    begin_point("coverpoint", point);
+  void write_point(const PointReport& point, const GroupReport& group) {
+    begin_point("coverpoint", point, group);
     for (std::size_t i = 0; i < point.bins.size(); ++i) {
       const std::string number = std::to_string(i);
       xml_.open("coverpointBin");
@@ -152,16 +161,18 @@ class UcisWriter {
 
   void write_cross(const PointReport& point, const GroupReport& group) {
     std::vector<const PointReport*> parts;
-    for (const std::string& name : point.of) {
+    for (std::size_t i = 0; i < point.of.size(); ++i) {
       for (const PointReport& other : group.points) {
-        if (other.name == name) parts.push_back(&other);
+        const bool is_part =
+            other.name == point.of[i] && other.definition == point.of_definitions[i];
+        if (is_part) parts.push_back(&other);
       }
     }
     // a part without any bin is not in the document
     if (std::ranges::any_of(parts, [](const PointReport* part) { return part->bins.empty(); }))
       return;
-    begin_point("cross", point);
-    for (const std::string& name : point.of) text("crossExpr", name);
+    begin_point("cross", point, group);
+    for (const std::string& part : part_labels(group, point)) text("crossExpr", part);
     for (std::size_t i = 0; i < point.bins.size(); ++i) {
       write_cross_bin(point.bins[i], i, parts);
     }
@@ -181,6 +192,7 @@ class UcisWriter {
 
   const Report& report_;
   const UcisOrigin& origin_;
+  const std::vector<ToldApart> apart_ = told_apart(report_);
   xml::Writer xml_;
 };
 

@@ -91,6 +91,16 @@ bool System::is_message(VariableId id) const {
          });
 }
 
+bool System::is_reported(VariableId id) const {
+  if (is_output(id)) return false;
+  if (variable(id).type != ValueType::Clock) return is_message(id);
+  const UnitDescription& description = *components_[id.component].description;
+  if (!ticks_triggered(id)) return description.is_reported(variable(id));
+  return std::ranges::none_of(description.variables, [&](const Variable& carried) {
+    return carried.causality == Causality::Output && carried.belongs_to(variable(id).reference);
+  });
+}
+
 bool System::is_signal(VariableId id) const {
   return is_output(id) || (variable(id).type != ValueType::Clock && !is_message(id));
 }

@@ -107,6 +107,9 @@ class System {
   /// Whether the variable is a message: as UnitDescription::is_message() says, or an output that
   /// belongs to a time-based clock which is connected to a triggered one.
   bool is_message(VariableId id) const;
+  /// Whether the variable's messages are reported: it is one, or a clock that carries none,
+  /// triggered or connected to a triggered one.
+  bool is_reported(VariableId id) const;
   /// Whether the variable is a signal: neither a clock nor a message. Outputs of the system are.
   bool is_signal(VariableId id) const;
   /// Whether it is a time-based clock that is connected to a triggered one.

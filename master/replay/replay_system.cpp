@@ -80,6 +80,7 @@ class ReplayWriter {
     writer_.close();
     writer_.open("ssd:Connections");
     for (const std::string& input : request_.stimuli.inputs) {
+      if (is_set_in_the_run(input)) continue;
       write_element("ssd:Connection", {{"startElement", player_},
                                        {"startConnector", input},
                                        {"endElement", device_},
@@ -119,7 +120,22 @@ class ReplayWriter {
 
   bool is_played(const core::Variable& variable) const {
     const auto& inputs = request_.stimuli.inputs;
-    return std::ranges::find(inputs, variable.name) != inputs.end();
+    return std::ranges::find(inputs, variable.name) != inputs.end() &&
+           !is_set_in_the_run(variable.name);
+  }
+
+  /// An input without a source, which has none in the replay either.
+  bool is_set_in_the_run(const std::string& input) const {
+    return std::ranges::any_of(request_.loaded.options().interventions, [&](const auto& change) {
+      return is_own(change) && change.kind == core::Intervention::Kind::Set &&
+             system_.variable(change.id).name == input;
+    });
+  }
+
+  /// Whether it is of the device's own parameters and inputs, and within the stimuli.
+  bool is_own(const core::Intervention& change) const {
+    return change.id.component == request_.component && !disturbs_messages(change.kind) &&
+           change.from <= Time(core::parse_seconds(request_.stimuli.end));
   }
 
   void write_annotation() {
@@ -182,21 +198,26 @@ class ReplayWriter {
     }
   }
 
-  /// Of parameters: inputs come from the player.
+  /// Forced inputs have the same values from the player, but the unit would not be in Event Mode.
   void write_settings_in_the_run() {
     for (const core::Intervention& change : request_.loaded.options().interventions) {
-      const bool is_own = change.id.component == request_.component && change.value &&
-                          change.kind == core::Intervention::Kind::Set;
-      if (!is_own || is_played(system_.variable(change.id))) continue;
-      if (change.from > Time(core::parse_seconds(request_.stimuli.end))) continue;
-      std::string text;
-      for (std::size_t i = 0; i < change.value->size(); ++i) {
-        text += (i == 0 ? "" : " ") + core::element_text(*change.value, i);
-      }
-      write_element("stride:Set", {{"variable", own_name(system_.variable(change.id).name)},
-                                   {"value", text},
-                                   {"at", core::to_text(change.from)}});
+      if (!is_own(change)) continue;
+      const bool is_set = change.kind == core::Intervention::Kind::Set;
+      writer_.open(is_set ? "stride:Set" : "stride:Force");
+      writer_.attribute("variable", own_name(system_.variable(change.id).name));
+      if (change.value) writer_.attribute("value", text_of(*change.value));
+      writer_.attribute(is_set ? "at" : "from", core::to_text(change.from));
+      if (change.until) writer_.attribute("until", core::to_text(*change.until));
+      writer_.close();
     }
+  }
+
+  static std::string text_of(const core::ValueBlock& values) {
+    std::string text;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      text += (i == 0 ? "" : " ") + core::element_text(values, i);
+    }
+    return text;
   }
 
   void write_records() {

@@ -138,9 +138,7 @@ const core::UnitDescription& Selection::description(const NamedVariable& variabl
 }
 
 bool Selection::is_reported(const NamedVariable& variable) const {
-  if (variable.is_signal) return false;
-  const core::Variable& described = system_.variable(variable.id);
-  return described.type != core::ValueType::Clock || description(variable).is_reported(described);
+  return system_.is_reported(variable.id);
 }
 
 std::vector<Element> Selection::find_elements(const CheckDeclaration& check,

@@ -28,13 +28,16 @@ constexpr double kMostItems = 64;
 bool is_bytes(ValueType type) { return type == ValueType::Binary || type == ValueType::String; }
 
 /// Of the description's `min` or `max`; nothing where that is the limit of the type, as FMI has it
-/// by default.
-std::optional<double> limit_of(const std::string& text, std::size_t element) {
+/// by default, or beyond what bins of integers have.
+std::optional<double> limit_of(const core::Variable& variable, const std::string& text,
+                               std::size_t element) {
   const std::vector<std::string> words = core::words_of(text);
   if (words.empty()) return std::nullopt;
   const auto number =
       xml::to_number<double>(words[words.size() == 1 ? 0 : std::min(element, words.size() - 1)]);
-  if (!number || !(std::abs(*number) < std::numeric_limits<double>::max())) return std::nullopt;
+  const double most = core::is_integer(variable.type) ? coverage::kExactIntegers
+                                                      : std::numeric_limits<double>::max();
+  if (!number || !(std::abs(*number) < most)) return std::nullopt;
   return number;
 }
 
@@ -46,15 +49,22 @@ struct Range {
 Range range_of(const core::Variable& variable, std::size_t element,
                const PointDeclaration& declared) {
   Range range{declared.min, declared.max};
-  if (!range.min) range.min = limit_of(variable.min, element);
-  if (!range.max) range.max = limit_of(variable.max, element);
+  if (!range.min) range.min = limit_of(variable, variable.min, element);
+  if (!range.max) range.max = limit_of(variable, variable.max, element);
   return range;
 }
 
-coverage::Items items_between(double min, double max) {
+/// Throws std::invalid_argument where the type has not all of them.
+coverage::Items items_between(double min, double max, ValueType type) {
   std::vector<std::pair<std::int64_t, std::string>> items;
   for (auto i = static_cast<std::int64_t>(std::ceil(min)); static_cast<double>(i) <= max; ++i) {
+    if (!core::range_of(type)->holds(i)) {
+      throw std::invalid_argument(fmt::format("{} is no {}", i, core::name(type)));
+    }
     items.emplace_back(i, std::to_string(i));
+  }
+  if (items.empty()) {
+    throw std::invalid_argument(fmt::format("no {} is from {} to {}", core::name(type), min, max));
   }
   return coverage::Items(std::move(items));
 }
@@ -67,7 +77,8 @@ coverage::Items items_of(const core::Variable& variable) {
 
 bool has_few_values(const core::Variable& variable, const Range& range) {
   return core::is_number(variable.type) && !core::is_real(variable.type) && range.is_whole() &&
-         *range.max >= *range.min && *range.max - *range.min < kMostItems;
+         *range.max >= *range.min && *range.max - *range.min < kMostItems &&
+         std::max(std::abs(*range.min), std::abs(*range.max)) <= coverage::kExactIntegers;
 }
 
 /// Throws std::invalid_argument.
@@ -88,32 +99,39 @@ coverage::Classes classes_of(const core::Variable& variable, std::size_t element
   if (!declared.edges.empty()) return coverage::ranges_between(declared.edges, variable.type);
   const Range range = range_of(variable, element, declared);
   if (!range.is_whole()) {
-    throw std::invalid_argument(fmt::format(
-        "it has no {}; write min=\"…\" max=\"…\", or edges=\"…\"", range.min   ? "max"
-                                                                   : range.max ? "min"
-                                                                               : "min and max"));
+    const bool has_edges = declared.kind == PointKind::Values;
+    throw std::invalid_argument(fmt::format("it has no {}; write min=\"…\" max=\"…\"{}",
+                                            range.min   ? "max"
+                                            : range.max ? "min"
+                                                        : "min and max",
+                                            has_edges ? ", or edges=\"…\"" : ""));
   }
   if (!declared.bins && !declared.is_logarithmic && has_few_values(variable, range)) {
-    return items_between(*range.min, *range.max);
+    return items_between(*range.min, *range.max, variable.type);
   }
   return coverage::equal_ranges(*range.min, *range.max, declared.bins.value_or(kDefaultBins),
                                 declared.is_logarithmic, variable.type);
 }
 
+[[noreturn]] void fail_transitions(const std::string& signal) {
+  throw std::invalid_argument(fmt::format(
+      "transitions are those of a Boolean, an Enumeration or an integer with {} values at most; "
+      "cover its values in bins: <stride:Values signal=\"{}\" min=\"…\" max=\"…\" bins=\"…\"/>",
+      kMostItems, signal));
+}
+
 void set_values(PointDefinition& point, const core::Variable& variable,
                 const PointDeclaration& declared) {
+  const bool is_values = point.kind == PointKind::Values;
+  if (!is_values && core::is_real(variable.type)) fail_transitions(point.signal);
   point.unit = variable.unit;
   point.classes = classes_of(variable, point.element, declared);
-  if (point.kind == PointKind::Values) {
+  if (is_values) {
     point.bins = std::visit([](const auto& all) { return all.bins(); }, *point.classes);
     return;
   }
   const auto* const items = std::get_if<coverage::Items>(&*point.classes);
-  if (items == nullptr) {
-    throw std::invalid_argument(fmt::format(
-        "transitions are those of a Boolean, an Enumeration or an integer with {} values at most",
-        kMostItems));
-  }
+  if (items == nullptr) fail_transitions(point.signal);
   point.bins = items->transitions();
 }
 
@@ -146,9 +164,13 @@ void set_lengths(PointDefinition& point, const core::Variable& variable,
 
 }  // namespace
 
-bool CoveragePoints::is_signal(const core::Variable& variable) const {
-  return variable.type != ValueType::Clock && variable.causality != core::Causality::Independent &&
-         !description_.is_message(variable);
+bool CoveragePoints::is_signal(std::size_t variable) const {
+  return description_.variables[variable].causality != core::Causality::Independent &&
+         system_.is_signal({component_, variable});
+}
+
+bool CoveragePoints::is_reported(std::size_t variable) const {
+  return system_.is_reported({component_, variable});
 }
 
 std::vector<CoveragePoints::Subject> CoveragePoints::find(const PointDeclaration& declared) const {
@@ -157,7 +179,7 @@ std::vector<CoveragePoints::Subject> CoveragePoints::find(const PointDeclaration
   std::vector<Subject> found;
   for (std::size_t i = 0; i < description_.variables.size(); ++i) {
     const core::Variable& variable = description_.variables[i];
-    if (wants_signal ? !is_signal(variable) : !description_.is_reported(variable)) continue;
+    if (wants_signal ? !is_signal(i) : !is_reported(i)) continue;
     const bool is_whole = core::means(pattern, variable.name) ||
                           std::ranges::any_of(variable.aliases, [&](const std::string& alias) {
                             return core::means(pattern, alias);
@@ -178,17 +200,18 @@ std::vector<CoveragePoints::Subject> CoveragePoints::find(const PointDeclaration
 void CoveragePoints::fail_unknown(const PointDeclaration& declared) const {
   const bool wants_signal = coverage::is_of_signal(declared.kind);
   std::vector<std::string> names;
-  for (const core::Variable& variable : description_.variables) {
-    const bool fits = wants_signal ? is_signal(variable) : description_.is_reported(variable);
+  for (std::size_t i = 0; i < description_.variables.size(); ++i) {
+    const core::Variable& variable = description_.variables[i];
+    const bool fits = wants_signal ? is_signal(i) : is_reported(i);
     if (fits) names.push_back(variable.name);
     if (fits || variable.name != declared.subject) continue;
     core::fail_input(
         {.where = declared.where},
         fmt::format("'{}' is not a {}", variable.name, wants_signal ? "signal" : "message"),
-        is_signal(variable) ? "cover it with <stride:Values> or <stride:Transitions>"
-        : description_.is_reported(variable) ? "cover it with <stride:Words>, <stride:Lengths>, "
-                                               "<stride:Sequences> or <stride:Gaps>"
-                                             : "name what the clock carries");
+        is_signal(i)     ? "cover it with <stride:Values> or <stride:Transitions>"
+        : is_reported(i) ? "cover it with <stride:Words>, <stride:Lengths>, "
+                           "<stride:Sequences> or <stride:Gaps>"
+                         : "name what the clock carries");
   }
   core::fail_input({.where = declared.where},
                    fmt::format("the component has no {} '{}'", wants_signal ? "signal" : "message",
@@ -283,9 +306,8 @@ std::vector<PointDefinition> CoveragePoints::automatic(
     const core::Variable& variable = description_.variables[i];
     const bool is_input = variable.causality == core::Causality::Input;
     if (!is_input && variable.causality != core::Causality::Output) continue;
-    if (is_input && description_.is_reported(variable))
-      add_messages({i, 0, variable.name}, at_least, points);
-    if (!is_signal(variable) || variable.size != 1) continue;
+    if (is_input && is_reported(i)) add_messages({i, 0, variable.name}, at_least, points);
+    if (!is_signal(i) || variable.size != 1) continue;
     add_values({i, 0, variable.name}, at_least, points, without_range);
   }
   return points;

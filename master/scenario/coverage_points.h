@@ -7,16 +7,20 @@
 
 #include "master/coverage/definition.h"
 #include "master/model/description.h"
+#include "master/model/system.h"
 #include "master/scenario/coverage_declaration.h"
 
 namespace stride::scenario {
 
-/// What can be covered of one component, by the names of its unit's variables.
+/// What can be covered of one component, by the names of its unit's variables. Which of them are
+/// messages the system decides: connections of clocks may make some of outputs.
 class CoveragePoints {
  public:
-  /// The description must outlive it.
-  CoveragePoints(std::size_t component, const core::UnitDescription& description)
-      : component_(component), description_(description) {}
+  /// The system must outlive it.
+  CoveragePoints(const core::System& system, std::size_t component)
+      : system_(system),
+        component_(component),
+        description_(*system.components()[component].description) {}
 
   /// A point for each signal or message that the declaration means; none is a cross. Throws
   /// core::Error (Input) as select_coverage() does.
@@ -33,8 +37,8 @@ class CoveragePoints {
     std::string name;
   };
 
-  bool is_signal(const core::Variable& variable) const;
-  bool is_message(const core::Variable& variable) const;
+  bool is_signal(std::size_t variable) const;
+  bool is_reported(std::size_t variable) const;
   std::vector<Subject> find(const PointDeclaration& declared) const;
   [[noreturn]] void fail_unknown(const PointDeclaration& declared) const;
   coverage::PointDefinition point(const PointDeclaration& declared, const Subject& subject) const;
@@ -44,6 +48,7 @@ class CoveragePoints {
                   std::vector<coverage::PointDefinition>& points,
                   std::vector<std::string>& without_range) const;
 
+  const core::System& system_;
   std::size_t component_;
   const core::UnitDescription& description_;
 };

@@ -35,14 +35,37 @@ void add_point(GroupDefinition& group, PointDefinition point, const core::Locati
   group.points.push_back(std::move(point));
 }
 
+/// A declaration that is of several signals has made a point for each, with names of their own.
+[[noreturn]] void fail_part(const GroupDefinition& group, const core::Context& context,
+                            const std::string& name) {
+  const auto first_with = [&](const char* behind) -> const std::string* {
+    const auto found = std::ranges::find_if(group.points, [&](const PointDefinition& point) {
+      return point.name.starts_with(name + behind);
+    });
+    return found == group.points.end() ? nullptr : &found->name;
+  };
+  if (const std::string* const element = first_with("[")) {
+    core::fail_input(context, fmt::format("'{}' is an array, with a point for each element", name),
+                     fmt::format("cross one of them, such as {}", *element));
+  }
+  if (const std::string* const signal = first_with(": ")) {
+    core::fail_input(context, fmt::format("'{}' is of several signals", name),
+                     fmt::format("write a point for '{}' alone, with another name", *signal));
+  }
+  if (const std::string* const other = first_with(" ")) {
+    core::fail_input(context,
+                     fmt::format("the component has no point '{}'; blanks separate points", name),
+                     fmt::format("give '{}' a name without blanks", *other));
+  }
+  core::fail_input(context, fmt::format("the component has no point '{}'", name),
+                   core::suggestion(name, point_names(group)));
+}
+
 const PointDefinition& part_of(const GroupDefinition& group, const PointDeclaration& cross,
                                const std::string& name) {
   const auto found = std::ranges::find(group.points, name, &PointDefinition::name);
   const core::Context context{.where = cross.where};
-  if (found == group.points.end()) {
-    core::fail_input(context, fmt::format("the component has no point '{}'", name),
-                     core::suggestion(name, point_names(group)));
-  }
+  if (found == group.points.end()) fail_part(group, context, name);
   if (found->kind == PointKind::Values || found->kind == PointKind::Words ||
       found->kind == PointKind::Lengths) {
     return *found;
@@ -147,13 +170,13 @@ class CoverageSelection {
         .name = declared.component, .goal = declared.goal, .where = declared.where};
     group.component = system_.find_component(declared.component, declared.where);
     check_new(group);
-    const CoveragePoints points(group.component,
-                                *system_.components()[group.component].description);
+    const CoveragePoints points(system_, group.component);
     if (declared.points.empty()) {
       add_automatic(group, points, declared);
     } else {
       add_declared(group, points, declared);
     }
+    if (!diagnostics_.any()) check_goal(group);
     selected_.groups.push_back(std::move(group));
   }
 
@@ -170,6 +193,21 @@ class CoverageSelection {
                      fmt::format("a second group of the component '{}'; the first is in line {}",
                                  group.name, where.line),
                      "put all points of a component into one group");
+  }
+
+  /// One that no run could be measured by.
+  static void check_goal(const GroupDefinition& group) {
+    const auto counts = [](const PointDefinition& point) {
+      return !point.is_open &&
+             std::ranges::any_of(point.bins,
+                                 [](const coverage::DeclaredBin& bin) { return !bin.is_ignored; });
+    };
+    if (!group.goal || std::ranges::any_of(group.points, counts)) return;
+    core::fail_input({.where = group.where},
+                     fmt::format("the group of '{}' has a goal, but no percentage, since nothing "
+                                 "says which bins its points have",
+                                 group.name),
+                     "declare bins, with words=\"…\" or max=\"…\", or leave the goal out");
   }
 
   void add_automatic(GroupDefinition& group, const CoveragePoints& points,

@@ -140,6 +140,31 @@ TEST_CASE("the cases that are chosen cover what all cover, and so do their repla
   CHECK(hits("replays.json") == hits("cases/coverage.json"));
 }
 
+TEST_CASE("where bins are to have several visits, the cases that are chosen have them") {
+  Parts parts = checked_filters();
+  parts.annotation +=
+      "<stride:Coverage><stride:Group component='second' atLeast='2'>"
+      "<stride:Values name='in' signal='u' edges='-1 -0.3 0 0.3 0.6'/>"
+      "</stride:Group></stride:Coverage>";
+  const Distilled space(inputs({"0.5", "0.25", "-0.5", "9", "5", "0.75"}, kCapture), parts);
+  space.check_distilled();
+  Arguments merge{"coverage", "--out", "replays.json"};
+  for (const std::string& name : space.replays())
+    merge.push_back("elsewhere/moved/results/" + name);
+  REQUIRE(space.stride(merge).exit_code == 0);
+  const auto covered = [&](const std::string& file) {
+    std::set<std::string> names;
+    const json report = json::parse(read(space / file));
+    for (const auto& bin : report["groups"][0]["points"][0]["bins"]) {
+      if (bin["count"] > 1 && !bin.contains("ignored")) names.insert(bin["name"]);
+    }
+    return names;
+  };
+  // the two that are negative are hit by one case only
+  CHECK(covered("cases/coverage.json") == std::set<std::string>{"[0, 0.3)", "[0.3, 0.6]"});
+  CHECK(covered("replays.json") == covered("cases/coverage.json"));
+}
+
 TEST_CASE("a replay that covers something else is in no suite") {
   Parts parts = checked_filters();
   parts.annotation +=
@@ -171,6 +196,9 @@ TEST_CASE("a device that does something else fails its suite") {
   CHECK_THAT(read(space / "suite/case_000000.ssd"), Contains("tolerance=\"0.01\""));
   CHECK(space.run_suite({"--set", "second.time_constant=0.999"}).exit_code == 0);
   CHECK(space.run_suite({"--set", "second.time_constant=0.5"}).exit_code == 1);
+  // as of a run, the exit code is none of a failure
+  const Outcome cut = space.run_suite({"--stop", "0.5"});
+  CHECK((cut.exit_code == 0 && cut.out == "case_000000: undecided\n"));
 }
 
 TEST_CASE("only bits that differ before the end are seen in the golden outputs") {
@@ -199,6 +227,29 @@ TEST_CASE("what a device was set to, by the scenario, the case and in the run, i
              Contains("<ssv:Float64 value=\"3\"/>") &&
                  Contains("<stride:Set variable=\"sink.gain\" value=\"2\" at=\"0.5\"/>") &&
                  Contains("<stride:EarlyReturn components=\"sink\" allowed=\"false\"/>"));
+}
+
+TEST_CASE("inputs that were set, forced or held in the run are so in the replay") {
+  const auto check = [](const std::string& connections, const std::string& interventions,
+                        const std::string& unit = "feedthrough.fmu") {
+    INFO(interventions);
+    const Distilled space(inputs({"0.5"}, all_of("second")),
+                          Parts{component("first", "minimal.fmu") +
+                                    component("other", "inverter.fmu") + component("second", unit),
+                                connections, "<stride:Step size='0.125'/>" + interventions},
+                          0);
+    space.check_distilled();
+  };
+  check("",
+        "<stride:Set variable='second.u' value='2' at='0.5'/>"
+        "<stride:Set variable='second.u' value='3' at='0.7'/>");
+  const std::string wire = connection("first.y", "second.u");
+  check(wire, "<stride:Force variable='second.u' value='2' from='0.5' until='0.75'/>");
+  check(wire, "<stride:Force variable='second.u' value='2' from='0.55'/>");
+  check(wire, "<stride:Force variable='second.u' from='0.25' until='0.7'/>");
+  check(connection("other.y", "second.u"),
+        "<stride:Force variable='second.u' value='false' from='0.25' until='0.7'/>",
+        "inverter.fmu");
 }
 
 TEST_CASE("values of every type, arrays and messages are those of the case") {

@@ -1,6 +1,9 @@
 // Coverage of what a component is given: in runs, over campaigns, and merged.
+#include <map>
+
 #include <nlohmann/json.hpp>
 
+#include "master/importer/unpacked_fmu.h"
 #include "tests/cli/campaigns.h"
 #include "tests/cli/course.h"
 #include "tests/cli/failures.h"
@@ -182,21 +185,121 @@ TEST_CASE("a campaign's coverage is that of its cases, merged") {
   CHECK(coverage_in(workspace / "c") == merged);
 }
 
-TEST_CASE("coverage of another definition is not merged") {
+TEST_CASE("coverage of another definition is beside the rest") {
   const Workspace workspace(covered_parts());
-  const Workspace other(covered_parts("", " goal='80'"));
+  Parts parts = covered_parts("", " goal='80'");
+  const std::string edges = "edges='0 0.5 1'";
+  parts.annotation.replace(parts.annotation.find(edges), edges.size(), "edges='0 0.25 1'");
+  const Workspace other(parts);
   REQUIRE(workspace.run({"--quiet"}).exit_code == 0);
   REQUIRE(other.run({"--quiet"}).exit_code == 0);
   const std::string file = (other / "out/coverage.json").string();
-  CHECK_THAT(input_error_of(workspace.stride({"coverage", "out", file})),
-             Contains("of another coverage than out/coverage.json: 'second': the goal is 'none' "
-                      "in one and '80' in the other"));
+  const Outcome merged = workspace.stride({"coverage", "out", file, "--out", "all.json"});
+  INFO(merged.out << merged.err);
+  CHECK(merged.exit_code == 0);
+  CHECK_THAT(merged.out,
+             Contains("  y@") && Contains("80 %") && Contains("\nNot alike in all runs\n") &&
+                 Contains("1 of 2 runs: out/coverage.json") &&
+                 Contains("others define it otherwise") && Contains("bin 1 is '[0, 0.") &&
+                 Contains("a part of it is another one than in input × y@"));
+  CHECK_THAT(merged.out, !Contains("input@"));
+  const ordered_json all = ordered_json::parse(read(workspace / "all.json"));
+  CHECK(all["runs"] == 2);
+  CHECK(all["groups"][0]["points"].size() == 5);
+  CHECK(all["told_apart"].size() == 4);
+  const Outcome backwards = workspace.stride({"coverage", file, "out", "--out", "again.json"});
+  CHECK(read(workspace / "again.json") == read(workspace / "all.json"));
+  // what was merged is merged again
+  CHECK(workspace.stride({"coverage", "all.json", "--ucis", "u.xml"}).out.find("Not alike") !=
+        std::string::npos);
+  CHECK_THAT(read(workspace / "u.xml"), Contains("comment=\"1 of 2 runs: bin 1 is "));
+}
+
+TEST_CASE("what stride coverage refuses") {
+  const Workspace workspace(covered_parts());
+  REQUIRE(workspace.run({"--quiet"}).exit_code == 0);
   CHECK_THAT(input_error_of(workspace.stride({"coverage", "tmp"})),
              Contains("there is no coverage.json in this folder"));
   CHECK_THAT(input_error_of(workspace.stride({"coverage", "out", "--out", "out/coverage.json"})),
              Contains("a coverage that is read"));
   const Outcome missing = workspace.stride({"coverage", "out", "--missing"});
   CHECK_THAT(missing.out, Contains("\nNot covered\n") && Contains("[0.75, 1]"));
+  std::string text = read(workspace / "out/coverage.json");
+  const std::string bin = "[0.25, 0.5)";
+  workspace.scratch().write("other.json", text.replace(text.find(bin), bin.size(), "x"));
+  CHECK_THAT(input_error_of(workspace.stride({"coverage", "out", "other.json"})),
+             Contains("other.json: 'second', point 'input': both have the definition"));
+}
+
+namespace {
+
+/// The filter, with a range of its output.
+void write_ranged_filter(const Workspace& workspace, const std::string& folder,
+                         const std::string& range) {
+  const stride::importer::UnpackedFmu unpacked(unit_folder() / "minimal.fmu");
+  fs::copy(unpacked.folder(), workspace / folder, fs::copy_options::recursive);
+  std::string text = read(unpacked.folder() / "modelDescription.xml");
+  const std::size_t output = text.find("name=\"y\"");
+  workspace.scratch().write(folder + "/modelDescription.xml", text.insert(output, range + " "));
+}
+
+/// By the points, without the cases that the bins are from.
+std::map<std::string, std::string> points_of(ordered_json coverage) {
+  std::map<std::string, std::string> points;
+  for (auto& point : coverage["groups"][0]["points"]) {
+    for (auto& bin : point["bins"]) {
+      bin.erase("case");
+      bin.erase("first");
+    }
+    point.erase("first_case");
+    const std::string name = point["name"].get<std::string>() + point["definition"].dump();
+    points[name] = point.dump();
+  }
+  return points;
+}
+
+}  // namespace
+
+TEST_CASE("where units are others, a campaign's coverage is merged point by point") {
+  const Workspace workspace(
+      Parts{component("first", "minimal.fmu") + component("second", "usual"),
+            connection("first.y", "second.u"),
+            coverage_of("<stride:Group component='second'>"
+                        "<stride:Values name='in' signal='u' edges='0 0.5 1'/>"
+                        "<stride:Values name='out' signal='y' bins='2'/></stride:Group>")});
+  write_ranged_filter(workspace, "usual", "min=\"0\" max=\"0.25\"");
+  write_ranged_filter(workspace, "wide", "min=\"0\" max=\"1\"");
+  workspace.scratch().write(
+      "c.xosc",
+      campaign_text(
+          deterministic(value_set("first.u", {"0.5", "1"}) + value_set("kind", {"usual", "wide"})),
+          "<stride:Swap name='kind' component='second'><stride:Unit name='usual'/>"
+          "<stride:Unit name='wide' file='wide'/></stride:Swap>"
+          "<stride:Keep results='all'/><stride:Capture component='second'/>",
+          "test.ssd"));
+  const Outcome outcome = workspace.stride({"campaign", "run", "c.xosc", "--out", "c"});
+  INFO(outcome.out << outcome.err);
+  REQUIRE(outcome.exit_code == 0);
+  CHECK_THAT(outcome.out, Contains("\nNot alike in all runs\n") && !Contains("not counted") &&
+                              Contains("2 of 4 cases, from case ") &&
+                              Contains("bin 1 is '[0, 0.5)', and '[0, 0.125)' in out@"));
+  const ordered_json merged = coverage_in(workspace / "c");
+  CHECK(merged["cases"] == 4);
+  CHECK(merged["groups"][0]["points"].size() == 3);
+  Arguments all{"coverage", "--out", "together.json"};
+  for (int i = 0; i < 4; ++i) all.push_back("c/cases/000/00000" + std::to_string(i));
+  REQUIRE(workspace.stride(all).exit_code == 0);
+  const ordered_json runs = ordered_json::parse(read(workspace / "together.json"));
+  CHECK(points_of(runs) == points_of(merged));
+  CHECK(runs["groups"][0]["percentage"] == merged["groups"][0]["percentage"]);
+  const std::string table = read(workspace / "c/cases.csv");
+  CHECK(table.find(",,0,") == std::string::npos);
+  CHECK_THAT(read(workspace / "c/campaign.html"), Contains("told_apart"));
+  const Outcome distilled =
+      workspace.stride({"campaign", "distil", "c", "--component", "second", "-o", "suite"});
+  INFO(distilled.out << distilled.err);
+  CHECK(distilled.exit_code == 0);
+  CHECK_THAT(distilled.out, Contains("out@"));
 }
 
 TEST_CASE("coverage is written for other tools, and never over what is read") {

@@ -137,14 +137,23 @@ TEST_CASE("a test report of a campaign") {
                  Contains(" --set b.u="));
 }
 
-TEST_CASE("coverage of the cases is a column, and merged as far as its definition is the same") {
-  const Records records;
+namespace {
+
+/// Of a component whose unit may be another one, with two bins up to there.
+CaseDefinitions::Definitions covered_up_to(double high) {
   coverage::GroupDefinition group{.component = 1, .name = "b"};
   coverage::PointDefinition& point = group.points.emplace_back();
   point.name = point.signal = "y";
-  point.classes = coverage::equal_ranges(0, 2, 2, false, core::ValueType::Float64);
+  point.classes = coverage::equal_ranges(0, high, 2, false, core::ValueType::Float64);
   point.bins = std::get<coverage::Ranges>(*point.classes).bins();
-  const std::vector definitions{group};
+  return {group};
+}
+
+}  // namespace
+
+TEST_CASE("coverage of the cases is a column, and merged where it means the same") {
+  const Records records;
+  const auto definitions = covered_up_to(2);
   const auto covering = [&](const std::string& bin, std::string definition) {
     return CaseResult{
         .aggregates = {1},
@@ -152,19 +161,31 @@ TEST_CASE("coverage of the cases is a column, and merged as far as its definitio
   };
   records.write(0, covering("NaN", coverage::hash(definitions)));
   records.write(2, covering("[0, 1)", coverage::hash(definitions)));
+  records.write(1, covering("[2, 4]", coverage::hash(covered_up_to(4))));
   records.write(3, covering("[1, 2]", "another"));
   const CaseScratch scratch(records.cases);
-  const CaseSummary summary =
-      write_case_tables(records.plan, records.cases, scratch, 5, definitions);
-  CHECK(summary.otherwise_covered == 1);
+  std::vector<std::uint64_t> loaded;
+  const auto load = [&](std::uint64_t index) -> CaseDefinitions::Definitions {
+    loaded.push_back(index);
+    if (index == 3) core::fail_input({}, "its unit is gone");
+    return covered_up_to(4);
+  };
+  const CaseSummary summary = write_case_tables(records.plan, records.cases, scratch, 5,
+                                                CaseDefinitions(definitions, load));
+  CHECK(loaded == std::vector<std::uint64_t>{1, 3});
+  CHECK(summary.without_bins == 1);
   REQUIRE(summary.coverage);
-  CHECK(summary.coverage->cases == 2U);
-  const auto& bins = summary.coverage->groups[0].points[0].bins;
-  CHECK(bins[0] == coverage::BinCount{"[0, 1)", false, 2, 0.5, 2});
-  CHECK((bins[1].count == 0 && bins[4].in_case == 0U));
+  CHECK(summary.coverage->cases == 3U);
+  const auto& points = summary.coverage->groups[0].points;
+  REQUIRE(points.size() == 2);
+  CHECK((points[0].runs == 2 && points[1].runs == 1 && points[1].first_case == 1U));
+  CHECK(points[0].bins[0] == coverage::BinCount{"[0, 1)", false, 2, 0.5, 2});
+  CHECK((points[0].bins[1].count == 0 && points[0].bins[4].in_case == 0U));
+  CHECK(points[1].bins[1] == coverage::BinCount{"[2, 4]", false, 2, 0.5, 1});
   CHECK(coverage::read_coverage(records.folder / "out/coverage.json") == *summary.coverage);
   const std::string table = content(records.folder / "out/cases.csv");
   CHECK_THAT(table, Contains("\"\"b\"\"\",coverage:b,reached,"));
-  CHECK_THAT(table, Contains("passed,,1,0,") && Contains("passed,,1,50,") &&
-                        Contains("passed,,1,,") && Contains("missing,,,,,"));
+  CHECK_THAT(table,
+             Contains("passed,,1,0,") && Contains("passed,,1,50,") && Contains("passed,,1,,"));
+  CHECK_THAT(content(records.folder / "out/cases.csv"), !Contains("missing"));
 }

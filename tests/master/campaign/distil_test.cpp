@@ -1,5 +1,6 @@
 #include "master/campaign/distil.h"
 
+#include <algorithm>
 #include <bit>
 #include <random>
 
@@ -11,13 +12,27 @@ namespace {
 
 using Items = std::set<std::string>;
 
+using Counts = std::map<std::string, std::uint64_t>;
+
+Counts counts_of(const std::vector<DistilCandidate>& candidates, unsigned chosen) {
+  Counts counts;
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    if ((chosen >> i & 1) == 0) continue;
+    for (const auto& [item, count] : candidates[i].items) counts[item] += count;
+  }
+  return counts;
+}
+
 Items all_items(const std::vector<DistilCandidate>& candidates, unsigned chosen) {
   Items items;
-  for (std::size_t i = 0; i < candidates.size(); ++i) {
-    if ((chosen >> i & 1) != 0)
-      items.insert(candidates[i].items.begin(), candidates[i].items.end());
-  }
+  for (const auto& [item, count] : counts_of(candidates, chosen)) items.insert(item);
   return items;
+}
+
+DistilCandidate once(std::uint64_t index, std::initializer_list<const char*> items) {
+  DistilCandidate candidate{index};
+  for (const char* const item : items) candidate.items.emplace(item, 1);
+  return candidate;
 }
 
 /// By trying all subsets.
@@ -45,7 +60,7 @@ unsigned places(const std::vector<DistilCandidate>& candidates,
   return bits;
 }
 
-std::vector<DistilCandidate> random_candidates(std::mt19937& random) {
+std::vector<DistilCandidate> random_candidates(std::mt19937& random, unsigned most = 1) {
   const auto below = [&](unsigned limit) { return random() % limit; };
   std::vector<DistilCandidate> candidates(1 + below(9));
   const unsigned items = 1 + below(10);
@@ -53,7 +68,7 @@ std::vector<DistilCandidate> random_candidates(std::mt19937& random) {
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     candidates[i].index = 100 - 7 * i;
     for (unsigned item = 0; item < items; ++item) {
-      if (below(density) == 0) candidates[i].items.insert(std::to_string(item));
+      if (below(density) == 0) candidates[i].items.emplace(std::to_string(item), 1 + below(most));
     }
   }
   return candidates;
@@ -114,14 +129,42 @@ TEST_CASE("what a case has alone is what would be missing without it") {
 }
 
 TEST_CASE("of equal cases the first is taken, whatever their order") {
-  CHECK(indices(distil(std::vector<DistilCandidate>{{5, {"a"}}, {2, {"a"}}, {9, {"a"}}})) ==
+  CHECK(indices(distil(std::vector{once(5, {"a"}), once(2, {"a"}), once(9, {"a"})})) ==
         std::vector<std::uint64_t>{2});
   // 0 is taken first, and needed no longer when 1 and 2 are there
-  CHECK(indices(distil(std::vector<DistilCandidate>{
-            {0, {"a", "b", "c"}}, {1, {"a", "b", "x"}}, {2, {"c", "y"}}})) ==
-        std::vector<std::uint64_t>{1, 2});
+  CHECK(indices(distil(std::vector{once(0, {"a", "b", "c"}), once(1, {"a", "b", "x"}),
+                                   once(2, {"c", "y"})})) == std::vector<std::uint64_t>{1, 2});
   CHECK(distil(std::vector<DistilCandidate>{{0, {}}}).empty());
   CHECK(distil(std::vector<DistilCandidate>{}).empty());
+}
+
+TEST_CASE("what is wanted several times is there so often, if there is so much of it") {
+  std::mt19937 random(11);
+  std::size_t several = 0;
+  for (int i = 0; i < 500; ++i) {
+    const auto candidates = random_candidates(random, 4);
+    const Wanted wanted{{"0", 3}, {"1", 7}, {"2", 1000}};
+    const Counts all = counts_of(candidates, (1U << candidates.size()) - 1);
+    const auto is_enough = [&](const Counts& counts) {
+      return std::ranges::all_of(all, [&](const auto& item) {
+        const auto often = wanted.find(item.first);
+        const std::uint64_t want =
+            often == wanted.end() || item.second < often->second ? 1 : often->second;
+        const auto found = counts.find(item.first);
+        return found != counts.end() && found->second >= want;
+      });
+    };
+    const auto chosen = distil(candidates, wanted);
+    const unsigned bits = places(candidates, chosen);
+    CAPTURE(i, bits);
+    REQUIRE(is_enough(counts_of(candidates, bits)));
+    for (const DistilledCase& one : chosen) {
+      REQUIRE_FALSE(is_enough(counts_of(candidates, bits & ~places(candidates, {one}))));
+      REQUIRE_FALSE(one.alone.empty());
+    }
+    several += chosen.size() > distil(candidates).size();
+  }
+  CHECK(several > 50);
 }
 
 TEST_CASE("endings are the same where outcome and failed checks are") {
@@ -144,19 +187,28 @@ TEST_CASE("covered bins are those of the component that count") {
   using stride::coverage::PointDefinition;
   PointDefinition field{.name = "field"};
   field.bins = {{"[0, 1)"}, {"[1, 2]"}, {"> 2", true}};
+  field.at_least = 2;
   PointDefinition words{.name = "words", .kind = Kind::Words, .is_open = true, .ignored = {"x*"}};
   const std::vector<GroupDefinition> groups{{0, "sensor", {}, {field, words}}};
+  auto others = groups;
+  others[0].points[0].bins.insert(others[0].points[0].bins.begin(), {"[-1, 0)"});
+  CaseDefinitions definitions(groups, [&](std::uint64_t) { return others; });
+  CountedBins bins("sensor", definitions);
   CaseResult result;
-  CHECK(CountedBins("sensor", groups).of(result).empty());
+  CHECK(bins.of(result, 0).empty());
   result.coverage = {hash(groups),
                      {{"sensor",
                        {{"field", {{"[0, 1)", 3, 0.5}, {"> 2", 1, 0.25}}},
                         {"words", {{"read", 1, 1}, {"x1", 1, 1}}}}},
                       {"reader", {{"y", {{"z", 1, 0}}}}}}};
-  CHECK(CountedBins("sensor", groups).of(result) == Items{"field: [0, 1)", "words: read"});
-  CHECK(CountedBins("led", groups).of(result).empty());
-  // of another definition nothing more is known
+  CHECK(bins.of(result, 0) == Counts{{"field: [0, 1)", 3}, {"words: read", 1}});
+  CHECK(bins.wanted() == Wanted{{"field: [0, 1)", 2}});
+  CHECK(CountedBins("led", definitions).of(result, 0).empty());
+  // what has other bins is another point
+  result.coverage->definition = hash(others);
+  const std::string other = "field@" + hash(others[0], others[0].points[0]).substr(0, 8);
+  CHECK(bins.of(result, 4) == Counts{{other + ": [0, 1)", 3}, {"words: read", 1}});
+  // and of an unknown definition nothing is known
   result.coverage->definition = "another";
-  CHECK(CountedBins("sensor", groups).of(result) ==
-        Items{"field: > 2", "field: [0, 1)", "words: read", "words: x1"});
+  CHECK(bins.of(result, 5).empty());
 }

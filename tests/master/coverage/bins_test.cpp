@@ -61,6 +61,42 @@ TEST_CASE("what are no ranges is refused") {
   CHECK_THROWS_AS(ranges_between({0, INFINITY}, ValueType::Float64), std::invalid_argument);
 }
 
+TEST_CASE("each bin of an integer has one that its type has") {
+  const auto mistake = [](std::vector<double> edges, ValueType type) -> std::string {
+    try {
+      ranges_between(std::move(edges), type);
+    } catch (const std::invalid_argument& refused) {
+      return refused.what();
+    }
+    return "";
+  };
+  CHECK(mistake({0, 0.5, 1}, ValueType::Int32).empty());
+  CHECK(mistake({0, 0.3, 0.6, 1}, ValueType::Int32) == "no Int32 is in the bin [0.3, 0.6)");
+  CHECK(mistake({0, 0.3, 0.6, 1}, ValueType::Float64).empty());
+  CHECK(mistake({0.1, 1, 2}, ValueType::Int32) == "no Int32 is in the bin [0.1, 1)");
+  CHECK(mistake({0, 1.1, 1.9}, ValueType::Int32) == "no Int32 is in the bin [1.1, 1.9]");
+  CHECK(mistake({0, 255, 300}, ValueType::UInt8).empty());
+  CHECK(mistake({0, 256, 300}, ValueType::UInt8) == "no UInt8 is in the bin [256, 300]");
+  CHECK(mistake({-5, 0, 3}, ValueType::UInt64) == "no UInt64 is in the bin [-5, 0)");
+}
+
+TEST_CASE("integers beyond those that are exact are above the bins, and no edges") {
+  constexpr std::int64_t kMost = 9'007'199'254'740'991;
+  const Classes ranges = ranges_between({0, 10, kExactIntegers}, ValueType::Int64);
+  core::ValueBlock block(ValueType::Int64, 1);
+  const auto bin = [&](std::int64_t value) {
+    block.numbers<std::int64_t>()[0] = value;
+    return bin_of(ranges, block, 0);
+  };
+  CHECK((bin(kMost) == 1 && bin(kMost + 1) == 3 && bin(kMost + 2) == 3));
+  for (const double edge : {kExactIntegers + 1, 9.3e18}) {
+    CHECK_THROWS_WITH(ranges_between({0, edge}, ValueType::Int64),
+                      Catch::StartsWith("expected edges up to 9007199254740991, "));
+    CHECK_THROWS_AS(equal_ranges(-edge, 0, 4, false, ValueType::Int64), std::invalid_argument);
+  }
+  CHECK_NOTHROW(ranges_between({0, 9.3e18}, ValueType::Float64));
+}
+
 TEST_CASE("items are bins, in ascending order, and so are their changes") {
   const Items items({{7, "on"}, {2, "off"}, {9, "broken"}});
   CHECK(names_of(items.bins()) == "off on broken other!");

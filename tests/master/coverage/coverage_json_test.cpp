@@ -52,8 +52,8 @@ TEST_CASE("the keys of coverage.json are those of the page docs/coverage.md, in 
   CHECK(keys(json) == "format version scenario definition groups ");
   CHECK(keys(json["groups"][0]) == "component goal percentage points ");
   const auto& points = json["groups"][0]["points"];
-  CHECK(keys(points[0]) == "name kind signal unit at_least open percentage bins ");
-  CHECK(keys(points[2]) == "name kind of at_least open percentage bins ");
+  CHECK(keys(points[0]) == "name definition kind signal unit at_least open percentage bins ");
+  CHECK(keys(points[2]) == "name definition kind of of_definitions at_least open percentage bins ");
   CHECK(points[0]["bins"][0].dump() == R"j({"name":"[0, 1)","count":1,"first":0.0})j");
   CHECK(points[0]["bins"][1].dump() == R"({"name":"[1, 2]","count":0})");
   CHECK(points[0]["bins"][3].dump() == R"({"name":"> 2","count":1,"first":0.001,"ignored":true})");
@@ -79,7 +79,7 @@ TEST_CASE("what is no coverage is refused") {
   const std::string head = R"({"format":"stride coverage","version":1,"scenario":"s",)"
                            R"("definition":"","groups":[{"component":"c","points":[)";
   const auto with = [&](const std::string& kind, const std::string& bin) {
-    return reading_refusal(head + R"({"name":"p","kind":")" + kind +
+    return reading_refusal(head + R"({"name":"p","definition":"0f","kind":")" + kind +
                            R"(","signal":"x","unit":"","at_least":1,"open":false,"bins":[)" + bin +
                            "]}]}]}");
   };

@@ -44,6 +44,7 @@ TEST_CASE("each part of a definition is in its hash") {
   group.points[0].at_least = 2, check_new();
   group.points[0].bins[0].is_ignored = true, check_new();
   group.points[0].bins[0].name = "off", check_new();
+  group.points[0].unit = "mm", check_new();
   group.points[1].ignored = {"x"}, check_new();
   group.points[1].is_open = false, check_new();
   group.goal = 1, check_new();

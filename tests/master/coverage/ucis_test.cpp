@@ -1,7 +1,10 @@
 #include "master/coverage/ucis.h"
 
+#include <set>
+
 #include <catch2/catch.hpp>
 
+#include "master/coverage/merge.h"
 #include "master/util/xml/document.h"
 #include "tests/master/coverage/support.h"
 #include "tests/master/util/archive/support.h"
@@ -78,5 +81,31 @@ TEST_CASE("UCIS: a point without a bin, and what crosses it, is left out") {
   look_at_ucis(ucis_example(false), [](const xml::Element& group) {
     CHECK(group.children({"", "coverpoint"}).size() == 1);
     CHECK_FALSE(group.child({"", "cross"}));
+  });
+}
+
+TEST_CASE("UCIS: what is told apart has names of its own, and says why") {
+  const auto crossed = [](const char* first) {
+    GroupDefinition group =
+        group_of({values_of("a", 0, Items({{0, first}, {1, "on"}})), values_of("b", 1, truths())});
+    group.points.push_back(cross_of(group, {0, 1}));
+    return empty_report("s", std::vector{group}, 1);
+  };
+  Report report = crossed("off");
+  merge(report, crossed("dark"));
+  look_at_ucis(report, [](const xml::Element& group) {
+    const auto points = group.children({"", "coverpoint"});
+    const auto crosses = group.children({"", "cross"});
+    REQUIRE((points.size() == 3 && crosses.size() == 2));
+    std::set<std::string> names;
+    for (const auto& point : points) names.insert(point.required("name"));
+    CHECK(names.size() == 3);
+    CHECK_THAT(points[1].child({"", "options"})->required("comment"),
+               Catch::StartsWith("1 of 2 runs: bin 1 is "));
+    CHECK_FALSE(points[2].child({"", "options"})->attribute("comment"));
+    for (const auto& cross : crosses) {
+      CHECK(names.count(cross.children({"", "crossExpr"})[0].text()) == 1);
+      CHECK(cross.children({"", "crossBin"})[0].children({"", "index"})[0].text() == "0");
+    }
   });
 }

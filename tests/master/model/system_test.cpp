@@ -290,6 +290,8 @@ TEST_CASE("a time-based clock that is connected to a triggered one makes message
   const System system(with({wire("tx", "rx"), wire("out", "in")}));
   CHECK(system.ticks_triggered({0, 0}));
   CHECK(system.is_message({0, 1}));
+  CHECK((system.is_reported({0, 1}) && !system.is_reported({1, 1})));
+  CHECK_FALSE((system.is_reported({0, 0}) || system.is_reported({0, 2})));
   CHECK_FALSE(system.is_sampled({0, 1}));
   CHECK(System(with({{"beta", "rx", "alpha", "tx", false, {}}, wire("out", "in")}))
             .connections()[0]
@@ -297,6 +299,21 @@ TEST_CASE("a time-based clock that is connected to a triggered one makes message
   CHECK_FALSE(system.ticks_triggered({1, 0}));
   CHECK(system.is_sampled({1, 1}));
   CHECK(system.is_signal({1, 1}));
+}
+
+TEST_CASE(
+    "a time-based clock without outputs is reported where it is connected to a triggered one") {
+  const auto node = Describe("node")
+                        .clock("tx", IntervalVariability::Countdown)
+                        .add("rx", ValueType::Clock, Causality::Input)
+                        .done();
+  SystemDeclaration declaration;
+  declaration.components = {{"alpha", node, {}, {}}, {"beta", node, {}, {}}};
+  CHECK_FALSE(System(declaration).is_reported({0, 0}));
+  CHECK(System(declaration).is_reported({0, 1}));
+  declaration.connections = {wire("tx", "rx")};
+  CHECK(System(declaration).is_reported({0, 0}));
+  CHECK_FALSE(System(declaration).is_reported({1, 0}));
 }
 
 TEST_CASE("a time-based clock needs Event Mode") {

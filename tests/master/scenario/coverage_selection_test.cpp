@@ -163,11 +163,90 @@ TEST_CASE("mistakes in points are named, with the nearest name") {
   CHECK_THAT(coverage_mistake(point(PointKind::Values, "label")), Contains("it is a String"));
   CHECK_THAT(coverage_mistake(point(PointKind::Values, "temperature")),
              Contains("'temperature': it has no min and max; write min="));
-  CHECK_THAT(coverage_mistake(point(PointKind::Transitions, "power")), Contains("an Enumeration"));
+  CHECK_THAT(coverage_mistake(point(PointKind::Transitions, "power")),
+             Contains("an Enumeration") &&
+                 Contains("cover its values in bins: <stride:Values signal=\"power\" min="));
+  CHECK_THAT(coverage_mistake(point(PointKind::Transitions, "temperature")),
+             Contains("<stride:Values signal=\"temperature\""));
   CHECK_THAT(coverage_mistake(point(PointKind::Lengths, "tick")), Contains("a Binary or a String"));
   CHECK_THAT(
       coverage_mistake(group({point(PointKind::Values, "led"), point(PointKind::Values, "l*d")})),
       Contains("a second point 'led'"));
+}
+
+TEST_CASE(
+    "outputs that are messages since their clock is connected to a triggered one are covered so") {
+  auto description = std::make_shared<core::UnitDescription>();
+  description->has_event_mode = true;
+  auto& variables = description->variables;
+  variables.push_back(variable("tx", 1, ValueType::Clock, Causality::Input));
+  variables.back().clock.emplace().variability = core::IntervalVariability::Countdown;
+  variables.push_back(variable("out", 2, ValueType::Int32, Causality::Output));
+  variables.back().clocks = {1};
+  variables.push_back(variable("rx", 3, ValueType::Clock, Causality::Input));
+  variables.back().clock.emplace();
+  core::SystemDeclaration declaration;
+  declaration.components = {{"a", description, {}, {}}, {"b", description, {}, {}}};
+  declaration.connections.push_back({"a", "tx", "b", "rx", false, {}});
+  const core::System system(declaration);
+  PointDeclaration values = point(PointKind::Values, "out");
+  values.edges = {0, 1};
+  const PointDeclaration words = point(PointKind::Words, "out");
+  const auto select = [&](const std::string& component, const PointDeclaration& declared) {
+    GroupDeclaration of = group({declared});
+    of.component = component;
+    return error_of([&] { select_coverage(system, std::vector{of}, {}); });
+  };
+  CHECK(select("a", words) == "(no error)");
+  CHECK_THAT(select("a", values), Contains("'out' is not a signal") && Contains("<stride:Words>"));
+  CHECK(select("b", values) == "(no error)");
+  CHECK_THAT(select("b", words), Contains("'out' is not a message"));
+}
+
+TEST_CASE("bins of integers that no value can be in are mistakes") {
+  PointDeclaration level = point(PointKind::Values, "level");
+  level.edges = {1, 1.5, 1.8, 3};
+  CHECK_THAT(coverage_mistake(level), Contains("x.ssd:12: 'level': no UInt8 is in the bin [1.5,"));
+  level.edges.clear();
+  level.min = 250, level.max = 256;
+  CHECK_THAT(coverage_mistake(level), Contains("'level': 256 is no UInt8"));
+  level.min = 0.2, level.max = 0.8;
+  CHECK_THAT(coverage_mistake(level), Contains("'level': no UInt8 is from 0.2 to 0.8"));
+  level.min = 9.3e18, level.max = 9.4e18;
+  CHECK_THAT(coverage_mistake(level), Contains("expected edges up to 9007199254740991"));
+}
+
+TEST_CASE("a goal of a group that has no percentage is a mistake") {
+  GroupDeclaration declared = group({point(PointKind::Words, "receive.frame")});
+  CHECK(coverage_mistake(declared) == "(no error)");
+  declared.goal = 50;
+  CHECK_THAT(coverage_mistake(declared),
+             Contains("x.ssd:10: the group of 'a' has a goal, but no percentage") &&
+                 Contains("words=\"…\""));
+  declared.points.push_back(point(PointKind::Values, "led"));
+  CHECK(coverage_mistake(declared) == "(no error)");
+  declared.ignored = {{"led", "*"}};
+  CHECK_THAT(coverage_mistake(declared), Contains("has a goal, but no percentage"));
+}
+
+TEST_CASE("a cross of what has become several points says so") {
+  PointDeclaration position = point(PointKind::Values, "position");
+  position.edges = {0, 1};
+  const PointDeclaration led = point(PointKind::Values, "led");
+  const SelectedCoverage element =
+      selected_coverage({group({position, led, cross({"position[2]", "led"})})});
+  CHECK(element.groups[0].points.back().name == "position[2] × led");
+  CHECK_THAT(coverage_mistake(group({position, led, cross({"position", "led"})})),
+             Contains("x.ssd:13: 'position' is an array, with a point for each element") &&
+                 Contains("such as position[1]"));
+  position.name = "where";
+  CHECK_THAT(coverage_mistake(group({position, led, cross({"where", "led"})})),
+             Contains("'where' is of several signals") && Contains("'where: position[1]' alone"));
+  position.name = "the place";
+  position.subject = "position[1]";
+  CHECK_THAT(coverage_mistake(group({position, led, cross({"the", "place", "led"})})),
+             Contains("no point 'the'; blanks separate points") &&
+                 Contains("give 'the place' a name without blanks"));
 }
 
 TEST_CASE("mistakes in crosses") {

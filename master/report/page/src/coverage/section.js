@@ -66,20 +66,46 @@ function meaningOf({ kind, signal, unit, of }) {
   return `${kind} of ${signal}${unit ? ` [${unit}]` : ""}`;
 }
 
-function pointRow(point, context) {
+/** The name, and behind it a part of the definition where another point has the same name. */
+export function labelOf(point, points) {
+  const isAlone = points.every((other) => other === point || other.name !== point.name);
+  return isAlone ? point.name : `${point.name}@${point.definition.slice(0, 8)}`;
+}
+
+/** "3 of 8 cases, from case 4 on: …" of a point that not all runs have alike. */
+export function apartText({ runs, first_case: first, why }, { runs: all, cases }) {
+  const what = (all ?? cases) === cases ? "cases" : "runs";
+  return `${runs} of ${all ?? cases ?? 1} ${what}${first === undefined ? "" : `, from case ${first} on`}: ${why}`;
+}
+
+function apartNote(point, component, coverage) {
+  const apart = (coverage.told_apart ?? []).find(
+    (entry) => entry.component === component && entry.definition === point.definition,
+  );
+  return apart === undefined ? null : h("span.there", {}, apartText(apart, coverage));
+}
+
+function pointRow(point, { component, points }, coverage, context) {
   const { covered, all } = coveredOf(point);
   const count = point.open ? `${covered}` : `${covered} of ${all}`;
   return h(
     "tr",
     {},
-    h("th", { scope: "row" }, point.name, h("span.there", {}, meaningOf(point))),
+    h(
+      "th",
+      { scope: "row" },
+      labelOf(point, points),
+      h("span.there", {}, meaningOf(point)),
+      apartNote(point, component, coverage),
+    ),
     h("td.bin-cell", {}, point.bins.length === 0 ? h("span.there", {}, "nothing was seen") : map(point, context)),
     h("td.number", {}, count),
     h("td.number", {}, point.open ? h("span.there", {}, "open") : percent(point.percentage)),
   );
 }
 
-function group({ component, goal, percentage, points }, context) {
+function group(covered, coverage, context) {
+  const { component, goal, percentage, points } = covered;
   const isMissed = goal !== undefined && goal !== null && (percentage ?? 0) < goal;
   const goalText = goal === undefined || goal === null ? "" : ` of a goal of ${percent(goal)}`;
   return h(
@@ -102,7 +128,7 @@ function group({ component, goal, percentage, points }, context) {
           {},
           h("tr", {}, ...["point", "bins", "covered", "share"].map((text) => h("th", { scope: "col" }, text))),
         ),
-        h("tbody", {}, ...points.map((point) => pointRow(point, context))),
+        h("tbody", {}, ...points.map((point) => pointRow(point, covered, coverage, context))),
       ),
     ),
   );
@@ -119,6 +145,6 @@ export function coverageSection(coverage, context) {
     { "aria-label": "Coverage" },
     h("h2", {}, "Coverage"),
     h("p.note", {}, context.note),
-    ...coverage.groups.map((entry) => group(entry, context)),
+    ...coverage.groups.map((entry) => group(entry, coverage, context)),
   );
 }
