@@ -60,8 +60,8 @@ class CampaignSearch {
       : arguments_(arguments),
         input_(input),
         space_(input.plan().campaign(), input.plan().kinds()),
-        cases_(input.plan(), input.scenario(), seeds_of(input.plan(), input.plan().at(0)),
-               input.folder(), jobs_or_cores(arguments.jobs)),
+        cases_(input.plan(), seeds_of(input.plan(), input.plan().at(0)), input.folder(),
+               local_batches(input.scenario(), jobs_or_cores(arguments.jobs))),
         search_(arguments.request, space_, cases_),
         totals_{.cases = arguments.request.runs},
         progress_(chosen_style(arguments.progress, arguments.quiet), totals_) {}
