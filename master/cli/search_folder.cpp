@@ -8,10 +8,9 @@
 #include "master/campaign/case_folder.h"
 #include "master/campaign/plan_folder.h"
 #include "master/campaign/plan_json.h"
-#include "master/recorders/results_folder.h"
 #include "master/util/error.h"
 #include "master/util/input_file.h"
-#include "master/util/replacement.h"
+#include "master/util/output_file.h"
 
 namespace stride::cli {
 namespace {
@@ -68,21 +67,29 @@ bool is_search_folder(const fs::path& folder) {
   return core::path_exists(folder / campaign::kSearchDescription);
 }
 
+bool is_this_search_in(const fs::path& folder, const search::Request& request,
+                       const campaign::Plan& plan) {
+  if (campaign::identity_in(folder)) fail_folder(folder, "this folder belongs to a campaign");
+  if (!is_search_folder(folder)) return false;
+  const Json wanted = search_json(folder, request, plan);
+  const Json before = read_search(folder);
+  for (const char* key : {kPlanKey, "method", "seed", "check"}) {
+    require_same(folder, before, wanted, key);
+  }
+  return true;
+}
+
 void begin_search_folder(const fs::path& folder, const search::Request& request,
                          const campaign::Plan& plan) {
-  if (campaign::identity_in(folder)) fail_folder(folder, "this folder belongs to a campaign");
-  const Json wanted = search_json(folder, request, plan);
-  if (is_search_folder(folder)) {
-    const Json before = read_search(folder);
-    for (const char* key : {kPlanKey, "method", "seed", "check"}) {
-      require_same(folder, before, wanted, key);
-    }
-    return;
-  }
-  recorders::make_results_folder(folder);
-  core::Replacement replacement(folder / campaign::kSearchDescription);
-  replacement.file().write(wanted.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
-  replacement.commit();
+  if (is_this_search_in(folder, request, plan)) return;
+  const campaign::CaseFolder cases(plan, folder);
+  const campaign::CaseScratch scratch(cases);
+  core::OutputFile file(scratch.file(campaign::kSearchDescription));
+  file.write(
+      search_json(folder, request, plan).dump(2, ' ', false, Json::error_handler_t::replace));
+  file.write('\n');
+  file.close();
+  scratch.publish(campaign::kSearchDescription);
 }
 
 fs::path campaign_of_search(const fs::path& folder) {
