@@ -1,6 +1,7 @@
 #include "master/cli/search_folder.h"
 
 #include <string>
+#include <utility>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -57,6 +58,11 @@ void require_same(const fs::path& folder, const Json& before, const Json& wanted
                                   wanted.at(key).is_null() ? "any" : wanted.at(key).dump()));
 }
 
+[[noreturn]] void fail_record(const fs::path& file, const std::string& of) {
+  core::fail_input({.where = {file.string(), 0}}, fmt::format("this is not the record {}", of),
+                   "remove it; the same search runs the case again");
+}
+
 }  // namespace
 
 fs::path default_search_folder(const fs::path& campaign) {
@@ -108,16 +114,19 @@ std::vector<campaign::Text> values_in_search(const fs::path& folder, const campa
                      fmt::format("--case {}: the search has run no such case", index));
   }
   const Json record = Json::parse(core::read_input(file), nullptr, false);
-  std::vector<campaign::Text> values;
+  campaign::Case row;
+  row.index = index;
   for (const campaign::PlanColumn& column : plan.columns()) {
     const Json::json_pointer place = Json::json_pointer("/values") / column.parameter.name;
-    if (!record.is_object() || !record.contains(place)) {
-      core::fail_input({.where = {file.string(), 0}}, "this is not the record of a case");
-    }
+    if (!record.is_object() || !record.contains(place)) fail_record(file, "of a case");
     const Json& value = record[place];
-    values.push_back(value.is_string() ? campaign::Text(value.get<std::string>()) : std::nullopt);
+    row.values.push_back(value.is_string() ? campaign::Text(value.get<std::string>())
+                                           : std::nullopt);
   }
-  return values;
+  const bool is_of_case =
+      record.value("case", Json()) == index && record.value("hash", Json()) == plan.hash(row);
+  if (!is_of_case) fail_record(file, fmt::format("of case {}", index));
+  return std::move(row.values);
 }
 
 }  // namespace stride::cli

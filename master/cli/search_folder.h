@@ -34,7 +34,7 @@ std::filesystem::path campaign_of_search(const std::filesystem::path& folder);
 void require_plan_of_search(const std::filesystem::path& folder, const campaign::Plan& plan);
 
 /// The values of a case that the search has run: those of the parameters, and then of the seeds.
-/// Throws core::Error (Input) if it has not.
+/// Throws core::Error (Input) if it has not, and for a record of another case in its place.
 std::vector<campaign::Text> values_in_search(const std::filesystem::path& folder,
                                              const campaign::Plan& plan, std::uint64_t index);
 

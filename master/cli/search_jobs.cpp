@@ -13,6 +13,7 @@
 #include "master/campaign/chunks.h"
 #include "master/cli/missing_cases.h"
 #include "master/util/error.h"
+#include "master/util/input_file.h"
 #include "master/util/message_text.h"
 
 namespace stride::cli {
@@ -140,17 +141,20 @@ void SearchJobs::note_lost(const std::string& id, const JobArray& array, const c
 void SearchJobs::require_records() const {
   if (lost_.cases.empty()) return;
   std::vector<std::string> logs;
-  for (const std::filesystem::path& log : lost_.logs) logs.push_back(log.string());
-  const std::string last = last_line(lost_.logs.front());
+  for (const std::filesystem::path& log : lost_.logs) {
+    if (core::is_file(log)) logs.push_back(log.string());
+  }
+  const std::string last = logs.empty() ? "" : last_line(logs.front());
+  const bool is_one = lost_.cases.size() == 1;
   core::fail_run(
       {},
-      fmt::format(
-          "jobs have left the queue of {}, and {} {} no record{}", jobs_.cluster().name(),
-          (lost_.cases.size() == 1 ? "case " : "cases ") + core::abridged(lost_.cases, kShownCases),
-          lost_.cases.size() == 1 ? "has" : "have",
-          last.empty() ? "" : "; the log ends with: " + core::name_text(last)),
-      fmt::format("see {}; the same command submits these cases again",
-                  core::abridged(logs, kShownLogs)));
+      fmt::format("jobs have left the queue of {}, and {} {} no record{}", jobs_.cluster().name(),
+                  (is_one ? "case " : "cases ") + core::abridged(lost_.cases, kShownCases),
+                  is_one ? "has" : "have",
+                  last.empty() ? "" : "; a log file ends with: " + core::name_text(last)),
+      fmt::format("{}; the same command submits these cases again",
+                  logs.empty() ? "they have no log files, so they were cancelled before they began"
+                               : "see " + core::abridged(logs, kShownLogs)));
 }
 
 }  // namespace stride::cli
