@@ -8,7 +8,7 @@ namespace {
 /// Before jobs are made longer because there may not be so many.
 std::uint64_t wanted_length(std::uint64_t missing, const ChunkNeeds& needs) {
   if (!needs.wall_time) return chunk_count(missing, kJobsOfUnknownTime);
-  const double time = std::min(kJobTime, needs.time_limit.value_or(2 * kJobTime) / 2);
+  const double time = std::min(needs.job_time, needs.time_limit.value_or(2 * kJobTime) / 2);
   const double one_by_one = time / std::max(*needs.wall_time, 1e-6);
   return static_cast<std::uint64_t>(one_by_one * static_cast<double>(needs.side_by_side));
 }

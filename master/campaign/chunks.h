@@ -19,17 +19,18 @@ struct CaseSurvey {
 };
 CaseSurvey survey(const CaseFolder& cases, std::uint64_t count);
 
+inline constexpr double kJobTime = 300;  // [s]
+inline constexpr std::uint64_t kJobsOfUnknownTime = 100;
+
+/// With cases of known time a job takes `job_time`, and no longer than half of its limit; otherwise
+/// there are a hundred jobs. In both, no more than `most_chunks`.
 struct ChunkNeeds {
   std::optional<double> wall_time{};   ///< of a case [s]; nothing: not known
   std::optional<double> time_limit{};  ///< of a job [s]
+  double job_time = kJobTime;          ///< [s]; 0: no longer than it has to
   std::uint64_t side_by_side = 1;      ///< cases that run at the same time in a job
   std::uint64_t most_chunks = 1;
 };
-
-/// With cases of known time a job takes some minutes, and no longer than half of its limit;
-/// otherwise there are a hundred jobs. In both, no more than `most_chunks`.
-inline constexpr double kJobTime = 300;  // [s]
-inline constexpr std::uint64_t kJobsOfUnknownTime = 100;
 
 /// How many of the missing cases, of which there is one at least, a job runs: all jobs nearly as
 /// many.

@@ -13,7 +13,6 @@
 #include <spdlog/spdlog.h>
 
 #include "master/campaign/campaign_file.h"
-#include "master/campaign/case_range.h"
 #include "master/campaign/plan_check.h"
 #include "master/campaign/plan_folder.h"
 #include "master/cli/output.h"
@@ -97,6 +96,17 @@ CLI::Option* add_case_option(CLI::App& command, std::optional<std::uint64_t>& in
                               campaign::Plan::kMostCases - 1));
   };
   return command.add_option_function<std::string>("--case", read, description)->type_name("INDEX");
+}
+
+CLI::Option* add_cases_option(CLI::App& command, std::optional<campaign::CaseRange>& range,
+                              const std::string& description) {
+  const auto read = [&range](const std::string& text) {
+    range = campaign::parse_case_range(text);
+    if (range) return;
+    throw CLI::ValidationError("--cases", "'" + core::name_text(text) + "' is not as 20-29 or 7");
+  };
+  return command.add_option_function<std::string>("--cases", read, description)
+      ->type_name("FIRST[-LAST]");
 }
 
 CampaignInput::CampaignInput(const CampaignArguments& arguments)

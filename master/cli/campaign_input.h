@@ -10,6 +10,7 @@
 
 #include "master/campaign/campaign_scenario.h"
 #include "master/campaign/case_definitions.h"
+#include "master/campaign/case_range.h"
 #include "master/campaign/definition.h"
 #include "master/campaign/plan.h"
 #include "master/cli/crash_guard.h"
@@ -33,6 +34,10 @@ void add_campaign_options(CLI::App& command, CampaignArguments& arguments);
 /// --case INDEX, likewise.
 CLI::Option* add_case_option(CLI::App& command, std::optional<std::uint64_t>& index,
                              const std::string& description);
+
+/// --cases FIRST[-LAST], likewise.
+CLI::Option* add_cases_option(CLI::App& command, std::optional<campaign::CaseRange>& range,
+                              const std::string& description);
 
 /// A campaign, its scenario with all units, and its plan, in a guarded process.
 class CampaignInput {

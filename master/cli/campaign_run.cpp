@@ -256,19 +256,9 @@ void add_campaign_run(CLI::App& group) {
                       "which may run several at the same time")
           ->excludes(jobs);
   CLI::Option* range =
-      command
-          ->add_option_function<std::string>(
-              "--cases",
-              [arguments](const std::string& text) {
-                arguments->range = campaign::parse_case_range(text);
-                if (!arguments->range) {
-                  throw CLI::ValidationError(
-                      "--cases", "'" + core::name_text(text) + "' is not as 20-29 or 7");
-                }
-              },
-              "Run those of these cases that have no record, counted from 0, and make no table: "
-              "likewise, for many short cases")
-          ->type_name("FIRST[-LAST]")
+      add_cases_option(*command, arguments->range,
+                       "Run those of these cases that have no record, counted from 0, and make no "
+                       "table: likewise, for many short cases")
           ->excludes(only);
   command
       ->add_option("--junit", arguments->junit,

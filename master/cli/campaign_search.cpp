@@ -21,7 +21,11 @@
 #include "master/cli/listed_cases.h"
 #include "master/cli/missing_cases.h"
 #include "master/cli/output.h"
+#include "master/cli/search_course.h"
 #include "master/cli/search_folder.h"
+#include "master/cli/search_jobs.h"
+#include "master/cli/search_options.h"
+#include "master/cli/search_part.h"
 #include "master/cli/search_summary.h"
 #include "master/recorders/results_folder.h"
 #include "master/search/objective.h"
@@ -34,17 +38,6 @@ namespace stride::cli {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr std::uint64_t kMostRuns = 100'000;
-constexpr std::uint64_t kMostSeed = 1'000'000'000;
-
-struct SearchArguments {
-  CampaignArguments campaign;
-  search::Request request;
-  std::size_t jobs = 0;  ///< 0: as many as there are cores
-  std::optional<ProgressStyle> progress;
-  bool quiet = false;
-};
 
 /// The campaign itself, and the folder of the search.
 CampaignArguments searched(const CampaignArguments& named) {
@@ -59,10 +52,7 @@ class CampaignSearch {
   CampaignSearch(const SearchArguments& arguments, const CampaignInput& input)
       : arguments_(arguments),
         input_(input),
-        space_(input.plan().campaign(), input.plan().kinds()),
-        cases_(input.plan(), input.scenario(), seeds_of(input.plan(), input.plan().at(0)),
-               input.folder(), jobs_or_cores(arguments.jobs)),
-        search_(arguments.request, space_, cases_),
+        course_(arguments.request, input, runner()),
         totals_{.cases = arguments.request.runs},
         progress_(chosen_style(arguments.progress, arguments.quiet), totals_) {}
 
@@ -78,6 +68,17 @@ class CampaignSearch {
   }
 
  private:
+  RunBatch runner() {
+    if (arguments_.cluster.cluster.empty()) {
+      return local_batches(input_.scenario(), jobs_or_cores(arguments_.jobs));
+    }
+    jobs_.emplace(arguments_, input_, [this](const std::string& what) { show_waiting(what); });
+    return [this](const campaign::Plan& plan, const campaign::CaseFolder& cases,
+                  const campaign::CaseRange& batch) { return jobs_->run(plan, cases, batch); };
+  }
+
+  void show_waiting(const std::string& what) { progress_.show(totals_, "waiting for " + what); }
+
   void show(std::uint64_t index) {
     totals_.add(cases_.result(index).outcome);
     if (!search::came_to_its_end(cases_.result(index))) ++without_end_;
@@ -111,16 +112,21 @@ class CampaignSearch {
     }
     print_text("\nTable in {}: {} {} {}\n", cases_.folder().string(), campaign::kCaseTable,
                campaign::kCaseLines, campaign::kSearchDescription);
+    if (jobs_) print_text("Scripts and log files in {}\n", jobs_->folder().string());
   }
 
   [[noreturn]] void fail_incomplete() const {
-    core::fail_run({},
-                   fmt::format("the search {}; {} of at most {} cases are done",
-                               MissingCases::is_interrupted()
-                                   ? "was interrupted"
-                                   : "cannot go on: somebody has removed records from its folder",
-                               cases_.size(), arguments_.request.runs),
-                   "it goes on with the same command");
+    if (jobs_) jobs_->require_records();
+    const std::string left = jobs_ ? jobs_->left() : "";
+    core::fail_run(
+        {},
+        fmt::format("the search {}; {} of at most {} cases are done",
+                    MissingCases::is_interrupted()
+                        ? "was interrupted"
+                        : "cannot go on: somebody has removed records from its folder",
+                    cases_.size(), arguments_.request.runs),
+        left.empty() ? "it goes on with the same command"
+                     : left + " is in the queue still; the same command waits for it, and goes on");
   }
 
   [[noreturn]] void fail() const {
@@ -140,61 +146,52 @@ class CampaignSearch {
 
   const SearchArguments& arguments_;
   const CampaignInput& input_;
-  const search::SearchSpace space_;
-  ListedCases cases_;
-  search::Search search_;
+  std::optional<SearchJobs> jobs_;
+  SearchCourse course_;
+  const ListedCases& cases_ = course_.cases;
+  search::Search& search_ = course_.search;
   campaign::CaseTotals totals_;
   CampaignProgress progress_;
   std::uint64_t without_end_ = 0;  ///< cases
 };
 
-void search_campaign(SearchArguments arguments) {
-  const CrashGuard guard;
-  const CampaignInput input(searched(arguments.campaign));
-  using namespace campaign;
-  input.refuse_inputs({kSearchDescription, kCaseTable, kCaseLines, kCases, kRunning});
-  require_check(input.scenario(), arguments.request.check);
-  check_plan(input.plan(), input.scenario());
-  if (arguments.request.method != search::Method::Random) {
-    arguments.request.make_optimiser = &search::load_optimisers(search::optimiser_library());
-  }
+void run_search(const SearchArguments& arguments, const CampaignInput& input) {
   begin_search_folder(input.folder(), arguments.request, input.plan());
   const recorders::ResultsLock lock(input.folder());
   const Interruption interruption;
   CampaignSearch(arguments, input).run();
 }
 
-void add_request_options(CLI::App& command, search::Request& request) {
-  command
-      .add_option("--runs", request.runs,
-                  "How many cases are run at most, the scenario itself included; 200 otherwise. A "
-                  "search goes on with more of them, where it was")
-      ->type_name("N")
-      ->check(CLI::Range(std::uint64_t{1}, kMostRuns));
-  command
-      .add_option_function<std::string>(
-          "--method",
-          [&request](const std::string& text) {
-            for (const search::Method method : search::kMethods) {
-              if (text == search::name(method)) return void(request.method = method);
-            }
-            throw CLI::ValidationError("--method",
-                                       "'" + text + "' is none of cma-es, de and random");
-          },
-          "How it searches: by adaptation of a covariance matrix (the default), by differential "
-          "evolution, or at random, to compare with")
-      ->type_name("cma-es|de|random");
-  command.add_option("--seed", request.seed, "Of the search's random numbers; 1 otherwise")
-      ->type_name("N")
-      ->check(CLI::Range(std::uint64_t{0}, kMostSeed));
-  command
-      .add_option("--check", request.check,
-                  "Minimise the margin of this check alone, and take nothing else for a failure; "
-                  "otherwise the least of all")
-      ->type_name("NAME")
-      ->check([](const std::string& text) { return text.empty() ? "its name is empty" : ""; });
-  command.add_flag("--all", request.finds_all,
-                   "Go on behind the first failure, and look for others");
+void print_script(const SearchArguments& arguments, const CampaignInput& input) {
+  is_this_search_in(input.folder(), arguments.request, input.plan());
+  const SearchJobs jobs(arguments, input, [](const std::string&) {});
+  const auto print = [&](const campaign::Plan&, const campaign::CaseFolder& cases,
+                         const campaign::CaseRange& batch) {
+    print_text("{}", jobs.script(cases, batch));
+    return false;
+  };
+  SearchCourse course(arguments.request, input, print);
+  if (!course.search.run([](std::uint64_t) {})) return;
+  print_text("{}: the search is over with {} cases, and nothing is submitted\n",
+             input.plan().campaign().file.stem().string(), course.cases.size());
+}
+
+void search_campaign(SearchArguments arguments) {
+  const CrashGuard guard;
+  arguments.campaign = searched(arguments.campaign);
+  const CampaignInput input(arguments.campaign);
+  using namespace campaign;
+  input.refuse_inputs({kSearchDescription, kCaseTable, kCaseLines, kCases, kRunning});
+  if (!arguments.cluster.cluster.empty()) input.refuse_inputs({arguments.cluster.cluster.c_str()});
+  require_check(input.scenario(), arguments.request.check);
+  check_plan(input.plan(), input.scenario());
+  if (arguments.request.method != search::Method::Random) {
+    arguments.request.make_optimiser = &search::load_optimisers(search::optimiser_library());
+  }
+  if (arguments.range) return run_search_part(arguments, input);
+  if (arguments.lists_next) return print_next_cases(arguments, input);
+  if (arguments.is_dry) return print_script(arguments, input);
+  run_search(arguments, input);
 }
 
 }  // namespace
@@ -217,12 +214,7 @@ void add_campaign_search(CLI::App& group) {
   CLI::App* command = group.add_subcommand(
       "search", "Look for the case that fails, led by the margins of the scenario's checks");
   const auto arguments = std::make_shared<SearchArguments>();
-  add_campaign_options(*command, arguments->campaign);
-  command->get_option("--out")->description(
-      "Folder of the search; otherwise campaigns/ and the name of FILE with .search");
-  add_request_options(*command, arguments->request);
-  add_jobs_option(*command, arguments->jobs);
-  add_progress_options(*command, arguments->progress, arguments->quiet);
+  add_search_options(*command, *arguments);
   command->callback([arguments] { search_campaign(*arguments); });
 }
 

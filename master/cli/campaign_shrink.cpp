@@ -73,8 +73,8 @@ class ShrinkingCase {
         input_(input),
         values_(values_of(input, *arguments.index)),
         ways_(search::ways_of(input.plan(), input.scenario(), values_, arguments.tolerance)),
-        cases_(input.plan(), input.scenario(), seeds_of(input.plan(), {.values = values_}), folder,
-               1) {}
+        cases_(input.plan(), seeds_of(input.plan(), {.values = values_}), folder,
+               local_batches(input.scenario(), 1)) {}
 
   void run() {
     failure_ = find_failure();

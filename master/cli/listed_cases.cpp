@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <optional>
 #include <system_error>
 #include <utility>
 
@@ -12,31 +13,53 @@
 namespace stride::cli {
 namespace {
 
-/// A record of another case with this index: of another tolerance, say.
-void drop_other(const campaign::Plan& plan, const campaign::CaseFolder& cases,
-                std::uint64_t index) {
-  const auto record = cases.read(index);
-  if (!record) return;
+/// The record of this very case: its hash stands for its values.
+std::optional<campaign::CaseFolder::Record> read_own(const campaign::Plan& plan,
+                                                     const campaign::CaseFolder& cases,
+                                                     std::uint64_t index) {
+  auto record = cases.read(index);
+  if (!record) return std::nullopt;
   const std::string hash = fmt::format("\"hash\":\"{}\"", plan.hash(plan.at(index)));
-  if (record->line.find(hash) != std::string::npos) return;
-  std::error_code ignored;  // it is written over then
-  std::filesystem::remove(cases.record_file(index), ignored);
+  if (record->line.find(hash) == std::string::npos) return std::nullopt;
+  return record;
 }
 
 }  // namespace
+
+bool has_record(const campaign::Plan& plan, const campaign::CaseFolder& cases,
+                std::uint64_t index) {
+  return read_own(plan, cases, index).has_value();
+}
+
+void drop_others(const campaign::Plan& plan, const campaign::CaseFolder& cases,
+                 const campaign::CaseRange& range) {
+  for (std::uint64_t i = range.first; i <= range.last; ++i) {
+    if (has_record(plan, cases, i)) continue;
+    std::error_code ignored;  // it is written over then
+    std::filesystem::remove(cases.record_file(i), ignored);
+  }
+}
+
+RunBatch local_batches(const campaign::CampaignScenario& scenario, std::size_t jobs) {
+  return [&scenario, jobs](const campaign::Plan& plan, const campaign::CaseFolder& cases,
+                           const campaign::CaseRange& batch) {
+    drop_others(plan, cases, batch);
+    const campaign::CaseScratch scratch(cases);
+    MissingCases(plan, scenario, cases, scratch,
+                 {.range = batch, .jobs = jobs, .progress = ProgressStyle::None})
+        .run();
+    return true;
+  };
+}
 
 search::Row seeds_of(const campaign::Plan& plan, const campaign::Case& row) {
   const auto parameters = static_cast<std::ptrdiff_t>(plan.campaign().parameters.size());
   return {row.values.begin() + parameters, row.values.end()};
 }
 
-ListedCases::ListedCases(const campaign::Plan& origin, const campaign::CampaignScenario& scenario,
-                         search::Row seeds, std::filesystem::path folder, std::size_t jobs)
-    : origin_(origin),
-      scenario_(scenario),
-      seeds_(std::move(seeds)),
-      folder_(std::move(folder)),
-      jobs_(jobs) {}
+ListedCases::ListedCases(const campaign::Plan& origin, search::Row seeds,
+                         std::filesystem::path folder, RunBatch run)
+    : origin_(origin), seeds_(std::move(seeds)), folder_(std::move(folder)), run_(std::move(run)) {}
 
 campaign::Plan ListedCases::make_plan() const {
   campaign::Campaign listed = origin_.campaign();
@@ -56,23 +79,24 @@ bool ListedCases::add(std::vector<search::Row> rows) {
   }
   auto plan = std::make_unique<const campaign::Plan>(make_plan());
   const campaign::CaseFolder cases(*plan, folder_);
-  for (std::uint64_t i = first; i < rows_.size(); ++i) drop_other(*plan, cases, i);
-  const campaign::CaseScratch scratch(cases);
-  MissingCases(*plan, scenario_, cases, scratch,
-               {.range = {first, rows_.size() - 1}, .jobs = jobs_, .progress = ProgressStyle::None})
-      .run();
-  std::vector<campaign::CaseResult> results;
-  for (std::uint64_t i = first; i < rows_.size(); ++i) {
-    auto record = cases.read(i);
-    if (!record) break;
-    results.push_back(std::move(record->result));
-  }
-  if (results.size() < rows_.size() - first) {
+  if (!take_results(*plan, cases) &&
+      (!run_(*plan, cases, {first, rows_.size() - 1}) || !take_results(*plan, cases))) {
     rows_.resize(first);
     return false;
   }
-  std::ranges::move(results, std::back_inserter(results_));
   plan_ = std::move(plan);
+  return true;
+}
+
+/// Of the new rows, if all are there.
+bool ListedCases::take_results(const campaign::Plan& plan, const campaign::CaseFolder& cases) {
+  std::vector<campaign::CaseResult> results;
+  for (std::uint64_t i = results_.size(); i < rows_.size(); ++i) {
+    auto record = read_own(plan, cases, i);
+    if (!record) return false;
+    results.push_back(std::move(record->result));
+  }
+  std::ranges::move(results, std::back_inserter(results_));
   return true;
 }
 

@@ -5,27 +5,45 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <vector>
 
 #include "master/campaign/campaign_scenario.h"
 #include "master/campaign/case_folder.h"
+#include "master/campaign/case_range.h"
 #include "master/campaign/case_record.h"
 #include "master/campaign/plan.h"
 #include "master/search/search.h"
 
 namespace stride::cli {
 
+/// Runs those cases of a batch, the last ones of the plan, that have no record in the folder, or
+/// that of another case. False: those that made them up are not to go on.
+using RunBatch = std::function<bool(const campaign::Plan& plan, const campaign::CaseFolder& cases,
+                                    const campaign::CaseRange& batch)>;
+
+/// In this process, `jobs` at the same time. The scenario must outlive it.
+RunBatch local_batches(const campaign::CampaignScenario& scenario, std::size_t jobs);
+
+/// Removes records that are those of other cases than the plan has by these indices: of another
+/// tolerance, say. Nobody else may be at work on these cases.
+void drop_others(const campaign::Plan& plan, const campaign::CaseFolder& cases,
+                 const campaign::CaseRange& range);
+
+/// Whether there is a record of this very case.
+bool has_record(const campaign::Plan& plan, const campaign::CaseFolder& cases, std::uint64_t index);
+
 /// A growing campaign whose cases are listed, with records in a folder: what has one is not run
-/// again. The scenario, and what `origin` refers to, must outlive it.
+/// again. What `origin` refers to must outlive it.
 class ListedCases final : public search::Cases {
  public:
   /// `origin`: the plan whose parameters and settings the cases have. `seeds`: the values of its
-  /// seeds, the same in all cases, so that parameters alone make a difference.
-  ListedCases(const campaign::Plan& origin, const campaign::CampaignScenario& scenario,
-              search::Row seeds, std::filesystem::path folder, std::size_t jobs);
+  /// seeds, the same in all cases, so that parameters alone make a difference. `run` is called for
+  /// batches that are not complete.
+  ListedCases(const campaign::Plan& origin, search::Row seeds, std::filesystem::path folder,
+              RunBatch run);
 
-  /// Runs them, at the same time as far as there are jobs.
   bool add(std::vector<search::Row> rows) override;
   std::size_t size() const override { return rows_.size(); }
   const campaign::CaseResult& result(std::uint64_t index) const override { return results_[index]; }
@@ -36,12 +54,12 @@ class ListedCases final : public search::Cases {
 
  private:
   campaign::Plan make_plan() const;
+  bool take_results(const campaign::Plan& plan, const campaign::CaseFolder& cases);
 
   const campaign::Plan& origin_;
-  const campaign::CampaignScenario& scenario_;
   const search::Row seeds_;
   const std::filesystem::path folder_;
-  const std::size_t jobs_;
+  const RunBatch run_;
   std::vector<search::Row> rows_;  ///< with the seeds
   std::vector<campaign::CaseResult> results_;
   std::unique_ptr<const campaign::Plan> plan_;

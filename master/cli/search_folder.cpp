@@ -1,6 +1,7 @@
 #include "master/cli/search_folder.h"
 
 #include <string>
+#include <utility>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -8,10 +9,9 @@
 #include "master/campaign/case_folder.h"
 #include "master/campaign/plan_folder.h"
 #include "master/campaign/plan_json.h"
-#include "master/recorders/results_folder.h"
 #include "master/util/error.h"
 #include "master/util/input_file.h"
-#include "master/util/replacement.h"
+#include "master/util/output_file.h"
 
 namespace stride::cli {
 namespace {
@@ -58,6 +58,11 @@ void require_same(const fs::path& folder, const Json& before, const Json& wanted
                                   wanted.at(key).is_null() ? "any" : wanted.at(key).dump()));
 }
 
+[[noreturn]] void fail_record(const fs::path& file, const std::string& of) {
+  core::fail_input({.where = {file.string(), 0}}, fmt::format("this is not the record {}", of),
+                   "remove it; the same search runs the case again");
+}
+
 }  // namespace
 
 fs::path default_search_folder(const fs::path& campaign) {
@@ -68,21 +73,29 @@ bool is_search_folder(const fs::path& folder) {
   return core::path_exists(folder / campaign::kSearchDescription);
 }
 
+bool is_this_search_in(const fs::path& folder, const search::Request& request,
+                       const campaign::Plan& plan) {
+  if (campaign::identity_in(folder)) fail_folder(folder, "this folder belongs to a campaign");
+  if (!is_search_folder(folder)) return false;
+  const Json wanted = search_json(folder, request, plan);
+  const Json before = read_search(folder);
+  for (const char* key : {kPlanKey, "method", "seed", "check"}) {
+    require_same(folder, before, wanted, key);
+  }
+  return true;
+}
+
 void begin_search_folder(const fs::path& folder, const search::Request& request,
                          const campaign::Plan& plan) {
-  if (campaign::identity_in(folder)) fail_folder(folder, "this folder belongs to a campaign");
-  const Json wanted = search_json(folder, request, plan);
-  if (is_search_folder(folder)) {
-    const Json before = read_search(folder);
-    for (const char* key : {kPlanKey, "method", "seed", "check"}) {
-      require_same(folder, before, wanted, key);
-    }
-    return;
-  }
-  recorders::make_results_folder(folder);
-  core::Replacement replacement(folder / campaign::kSearchDescription);
-  replacement.file().write(wanted.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
-  replacement.commit();
+  if (is_this_search_in(folder, request, plan)) return;
+  const campaign::CaseFolder cases(plan, folder);
+  const campaign::CaseScratch scratch(cases);
+  core::OutputFile file(scratch.file(campaign::kSearchDescription));
+  file.write(
+      search_json(folder, request, plan).dump(2, ' ', false, Json::error_handler_t::replace));
+  file.write('\n');
+  file.close();
+  scratch.publish(campaign::kSearchDescription);
 }
 
 fs::path campaign_of_search(const fs::path& folder) {
@@ -101,16 +114,19 @@ std::vector<campaign::Text> values_in_search(const fs::path& folder, const campa
                      fmt::format("--case {}: the search has run no such case", index));
   }
   const Json record = Json::parse(core::read_input(file), nullptr, false);
-  std::vector<campaign::Text> values;
+  campaign::Case row;
+  row.index = index;
   for (const campaign::PlanColumn& column : plan.columns()) {
     const Json::json_pointer place = Json::json_pointer("/values") / column.parameter.name;
-    if (!record.is_object() || !record.contains(place)) {
-      core::fail_input({.where = {file.string(), 0}}, "this is not the record of a case");
-    }
+    if (!record.is_object() || !record.contains(place)) fail_record(file, "of a case");
     const Json& value = record[place];
-    values.push_back(value.is_string() ? campaign::Text(value.get<std::string>()) : std::nullopt);
+    row.values.push_back(value.is_string() ? campaign::Text(value.get<std::string>())
+                                           : std::nullopt);
   }
-  return values;
+  const bool is_of_case =
+      record.value("case", Json()) == index && record.value("hash", Json()) == plan.hash(row);
+  if (!is_of_case) fail_record(file, fmt::format("of case {}", index));
+  return std::move(row.values);
 }
 
 }  // namespace stride::cli

@@ -18,9 +18,13 @@ std::filesystem::path default_search_folder(const std::filesystem::path& campaig
 /// Whether a search is in the folder.
 bool is_search_folder(const std::filesystem::path& folder);
 
-/// Writes search.json, unless it is there: what decides which cases the search has. How many of
+/// Whether this very search is in the folder, with what decides which cases it has. How many of
 /// them are run, and whether it goes on behind a failure, does not, so a search may go on with
 /// others. Throws core::Error (Input) where there is another search, or a campaign.
+bool is_this_search_in(const std::filesystem::path& folder, const search::Request& request,
+                       const campaign::Plan& plan);
+/// Writes search.json, unless it is there, as a whole or not at all; several processes may do so.
+/// Throws likewise.
 void begin_search_folder(const std::filesystem::path& folder, const search::Request& request,
                          const campaign::Plan& plan);
 
@@ -30,7 +34,7 @@ std::filesystem::path campaign_of_search(const std::filesystem::path& folder);
 void require_plan_of_search(const std::filesystem::path& folder, const campaign::Plan& plan);
 
 /// The values of a case that the search has run: those of the parameters, and then of the seeds.
-/// Throws core::Error (Input) if it has not.
+/// Throws core::Error (Input) if it has not, and for a record of another case in its place.
 std::vector<campaign::Text> values_in_search(const std::filesystem::path& folder,
                                              const campaign::Plan& plan, std::uint64_t index);
 

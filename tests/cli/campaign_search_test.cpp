@@ -2,9 +2,14 @@
 #include <algorithm>
 #include <chrono>
 #include <csignal>
+#include <fstream>
 #include <initializer_list>
+#include <list>
 #include <random>
+#include <sstream>
+#include <string>
 #include <thread>
+#include <vector>
 
 #include "tests/build.h"
 #include "tests/cli/leftovers.h"
@@ -39,6 +44,13 @@ void check_refused(const Searches& space, const Arguments& further, const std::s
   const Outcome outcome = space.search("out", further);
   INFO(outcome.err);
   CHECK(outcome.exit_code == 2);
+  CHECK_THAT(outcome.err, Contains(why));
+}
+
+/// Of some cases.
+void check_part(const Outcome& outcome, int exit_code, const std::string& why) {
+  INFO(outcome.out << outcome.err);
+  CHECK(outcome.exit_code == exit_code);
   CHECK_THAT(outcome.err, Contains(why));
 }
 
@@ -156,6 +168,70 @@ TEST_CASE("a search that is interrupted says how it goes on") {
   CHECK_THAT(outcome.out, Contains("Table in out"));
   CHECK_FALSE(fs::exists(space / "out/running"));
   CHECK(leftovers.after_a_while().empty());
+}
+
+TEST_CASE("a search that other runners run in parts is the same") {
+  const Searches space;
+  const Arguments request{"--all", "--runs", "40", "--seed", "2"};
+  CHECK(space.search("whole", request).exit_code == 1);
+  const auto with = [&](Arguments further) {
+    further.insert(further.begin(), request.begin(), request.end());
+    return space.search("parts", further);
+  };
+  const auto next = [&] {
+    const Outcome outcome = with({"--next"});
+    CHECK(outcome.exit_code == 0);
+    std::istringstream lines(outcome.out);
+    std::vector<std::string> cases;
+    for (std::string line; std::getline(lines, line);) cases.push_back(line);
+    return cases;
+  };
+  CHECK(next() == std::vector<std::string>{"0"});
+  check_part(with({"--cases", "0-1"}), 2, "--cases 0-1: the present generation ends with case 0");
+  CHECK_FALSE(fs::exists(space / "parts"));
+
+  for (std::vector<std::string> cases = next(); !cases.empty(); cases = next()) {
+    const std::string& last = cases.back();
+    check_part(with({"--cases", cases.front() + "-" + std::to_string(std::stoi(last) + 1)}), 2,
+               "the present generation ends with case " + last);
+    const std::size_t before = records_in(space / "parts");
+    std::list<Process> processes;  // in any order, at the same time
+    for (const std::string& index : cases) {
+      Arguments further = request;
+      further.insert(further.end(), {"--cases", index, "--jobs", "1"});
+      processes.emplace_front(stride_command(Searches::arguments("parts", further)),
+                              space.scratch().path());
+    }
+    for (Process& process : processes) CHECK(process.wait().exit_code <= 1);
+    CHECK(records_in(space / "parts") == before + cases.size());
+  }
+  check_part(with({"--cases", "0-3"}), 0, "");
+  check_part(with({"--cases", "17"}), 2, "--cases 17: the search is over with case 16");
+  const auto written = fs::last_write_time(space / "parts/cases/000/000012.json");
+  CHECK(with({}).exit_code == 1);
+  CHECK(fs::last_write_time(space / "parts/cases/000/000012.json") == written);
+  CHECK(space.table("parts") == space.table("whole"));
+  CHECK(space.file("parts/search.json") == space.file("whole/search.json"));
+  CHECK_FALSE(fs::exists(space / "parts/running"));
+}
+
+TEST_CASE("a part of a search replaces a record of another case, and says what is missing") {
+  const Searches space;
+  CHECK(space.search("out", {"--runs", "9"}).exit_code == 0);
+  const std::string table = space.table("out");
+  const auto record = [&](const char* index) {
+    return space / ("out/cases/000/00000" + std::string(index) + ".json");
+  };
+  fs::remove(record("5"));
+  std::string other = read(record("3"));
+  other.replace(other.find("\"case\":3"), 8, "\"case\":4");
+  std::ofstream(record("4")) << other;
+  CHECK(space.search("out", {"--runs", "9", "--next"}).out == "4\n5\n");
+  check_part(space.search("out", {"--runs", "9", "--cases", "5-6"}), 0, "");
+  CHECK(read(record("4")) == other);
+  check_part(space.search("out", {"--runs", "9", "--cases", "1-4"}), 0, "");
+  CHECK(space.search("out", {"--runs", "9"}).exit_code == 0);
+  CHECK(space.table("out") == table);
 }
 
 TEST_CASE("a folder has one search") {

@@ -1,4 +1,5 @@
 // stride campaign shrink, from outside.
+#include <fstream>
 #include <string>
 #include <utility>
 
@@ -111,6 +112,48 @@ TEST_CASE("the case of a search is shrunk from its folder, and nothing is run tw
   CHECK(space.stride(arguments).out == one.out);
   fs::remove_all(space / "found/shrunk");
   CHECK(space.stride(finer).out == fine.out);
+}
+
+TEST_CASE("a record of another case is not believed") {
+  const Searches space;
+  CHECK(space.search("found", {"--seed", "2"}).exit_code == 1);
+  const auto record = [&](const std::string& folder, const std::string& index) {
+    return space / (folder + "/cases/000/0000" + index + ".json");
+  };
+  const auto put = [&](const std::string& folder, const std::string& from, const std::string& to) {
+    std::string text = read(record(folder, from));
+    const std::string key = "\"case\":" + std::to_string(std::stoi(from));
+    text.replace(text.find(key), key.size(), "\"case\":" + std::to_string(std::stoi(to)));
+    std::ofstream(record(folder, to)) << text;
+  };
+  const Arguments arguments{"campaign", "shrink", "found", "--case", "16"};
+  const Outcome outcome = space.stride(arguments);
+  INFO(outcome.err);
+  REQUIRE(outcome.exit_code == 0);
+
+  const std::string shrunk = "found/shrunk/000016";
+  const std::string failing = read(record(shrunk, "00"));
+  for (const char* index : {"01", "02", "07"}) put(shrunk, "00", index);
+  put(shrunk, "03", "00");
+  CHECK(space.stride(arguments).out == outcome.out);
+  const auto values_of = [](const std::string& text) {
+    return text.substr(0, text.find("\"outcome\""));
+  };
+  CHECK(values_of(read(record(shrunk, "00"))) == values_of(failing));
+
+  fs::copy_file(record("found", "16"), record("found", "12"), fs::copy_options::overwrite_existing);
+  const Outcome other = space.stride({"campaign", "shrink", "found", "--case", "12"});
+  CHECK(other.exit_code == 2);
+  CHECK_THAT(other.err, Contains("found/cases/000/000012.json: this is not the record of case 12"));
+  CHECK_THAT(other.err, Contains("remove it; the same search runs the case again"));
+  std::string edited = read(record("found", "16"));
+  const std::string key = "\"first.u\":\"0.";
+  edited.insert(edited.find(key) + key.size(), "5");
+  std::ofstream(record("found", "16")) << edited;
+  CHECK(space.stride(arguments).exit_code == 2);
+  fs::remove(record("found", "16"));
+  CHECK(space.search("found", {"--seed", "2"}).exit_code == 1);
+  CHECK(space.stride(arguments).out == outcome.out);
 }
 
 TEST_CASE("an intervention is shrunk, and its unit of measure is shown") {

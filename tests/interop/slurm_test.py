@@ -1,5 +1,6 @@
-"""slurm_test.py STRIDE UNITS FOLDER: cases of a campaign run on a Slurm cluster of one node, which is started for it, and
-their table is that of a local run, also if jobs are cancelled on the way. Exit code 77 if Slurm is not installed."""
+"""slurm_test.py STRIDE UNITS FOLDER: cases of a campaign, and of a search, run on a Slurm cluster of one node, which is
+started for it, and their table is that of a local run, also if jobs are cancelled on the way. Exit code 77 if Slurm is not
+installed."""
 
 import csv
 import json
@@ -11,6 +12,7 @@ import signal
 import subprocess
 import sys
 import tempfile
+import time
 
 import slurm_node
 
@@ -50,6 +52,22 @@ CAMPAIGN = """<OpenSCENARIO>
   </stride:Campaign>
 </OpenSCENARIO>
 """
+SEARCHED = """<OpenSCENARIO>
+  <FileHeader revMajor="1" revMinor="1" date="2026-01-01T00:00:00" author="" description=""/>
+  <ParameterValueDistribution>
+    <ScenarioFile filepath="filters.ssd"/>
+    <Stochastic numberOfTestRuns="10" randomSeed="1">
+      <StochasticDistribution parameterName="first.u">
+        <UniformDistribution><Range lowerLimit="0" upperLimit="1.2"/></UniformDistribution>
+      </StochasticDistribution>
+      <StochasticDistribution parameterName="first.time_constant">
+        <UniformDistribution><Range lowerLimit="0.5" upperLimit="2"/></UniformDistribution>
+      </StochasticDistribution>
+    </Stochastic>
+  </ParameterValueDistribution>
+  <stride:Campaign xmlns:stride="urn:org.stride:campaign:1"><stride:Keep results="none"/></stride:Campaign>
+</OpenSCENARIO>
+"""
 MOST_JOBS = 6
 CLUSTER = f"MaxArraySize={MOST_JOBS}\nLicenses=simulator:1"
 
@@ -66,6 +84,7 @@ class Campaign:
         self.folder = folder / f"{cases} an engineer's $HOME %j"
         self.folder.mkdir()
         (self.folder / "filters.ssd").write_text(SCENARIO, encoding="utf-8")
+        (self.folder / "s.xosc").write_text(SEARCHED, encoding="utf-8")
         (self.folder / "c.xosc").write_text(CAMPAIGN.format(cases=cases), encoding="utf-8")
         self._program = program
         self._environment = {**os.environ, "STRIDE_UNITS": str(units)}
@@ -77,6 +96,12 @@ class Campaign:
                                 env={**(environment or os.environ), "STRIDE_UNITS": self._environment["STRIDE_UNITS"]})
         require(result.returncode == expected, f"stride campaign {arguments}: {result.returncode}\n{result.stdout}")
         return result.stdout
+
+    def start(self, *arguments, environment):
+        """Without waiting for its end."""
+        return subprocess.Popen([self._program, "campaign", *arguments], cwd=self.folder, text=True, stdout=subprocess.PIPE,
+                                stderr=subprocess.STDOUT,
+                                env={**environment, "STRIDE_UNITS": self._environment["STRIDE_UNITS"]})
 
     def submit(self, node, expected, out, *options):
         return self.stride(expected, "submit", "c.xosc", "--on", "slurm", "--out", out, *options,
@@ -169,6 +194,104 @@ def check_cancelled(node, campaign):
     require(campaign.table("cut") == campaign.table("local"), "another table than that of a local run")
 
 
+def search_words(out, *options):
+    return ("search", "s.xosc", "--out", out, "--progress", "none", *options)
+
+
+def on_slurm(*options):
+    return ("--on", "slurm", "--jobs", "2", *options)
+
+
+def printed_of(text):
+    """Without where it is."""
+    return re.search(r"^s: .*?\nTable in ", text, re.DOTALL | re.MULTILINE).group()
+
+
+def scripts_of(folder):
+    """Of what was submitted, in that order."""
+    return sorted(folder.glob("slurm/[0-9]*.sh"), key=lambda path: int(path.stem))
+
+
+def check_search(node, campaign):
+    """The same cases and words as those of a local search."""
+    local = campaign.stride(1, *search_words("here"))
+    script = campaign.stride(0, *search_words("there", *on_slurm("--dry-run")), environment=node.environment)
+    require(not (campaign.folder / "there").exists(), "a dry run writes something")
+    require("--jobs 2 --cases " in script and "\n  0\n" in script, script)
+    printed = campaign.stride(1, *search_words("there", *on_slurm()), environment=node.environment)
+    require(printed_of(printed) == printed_of(local), f"another search than the local one:\n{printed}\n{local}")
+    require("Scripts and log files in there/slurm\n" in printed, printed)
+    require(campaign.table("there") == campaign.table("here"), "another table than that of a local search")
+    scripts = scripts_of(campaign.folder / "there")
+    require(scripts[0].read_text(encoding="utf-8") == script, "another script than that of the dry run")
+    require("\n  1-2 3-4 5-6 7-8\n" in scripts[1].read_text(encoding="utf-8"), "the first generation has other jobs")
+
+
+def start_held(node, campaign, out):
+    """A search whose jobs wait in the queue until they are released."""
+    return campaign.start(*search_words(out, *on_slurm("--sbatch", "hold")), environment=node.environment)
+
+
+def release(node, script):
+    subprocess.run(["scontrol", "release", script.stem], env=node.environment, check=True)
+
+
+def is_locked(folder):
+    return folder.exists() and f":{folder.stat().st_ino} " in pathlib.Path("/proc/locks").read_text(encoding="utf-8")
+
+
+def check_ended_search(node, campaign):
+    """Jobs are in the queue when the search is killed, and when it is interrupted: they go on, and so does the search."""
+    folder = campaign.folder / "ended"
+    search = start_held(node, campaign, "ended")
+    node.wait_for(lambda: scripts_of(folder), "nothing is submitted")
+    search.kill()
+    search.communicate(timeout=60)
+    node.wait_for(lambda: not is_locked(folder), "the search goes on")
+    search = start_held(node, campaign, "ended")
+    node.wait_for(lambda: is_locked(folder), "the search does not go on")
+    time.sleep(1)
+    search.send_signal(signal.SIGINT)
+    printed = search.communicate(timeout=60)[0]
+    require("the search was interrupted; 0 of at most 200 cases are done" in printed, printed)
+    job = scripts_of(folder)[0]
+    require(f"job {job.stem} of Slurm is in the queue still; the same command waits for it" in printed, printed)
+
+    search = campaign.start(*search_words("ended", *on_slurm()), environment=node.environment)
+    node.wait_for(lambda: is_locked(folder), "the search does not go on")
+    time.sleep(1)
+    require(scripts_of(folder) == [job], "what is in the queue is submitted again")
+    release(node, job)
+    printed = search.communicate(timeout=60)[0]
+    require(search.returncode == 1, printed)
+    require(campaign.table("ended") == campaign.table("here"), "another table than that of a local search")
+    require(len(scripts_of(folder)) == len(scripts_of(campaign.folder / "there")), "a generation is submitted twice")
+
+
+def check_lost_jobs(node, campaign):
+    """Jobs that end without a record end the search, which does not submit them again by itself."""
+    folder = campaign.folder / "lost"
+    search = start_held(node, campaign, "lost")
+    node.wait_for(lambda: scripts_of(folder), "nothing is submitted")
+    end_jobs(node, scripts_of(folder)[0].stem)
+    printed = search.communicate(timeout=60)[0]
+    require(search.returncode == 1 and "jobs have left the queue of Slurm, and case 0 has no record" in printed, printed)
+    require("they have no log files, so they were cancelled before they began" in printed, printed)
+
+    scenario = campaign.folder / "filters.ssd"
+    search = start_held(node, campaign, "lost")
+    node.wait_for(lambda: len(scripts_of(folder)) == 2, "nothing is submitted again")
+    scenario.rename(campaign.folder / "away")
+    release(node, scripts_of(folder)[1])
+    printed = search.communicate(timeout=60)[0]
+    (campaign.folder / "away").rename(scenario)
+    require(search.returncode == 1 and "case 0 has no record; a log file ends with: " in printed, printed)
+    require(re.search(r"see lost/slurm/\d+_0.log; the same command submits these cases again", printed), printed)
+    require(len(scripts_of(folder)) == 2, "jobs are submitted again and again")
+    campaign.stride(1, *search_words("lost", *on_slurm()), environment=node.environment)
+    require(campaign.table("lost") == campaign.table("here"), "another table than that of a local search")
+
+
 def check_without_slurm(campaign):
     environment = {name: value for name, value in os.environ.items() if name != "PATH"}
     printed = campaign.stride(2, "submit", "c.xosc", "--on", "slurm", environment={**environment, "PATH": "/nowhere"})
@@ -193,6 +316,9 @@ def main(program, units, folder):
         check_array(node, few)
         check_mistakes(node, few)
         check_cancelled(node, many)
+        check_search(node, few)
+        check_ended_search(node, few)
+        check_lost_jobs(node, few)
     return 0
 
 
