@@ -16,7 +16,7 @@ using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
 
 constexpr int kWatchGlance = 100;  // [ms]
-constexpr auto kBeat = 1s;
+constexpr auto kBeat = 250ms;
 constexpr auto kIdleBeat = 15s;
 /// From the end of the link to that of this process, at most. A unit that is being called has a
 /// second, and its processes some more to end.

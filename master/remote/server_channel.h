@@ -24,7 +24,7 @@ class LinkEnded : public std::runtime_error {
 };
 
 /// Reads requests and writes replies. A thread of its own watches the link meanwhile: it sends
-/// signs of life, each second while a request is carried out and seldom otherwise, and when the
+/// signs of life, four a second while a request is carried out and seldom otherwise, and when the
 /// link ends it sets is_over(), for what waits for a unit; if that has no effect the process ends.
 ///
 /// That thread takes no lock of others and allocates nothing, so the process may be forked.

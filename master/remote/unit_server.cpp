@@ -59,8 +59,10 @@ UnitServer::UnitServer(ServerChannel& channel, const ServeOptions& options)
 
 void UnitServer::run() {
   for (;;) {
-    IncomingMessage message(channel_.receive());
-    with_checked_messages([&] { serve(message.root<wire::Request>()); });
+    with_checked_messages([&] {
+      IncomingMessage message(channel_.receive());
+      serve(message.root<wire::Request>());
+    });
   }
 }
 

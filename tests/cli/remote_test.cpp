@@ -1,6 +1,9 @@
 // Units on other machines, as a user meets them: `exec:` with the program of this build in place of
 // another machine.
+#include <chrono>
+#include <csignal>
 #include <memory>
+#include <thread>
 
 #include <nlohmann/json.hpp>
 
@@ -170,6 +173,54 @@ TEST_CASE("a machine that is silent is an error when its time is over") {
       "exec:printf '\\001STRIDE-SERVE protocol 1, build 1\\n'; cat &gt; /dev/null";
   CHECK_THAT(error_of_start(host("second", "silenceLimit=\"0.3\"", greets_only), 1),
              Contains("has given no sign of life for 0.3 s in the description"));
+}
+
+TEST_CASE("a machine whose unit computes for long gives signs of life") {
+  const Workspace workspace(
+      Parts{component("faulty", "faulty.fmu"), "", host("faulty", "silenceLimit=\"0.8\"")});
+  const Outcome outcome = workspace.run(
+      {"--quiet", "--stop", "0.1", "--set", "faulty.fault=doze", "--set", "faulty.at=0.05"});
+  CHECK(outcome.err == "");
+  CHECK(outcome.exit_code == 0);
+}
+
+TEST_CASE("a full disk there is an error with the file") {
+  Parts parts{
+      component("unit", (test_unit_folder() / "faulty.fmu").string()), "",
+      host("unit", "send=\"true\"",
+           "exec:ulimit -f 1; exec " + stride_program().string() + " serve --accept-files")};
+  const Workspace workspace(parts);
+  const Outcome outcome = workspace.run({"--quiet"});
+  CHECK(outcome.exit_code == 1);
+  CHECK_THAT(outcome.err, Contains("'faulty.fmu' cannot be written there: File too large"));
+  CHECK(workspace.left_behind().empty());
+}
+
+TEST_CASE("a run that is interrupted while a unit there hangs ends, and nothing stays") {
+  const Leftovers leftovers;
+  const Workspace workspace(Parts{component("faulty", "faulty.fmu"), "", host("faulty")});
+  Process process(stride_command({"run", "test.ssd", "--out", "out", "--quiet", "--set",
+                                  "faulty.fault=loop", "--set", "faulty.at=0.05"}),
+                  workspace.scratch().path());
+  while (process.is_running() && leftovers.processes("faulty").empty()) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  std::this_thread::sleep_for(std::chrono::seconds(1));  // until it hangs
+  process.send(SIGINT);
+  const Outcome outcome = process.wait();
+  CHECK_THAT(outcome.err, Contains("the run was interrupted"));
+  CHECK(leftovers.after_a_while().empty());
+}
+
+TEST_CASE("a run that goes on from a checkpoint has the same bytes") {
+  const Workspace near(two_filters());
+  REQUIRE(near.run(kHalfSecond).exit_code == 0);
+  const Workspace workspace(with_annotation(two_filters(), host("second")));
+  Arguments options{"--set", "first.u=1", "--stop", "0.3", "--quiet", "--checkpoint-every", "0.1"};
+  CHECK(workspace.run(options).exit_code == 0);
+  const Outcome outcome = workspace.stride({"resume", "out", "--stop", "0.5", "--quiet"});
+  CHECK(outcome.err == "");
+  CHECK(workspace.result("signals.csv") == near.result("signals.csv"));
 }
 
 TEST_CASE("a peer that sends no messages is refused") {
