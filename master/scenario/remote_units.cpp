@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "master/remote/description_files.h"
 #include "master/scenario/hosting.h"
 #include "master/scenario/unit_path.h"
 #include "master/util/input_file.h"
@@ -30,6 +31,10 @@ std::vector<HostSettings> annotated_hosts(const Scenario& scenario) {
     return std::vector<HostSettings>(names.size());
   }
   return host_settings(names, scenario.annotation.hosts, {});
+}
+
+std::string description_digest(const importer::Fmu& fmu) {
+  return remote::description_digest(fmu.description_files());
 }
 
 std::filesystem::path key_of(const remote::RemoteSpec& spec) {

@@ -21,6 +21,9 @@ remote::RemoteSpec remote_spec(const RemoteSettings& settings, const std::filesy
 /// The settings of the hosts of a scenario's components, by its annotation alone.
 std::vector<HostSettings> annotated_hosts(const Scenario& scenario);
 
+/// What is known of a unit that stays elsewhere: a hash of its description.
+std::string description_digest(const importer::Fmu& fmu);
+
 /// Under which a description that was read is kept: units of one key are the same.
 std::filesystem::path key_of(const remote::RemoteSpec& spec);
 
