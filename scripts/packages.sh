@@ -2,15 +2,15 @@
 # Installs the Debian packages that stride is built with, those that are missing. Sourced by the other scripts.
 
 packages_build=(
-  ca-certificates ccache cmake g++ git ninja-build pkg-config
-  libarchive-dev libboost-dev libcli11-dev libeigen3-dev libfmt-dev libjpeg62-turbo-dev libmd-dev libmujoco-dev
-  libosmesa6 libpagmo-dev librandom123-dev libseccomp-dev libspdlog-dev libsystemc-dev libtinyxml2-dev libutfcpp-dev
-  nlohmann-json3-dev zlib1g-dev
+  ca-certificates capnproto ccache cmake g++ git ninja-build pkg-config
+  libarchive-dev libboost-dev libcapnp-dev libcli11-dev libeigen3-dev libfmt-dev libjpeg62-turbo-dev libmd-dev
+  libmujoco-dev libosmesa6 libpagmo-dev librandom123-dev libseccomp-dev libspdlog-dev libsystemc-dev libtinyxml2-dev
+  libutfcpp-dev nlohmann-json3-dev zlib1g-dev
 )
 packages_test=(
   binutils catch2 chromium chromium-driver clang-format-14 dpkg-dev fish fonts-dejavu-core gtkwave libbenchmark-dev
-  libpython3.11 libxml2-utils mandoc mold munge parallel python3 python3-venv python3-pip slurm-client slurmctld slurmd
-  unzip zip zsh
+  libpython3.11 libxml2-utils mandoc mold munge openssh-client openssh-server parallel python3 python3-venv python3-pip
+  slurm-client slurmctld slurmd unzip zip zsh
 )
 packages_fuzz=(clang-14 libclang-rt-14-dev)
 

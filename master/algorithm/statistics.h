@@ -12,6 +12,15 @@
 
 namespace stride::core {
 
+/// The link to another machine.
+struct LinkStatistics {
+  std::string machine;  ///< "user@machine"
+  std::uint64_t round_trips = 0;
+  std::uint64_t sent = 0, received = 0;  ///< [byte]
+  /// Waited for answers, without the time that their making took there.
+  std::chrono::nanoseconds lost{};
+};
+
 /// Statistics of a unit's host, the separate process that it runs in.
 struct HostStatistics {
   std::uint64_t snapshots = 0;             ///< snapshots made
@@ -21,6 +30,7 @@ struct HostStatistics {
   std::uint64_t most_memory = 0;  ///< maximum resident memory of the serving process [byte]
   std::vector<std::string> protections{};          ///< in force
   std::vector<std::string> missing_protections{};  ///< requested, but not available
+  std::optional<LinkStatistics> link{};            ///< if it runs on another machine
 };
 
 /// A unit that was to repeat steps, and has come to another value.

@@ -1,5 +1,6 @@
 #include "master/campaign/scenario_digests.h"
 
+#include "master/scenario/remote_units.h"
 #include "master/scenario/unit_path.h"
 #include "master/util/input_file.h"
 #include "master/util/sha256.h"
@@ -22,6 +23,10 @@ std::map<std::string, std::string> scenario_digests(const scenario::Scenario& sc
 
 std::string unit_digest(const scenario::LoadedScenario& loaded, std::size_t component,
                         core::FileDigests& digests) {
+  const std::optional<scenario::Hosting>& hosting = loaded.hostings()[component];
+  if (hosting && hosting->remote && hosting->remote->sent.empty()) {
+    return scenario::description_digest(*loaded.fmus()[component]);
+  }
   const fs::path path = scenario::find_unit(loaded.scenario().sources[component], {});
   const fs::path& resources = loaded.fmus()[component]->resources();
   if (path.extension() != ".so" || !core::is_folder(resources)) return digests.of(path);

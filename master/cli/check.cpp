@@ -14,6 +14,7 @@
 #include "master/cli/coverage_table.h"
 #include "master/cli/crash_guard.h"
 #include "master/cli/output.h"
+#include "master/cli/remote_check.h"
 #include "master/cli/scenario_options.h"
 #include "master/cli/table.h"
 #include "master/model/array_element.h"
@@ -235,8 +236,8 @@ void check(const scenario::ScenarioRequest& request) {
              system.components().size(), system.connections().size(), options.recorded.size());
   print_text("from {} s to {} s, {}\n", core::to_text(options.start), core::to_text(options.stop),
              steps(options));
-  print_text("\nUnits\n{}{}\nConnections\n{}", unit_table(loaded), host_table(loaded),
-             connection_table(system));
+  print_text("\nUnits\n{}{}{}\nConnections\n{}", unit_table(loaded), host_table(loaded),
+             remote_table(loaded), connection_table(system));
   print_text("{}", unconnected_elements_text(system));
   print_text("{}{}", check_table(loaded), coverage_table(loaded.coverage()));
   print_text("{}", intervention_table(system, options.interventions));

@@ -19,6 +19,7 @@ void add_build(CLI::App& app);
 void add_campaign(CLI::App& app);
 void add_coverage(CLI::App& app);
 void add_report(CLI::App& app);
+void add_serve(CLI::App& app);
 void add_trace(CLI::App& app);
 void add_reference(CLI::App& app);
 void add_verify(CLI::App& app);

@@ -203,6 +203,7 @@ void add_all(CLI::App& app) {
   stride::cli::add_pack(app);
   stride::cli::add_build(app);
   stride::cli::add_trace(app);
+  stride::cli::add_serve(app);
   stride::cli::add_reference(app);
   for (const char* command : {"run", "resume", "check", "inspect", "verify", "complete", "pack"}) {
     add_verbose(*app.get_subcommand(command));

@@ -80,6 +80,12 @@ void add_host_options(CLI::App& command, scenario::HostRequest& request) {
                 "units; may be given several times")
       ->transform([](const std::string& value) { return value == "true" ? "*" : value; });
   command
+      .add_option("--at", request.places,
+                  "Run the matching units on another machine, ssh://user@machine, or behind a "
+                  "command, exec:COMMAND; may be given several times")
+      ->type_name("COMPONENT=PLACE")
+      ->allow_extra_args(false);
+  command
       .add_option("--unit-timeout", request.unit_timeout,
                   "Time limit of a call of a unit in a process of its own; overrides the scenario")
       ->type_name("SECONDS");

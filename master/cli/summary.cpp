@@ -1,6 +1,7 @@
 #include "master/cli/summary.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -213,6 +214,11 @@ std::string Summary::host_line(const core::RunStatistics& statistics) const {
     const std::optional<core::HostStatistics>& host = statistics.units[i].host;
     if (!host) continue;
     std::string& text = hosted.emplace_back(system_.components()[i].name);
+    if (host->link) {
+      text += fmt::format(" (on {}: {} round trips, {:.3g} s lost to the network)",
+                          host->link->machine, host->link->round_trips,
+                          std::chrono::duration<double>(host->link->lost).count());
+    }
     if (host->snapshots == 0) continue;
     text += fmt::format(" ({} snapshots, {} restored)", host->snapshots, host->restores);
   }

@@ -121,7 +121,20 @@ void Fmu::read_bare_library() {
   if (!manifest.empty()) {
     parse_idle_manifest(manifest, shown_as_.string() + ": its own idle manifest", *description);
   }
+  own_files_.push_back({kDescriptionFiles[0], text});
+  if (!manifest.empty()) own_files_.push_back({STRIDE_IDLE_MANIFEST, manifest});
   description_ = std::move(description);
+}
+
+std::vector<DescriptionFile> Fmu::description_files() const {
+  if (!unpacked_) return own_files_;
+  std::vector<DescriptionFile> files;
+  for (const char* name : kDescriptionFiles) {
+    const fs::path file = files.empty() ? unpacked_->description() : unpacked_->folder() / name;
+    if (!core::path_exists(file)) continue;
+    files.push_back({name, core::read_input(file, (shown_as_ / name).string())});
+  }
+  return files;
 }
 
 template <class Library>

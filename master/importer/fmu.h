@@ -8,8 +8,10 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "master/algorithm/unit.h"
+#include "master/importer/description_file.h"
 #include "master/importer/fmi1/fmi1_library.h"
 #include "master/importer/fmi2/fmi2_library.h"
 #include "master/importer/fmi3/fmi3_library.h"
@@ -37,6 +39,10 @@ class Fmu : public std::enable_shared_from_this<Fmu> {
   /// As it is shown in messages.
   const std::filesystem::path& path() const { return shown_as_; }
   std::shared_ptr<const core::UnitDescription> description() const { return description_; }
+
+  /// Its description as files, for where its library is not needed: an FMU of these alone has the
+  /// same description. Throws core::Error of the kind Input.
+  std::vector<DescriptionFile> description_files() const;
 
   /// Where its files are: the unpacked archive, or the folder itself. Empty for a bare library.
   std::filesystem::path folder() const {
@@ -77,6 +83,7 @@ class Fmu : public std::enable_shared_from_this<Fmu> {
   std::optional<UnpackedFmu> unpacked_;
   std::filesystem::path resources_;
   std::shared_ptr<const ModelDescription> description_;
+  std::vector<DescriptionFile> own_files_;  ///< of a bare library, which has given them
   std::mutex library_mutex_;
   std::string first_component_;  ///< of which an instance was wanted
   std::shared_ptr<const Fmi1Library> fmi1_library_;

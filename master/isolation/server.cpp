@@ -320,7 +320,7 @@ const core::Variable& Server::variable(core::ValueReference reference) const {
 
 void Server::make_plan(PacketReader& in) {
   StepBuffers& made = plan(in);
-  made = StepBuffers(in);
+  made = StepBuffers(take_step_shape(in));
 }
 
 StepBuffers& Server::plan(PacketReader& in) {

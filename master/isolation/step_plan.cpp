@@ -69,17 +69,39 @@ void put_shape(PacketWriter& to, const core::StepValues& values) {
   put_parts(to, values.outputs);
 }
 
-// ---- In the unit's process ----
+// ---- Where the unit is ----
 
-StepBuffers::StepBuffers(PacketReader& from)
-    : inputs_(take_parts(from)), outputs_(take_parts(from)) {}
+namespace {
 
-std::vector<core::BoundValues> StepBuffers::take_parts(PacketReader& from) {
-  std::vector<core::BoundValues> bound;
+std::vector<StepShape::Group> take_groups(PacketReader& from) {
+  std::vector<StepShape::Group> groups;
   const std::size_t count = from.take_count(1);
   for (std::size_t i = 0; i < count; ++i) {
     auto references = from.take_all<core::ValueReference>();
-    Part& part = parts_.emplace_back(Part{std::move(references), take_shape(from)});
+    const auto type = from.take<core::ValueType>();
+    groups.push_back({type, from.take<std::size_t>(), std::move(references)});
+  }
+  return groups;
+}
+
+}  // namespace
+
+StepShape take_step_shape(PacketReader& from) {
+  StepShape shape;
+  shape.inputs = take_groups(from);
+  shape.outputs = take_groups(from);
+  return shape;
+}
+
+StepBuffers::StepBuffers(const StepShape& shape)
+    : inputs_(make_parts(shape.inputs)), outputs_(make_parts(shape.outputs)) {}
+
+std::vector<core::BoundValues> StepBuffers::make_parts(
+    const std::vector<StepShape::Group>& groups) {
+  std::vector<core::BoundValues> bound;
+  for (const StepShape::Group& group : groups) {
+    Part& part =
+        parts_.emplace_back(Part{group.references, core::ValueBlock(group.type, group.size)});
     bound.emplace_back(part.references, part.block);
   }
   return bound;

@@ -22,6 +22,7 @@ struct StepShape {
   };
   std::vector<Group> inputs, outputs;
 
+  StepShape() = default;
   explicit StepShape(const core::StepValues& values);
   bool fits(const core::StepValues& values) const;
 };
@@ -44,11 +45,11 @@ class KnownStepShapes {
   std::uint32_t next_ = 0;    ///< to be replaced when there is no room
 };
 
-/// In the unit's process: memory for the values of a step.
+/// Where the unit is: memory for the values of a step.
 class StepBuffers {
  public:
   StepBuffers() = default;
-  explicit StepBuffers(PacketReader& from);
+  explicit StepBuffers(const StepShape& shape);
 
   void take_inputs(PacketReader& from);
   void put_outputs(PacketWriter& to) const;
@@ -59,7 +60,7 @@ class StepBuffers {
     std::vector<core::ValueReference> references;
     core::ValueBlock block;
   };
-  std::vector<core::BoundValues> take_parts(PacketReader& from);
+  std::vector<core::BoundValues> make_parts(const std::vector<StepShape::Group>& groups);
 
   std::deque<Part> parts_;  // whose elements stay where they are
   std::vector<core::BoundValues> inputs_, outputs_;
@@ -67,6 +68,7 @@ class StepBuffers {
 
 /// What StepBuffers is made of.
 void put_shape(PacketWriter& to, const core::StepValues& values);
+StepShape take_step_shape(PacketReader& from);
 
 }  // namespace stride::isolation
 

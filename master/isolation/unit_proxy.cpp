@@ -90,14 +90,14 @@ void UnitProxy::send(RequestCode request, Put&& put) {
   guard([&] {
     PacketWriter packet = client_->write();
     put(packet);
-    client_->post(request, packet, time_);
+    client_->post(request, packet, times_.now);
   });
 }
 
 template <class Take>
 void UnitProxy::receive(Take&& take) {
   guard([&] {
-    ReplyCode reply = client_->await(time_, spec_.host.call_limit);
+    ReplyCode reply = client_->await(times_.now, spec_.host.call_limit);
     if (reply != ReplyCode::Done) [[unlikely]] {
       reply = serve_input_requests(reply);
       if (reply != ReplyCode::Done) throw_reply(reply);
@@ -112,9 +112,9 @@ void UnitProxy::guard(Action&& action) {
   try {
     action();
   } catch (const BadPacket&) {
-    client_->fail_bad_packet(time_);
+    client_->fail_bad_packet(times_.now);
   } catch (const std::system_error& failure) {
-    core::fail_run({.where = spec_.options.where, .unit = spec_.name, .time = time_},
+    core::fail_run({.where = spec_.options.where, .unit = spec_.name, .time = times_.now},
                    failure.what());
   }
 }
@@ -130,27 +130,16 @@ void UnitProxy::call(RequestCode request) {
 
 ReplyCode UnitProxy::serve_input_requests(ReplyCode reply) {
   while (reply == ReplyCode::RequestInputs) {
-    const RequestCode answer = update_inputs(client_->read().take<double>());
+    const bool are_set = input_update_.run(client_->read().take<double>());
+    const RequestCode answer = are_set ? RequestCode::InputsUpdated : RequestCode::InputsNotUpdated;
     if (client_->has_failed()) return ReplyCode::CallbackFailed;
-    reply = client_->send(answer, client_->write(), time_);
+    reply = client_->send(answer, client_->write(), times_.now);
   }
   return reply;
 }
 
-RequestCode UnitProxy::update_inputs(double seconds_into_step) noexcept {
-  try {
-    if (input_update_) input_update_(seconds_into_step);
-    return RequestCode::InputsUpdated;
-  } catch (...) {
-    callback_failure_ = std::current_exception();
-    return RequestCode::InputsNotUpdated;
-  }
-}
-
 void UnitProxy::throw_reply(ReplyCode reply) {
-  if (reply == ReplyCode::CallbackFailed && callback_failure_) {
-    std::rethrow_exception(std::exchange(callback_failure_, nullptr));
-  }
+  if (reply == ReplyCode::CallbackFailed) input_update_.rethrow_failure();
   if (reply != ReplyCode::Failed) throw BadPacket();
   PacketReader error = client_->read();
   throw_error(error);
@@ -163,7 +152,7 @@ void UnitProxy::enter_configuration_mode() { call(RequestCode::EnterConfiguratio
 void UnitProxy::exit_configuration_mode() { call(RequestCode::ExitConfigurationMode); }
 
 void UnitProxy::enter_initialization(Time start, std::optional<Time> stop) {
-  time_ = start;
+  times_.now = start;
   call(RequestCode::EnterInitialization, [&](PacketWriter& to) {
     put_time(to, start);
     put_time(to, stop);
@@ -233,7 +222,7 @@ core::StepResult UnitProxy::step(const core::StepInterval& interval,
 void UnitProxy::begin_step(const core::StepInterval& interval, const core::StepValues& values,
                            const Extras& extras) {
   const std::uint32_t plan = plan_number(values);
-  time_ = interval.from;
+  times_.now = interval.from;
   send(RequestCode::Step, [&](PacketWriter& to) {
     to.put(plan);
     to.put(interval);
@@ -250,7 +239,7 @@ core::StepResult UnitProxy::finish_step() {
   const PresentStep step = *std::exchange(step_, std::nullopt);
   core::StepResult result;
   receive([&](PacketReader& from) { result = take_result(from, step); });
-  if (!result.rejected) time_ = result.reached;
+  if (!result.rejected) times_.now = result.reached;
   return result;
 }
 
@@ -271,10 +260,10 @@ void UnitProxy::drop_step() noexcept {
   if (!std::exchange(step_, std::nullopt)) return;
   try {
     const auto limit = spec_.host.call_limit.value_or(spec_.options.warn_after);
-    ReplyCode reply = client_->await(time_, limit);
+    ReplyCode reply = client_->await(times_.now, limit);
     while (reply == ReplyCode::RequestInputs) {
-      client_->post(RequestCode::InputsNotUpdated, client_->write(), time_);
-      reply = client_->await(time_, limit);
+      client_->post(RequestCode::InputsNotUpdated, client_->write(), times_.now);
+      reply = client_->await(times_.now, limit);
     }
   } catch (const std::exception& failure) {
     client_->log(
@@ -294,33 +283,27 @@ std::uint32_t UnitProxy::plan_number(const core::StepValues& values) {
 }
 
 void UnitProxy::set_input_update(core::InputUpdate update) {
-  input_update_ = std::move(update);
-  call(RequestCode::SetInputUpdate,
-       [&](PacketWriter& to) { to.put(static_cast<bool>(input_update_)); });
+  input_update_.set(std::move(update));
+  call(RequestCode::SetInputUpdate, [&](PacketWriter& to) { to.put(input_update_.is_set()); });
 }
 
 // ---- States ----
 
 void UnitProxy::save_state() {
-  call(RequestCode::SaveState, [&](PacketWriter& to) { put_time(to, time_); });
-  note_state_of(time_);
+  call(RequestCode::SaveState, [&](PacketWriter& to) { put_time(to, times_.now); });
+  times_.note_saved();
 }
 
 /// A process that is taken back knows the plans of its time only.
 void UnitProxy::restore_state() {
   if (spec_.has_snapshots()) plans_.forget();
-  if (slot_ < saved_times_.size()) time_ = saved_times_[slot_];
-  call(RequestCode::RestoreState, [&](PacketWriter& to) { put_time(to, time_); });
+  times_.go_back();
+  call(RequestCode::RestoreState, [&](PacketWriter& to) { put_time(to, times_.now); });
 }
 
 void UnitProxy::select_state(std::size_t slot) {
   call(RequestCode::SelectState, [&](PacketWriter& to) { to.put(slot); });
-  slot_ = slot;
-}
-
-void UnitProxy::note_state_of(std::optional<Time> time) {
-  if (saved_times_.size() <= slot_) saved_times_.resize(slot_ + 1);
-  saved_times_[slot_] = time;
+  times_.select(slot);
 }
 
 std::vector<std::uint8_t> UnitProxy::serialize_state() {
@@ -334,12 +317,12 @@ std::vector<std::uint8_t> UnitProxy::serialize_state() {
 /// The bytes do not contain the time.
 void UnitProxy::deserialize_state(std::span<const std::uint8_t> bytes) {
   call(RequestCode::DeserializeState, [&](PacketWriter& to) { to.put_all(bytes); });
-  note_state_of(std::nullopt);
+  times_.note_unknown();
 }
 
 void UnitProxy::reset() {
   call(RequestCode::Reset);
-  time_.reset();
+  times_.now.reset();
   rejection_reason_.clear();
 }
 

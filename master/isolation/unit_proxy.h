@@ -2,7 +2,6 @@
 #define STRIDE_MASTER_ISOLATION_UNIT_PROXY_H
 
 #include <chrono>
-#include <exception>
 #include <memory>
 #include <optional>
 #include <string>
@@ -24,6 +23,7 @@
 #include "master/isolation/codec.h"
 #include "master/isolation/host_client.h"
 #include "master/isolation/hosted_unit_spec.h"
+#include "master/isolation/proxy_record.h"
 #include "master/isolation/step_plan.h"
 
 namespace stride::isolation {
@@ -112,22 +112,17 @@ class UnitProxy final
   /// Serves what the unit asks for until it has replied.
   ReplyCode serve_input_requests(ReplyCode reply);
   void throw_reply(ReplyCode reply);
-  RequestCode update_inputs(double seconds_into_step) noexcept;
   std::uint32_t plan_number(const core::StepValues& values);
   core::StepResult take_result(PacketReader& from, const PresentStep& step);
   void drop_step() noexcept;
-  void note_state_of(std::optional<Time> time);
 
   HostedUnitSpec spec_;
   std::unique_ptr<HostClient> client_;
   Protections protections_;
   CapabilitySet capabilities_;
-  std::optional<Time> time_;
-  std::size_t slot_ = 0;
-  std::vector<std::optional<Time>> saved_times_;  ///< of the states, by slot
+  ProxyTimes times_;
   KnownStepShapes plans_;
-  core::InputUpdate input_update_;
-  std::exception_ptr callback_failure_;
+  ProxyInputUpdate input_update_;
   std::string rejection_reason_;
   std::optional<PresentStep> step_;  ///< that was begun
   std::chrono::nanoseconds step_time_{};

@@ -14,6 +14,8 @@ class StateArchive;
 /// A length of time as a fraction of picoseconds. A double represents the shortest decimal that
 /// reads back as that double, so 0.1 s is a tenth of a second, and its millionth multiple is exact.
 class Interval {
+  __extension__ using Wide = unsigned __int128;
+
  public:
   /// Zero.
   Interval() = default;
@@ -31,12 +33,27 @@ class Interval {
   bool is_zero() const { return numerator_ == 0; }
   bool is_below_picosecond() const { return numerator_ < denominator_; }
   void persist(StateArchive& state);
+
+  /// The fraction of picoseconds, for a copy elsewhere. One with the denominator 0 is none.
+  struct Parts {
+    std::uint64_t numerator_high, numerator_low, denominator;
+  };
+  Parts parts() const {
+    return {static_cast<std::uint64_t>(numerator_ >> 64), static_cast<std::uint64_t>(numerator_),
+            denominator_};
+  }
+  static Interval from_parts(const Parts& parts) {
+    Interval interval;
+    interval.numerator_ = Wide{parts.numerator_high} << 64 | parts.numerator_low;
+    interval.denominator_ = parts.denominator;
+    return interval;
+  }
+
   /// The nearest double, for display [s].
   double seconds() const;
 
  private:
   friend std::optional<Time> tick_time(Time, const Interval&, const Interval&, std::uint64_t);
-  __extension__ using Wide = unsigned __int128;
 
   Interval(Wide numerator, std::uint64_t denominator);
 

@@ -34,6 +34,13 @@ Json host_entry(const core::HostStatistics& host) {
                           {"most_kept", host.most_snapshots},
                           {"memory", host.most_snapshot_memory}};
   }
+  if (host.link) {
+    entry["machine"] = host.link->machine;
+    entry["link"] = {{"round_trips", host.link->round_trips},
+                     {"sent", host.link->sent},
+                     {"received", host.link->received},
+                     {"lost_time", seconds(host.link->lost)}};
+  }
   entry["protections"] = host.protections;
   entry["missing_protections"] = host.missing_protections;
   return entry;

@@ -149,14 +149,49 @@ void read_state_saving(const xml::Element& element, ScenarioAnnotation& annotati
   }
 }
 
+/// Attributes that only mean something of a unit on another machine.
+constexpr const char* kRemoteAttributes[] = {"fmu", "send", "stride", "connectLimit",
+                                             "silenceLimit"};
+
+std::optional<RemoteSettings> read_place(const xml::Element& element) {
+  if (!element.attribute("at")) {
+    for (const char* attribute : kRemoteAttributes) {
+      if (!element.attribute(attribute)) continue;
+      element.fail(fmt::format("{} is for a unit on another machine", attribute),
+                   "name it, at=\"ssh://user@machine\", or leave the attribute out");
+    }
+    return std::nullopt;
+  }
+  RemoteSettings remote;
+  remote.where = element.where();
+  remote.place = parse_attribute(element, "at", [&](const std::string& text) {
+    return remote::parse_place(text, element.attribute("stride").value_or(""));
+  });
+  remote.fmu = element.attribute("fmu");
+  remote.sends = element.flag("send");
+  if (remote.fmu && remote.sends) {
+    element.fail("fmu names an FMU of that machine, and send=\"true\" sends one of this machine",
+                 "leave one of them out");
+  }
+  if (element.attribute("connectLimit")) {
+    remote.connect_limit = parse_attribute(element, "connectLimit", parse_call_limit);
+  }
+  if (element.attribute("silenceLimit")) {
+    remote.silence_limit = parse_attribute(element, "silenceLimit", parse_call_limit);
+  }
+  return remote;
+}
+
 void read_host(const xml::Element& element, HostRules& hosts) {
-  element.allow_attributes(
-      {"components", "process", "timeout", "memoryLimit", "sandbox", "snapshots"});
+  element.allow_attributes({"components", "process", "timeout", "memoryLimit", "sandbox",
+                            "snapshots", "at", "fmu", "send", "stride", "connectLimit",
+                            "silenceLimit"});
   element.allow_children({});
   HostSettings settings;
   settings.process = element.flag("process", true);
   settings.where = element.where();
-  for (const char* attribute : {"timeout", "memoryLimit", "sandbox", "snapshots"}) {
+  settings.remote = read_place(element);
+  for (const char* attribute : {"timeout", "memoryLimit", "sandbox", "snapshots", "at"}) {
     if (*settings.process || !element.attribute(attribute)) continue;
     element.fail(fmt::format("{} is for a unit with a process of its own", attribute),
                  "leave it out, or process=\"false\"");

@@ -13,6 +13,23 @@
 namespace stride::scenario {
 namespace {
 
+/// "COMPONENT=PLACE"
+HostRule place_rule(const std::string& text) {
+  const core::Location where{"--at " + text, 0};
+  const std::size_t sign = text.find('=');
+  if (sign == 0 || sign == std::string::npos) {
+    core::fail_input({}, fmt::format("--at {}: expected COMPONENT=PLACE", text));
+  }
+  try {
+    RemoteSettings remote{.place = remote::parse_place(text.substr(sign + 1)), .where = where};
+    HostSettings settings{.process = true, .where = where};
+    settings.remote = std::move(remote);
+    return {{text.substr(0, sign), where}, settings};
+  } catch (const std::invalid_argument& mistake) {
+    core::fail_input({}, fmt::format("--at {}: {}", text, mistake.what()));
+  }
+}
+
 /// Rules behind those of the scenario.
 void add_rules(const HostRequest& request, std::vector<HostRule>& rules) {
   for (const std::string& glob : request.hosted) {
@@ -28,6 +45,7 @@ void add_rules(const HostRequest& request, std::vector<HostRule>& rules) {
       core::fail_input({}, fmt::format("{}: {}", option, mistake.what()));
     }
   }
+  for (const std::string& text : request.places) rules.push_back(place_rule(text));
   if (request.no_sandbox) rules.push_back({{"*", {"--no-sandbox", 0}}, {.sandbox = false}});
 }
 
@@ -60,6 +78,12 @@ Hosting make_hosting(std::string reason, const core::UnitDescription& unit,
 }
 
 }  // namespace
+
+bool has_remote_rule(const HostRules& rules, const HostRequest& request) {
+  return !request.places.empty() || std::ranges::any_of(rules.rules, [](const HostRule& rule) {
+    return rule.settings.remote.has_value();
+  });
+}
 
 std::vector<HostSettings> host_settings(std::span<const std::string> components, HostRules rules,
                                         const HostRequest& request) {

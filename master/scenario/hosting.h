@@ -10,6 +10,7 @@
 #include "master/algorithm/run_options.h"
 #include "master/isolation/host_options.h"
 #include "master/model/system.h"
+#include "master/remote/remote_unit.h"
 #include "master/scenario/run_settings.h"
 
 namespace stride::scenario {
@@ -19,6 +20,7 @@ struct HostRequest {
   std::vector<std::string> hosted;  ///< globs over components
   std::string unit_timeout;         ///< seconds, for all hosted units
   bool no_sandbox = false;
+  std::vector<std::string> places;  ///< "COMPONENT=PLACE", a glob and where its units run
 };
 
 /// The host of a component.
@@ -26,7 +28,11 @@ struct Hosting {
   std::string reason;     ///< human-readable
   std::string snapshots;  ///< why it takes snapshots, or why it takes none, likewise
   isolation::HostOptions options;
+  std::optional<remote::RemoteSpec> remote{};  ///< none: on this machine
 };
+
+/// Whether anything says that a unit runs on another machine.
+bool has_remote_rule(const HostRules& rules, const HostRequest& request);
 
 /// The settings of each component, from the scenario and the command line, which has precedence.
 /// Throws core::Error (Input) for a pattern that matches none, and for a number that is none.

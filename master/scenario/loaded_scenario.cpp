@@ -20,6 +20,7 @@
 #include "master/scenario/check_selection.h"
 #include "master/scenario/component_selection.h"
 #include "master/scenario/film.h"
+#include "master/scenario/remote_units.h"
 #include "master/scenario/signal_selection.h"
 #include "master/scenario/unit_path.h"
 #include "master/util/input_file.h"
@@ -116,15 +117,23 @@ ComponentFile component_file(const std::string& option, const std::string& text,
 
 std::vector<std::shared_ptr<importer::Fmu>> load_fmus(const Scenario& scenario) {
   UnitStore units;
-  return load_fmus(scenario, units);
+  return load_fmus(scenario, units, annotated_hosts(scenario));
 }
 
-std::vector<std::shared_ptr<importer::Fmu>> load_fmus(const Scenario& scenario, UnitStore& units) {
+std::vector<std::shared_ptr<importer::Fmu>> load_fmus(const Scenario& scenario, UnitStore& units,
+                                                      std::span<const HostSettings> hosts) {
   UnitStore by_source;
   std::vector<std::shared_ptr<importer::Fmu>> fmus;
   for (std::size_t i = 0; i < scenario.sources.size(); ++i) {
     const core::Location& where = scenario.system.components[i].where;
     const std::filesystem::path& source = scenario.sources[i];
+    if (hosts[i].remote && !hosts[i].remote->sends) {
+      const remote::RemoteSpec spec = remote_spec(*hosts[i].remote, source);
+      auto& fmu = units[key_of(spec)];
+      if (!fmu) fmu = remote::describe(spec, hosts[i].remote->where);
+      fmus.push_back(fmu);
+      continue;
+    }
     auto& named = by_source[source];
     if (!named) {
       const auto path = find_unit_shown_as(source, shown_places(scenario, source), where);
@@ -143,7 +152,7 @@ LoadedScenario::LoadedScenario(const ScenarioRequest& request)
   if (scenario_.system.components.empty()) {
     core::fail_input(of_file(), "the system has no component, so there is nothing to simulate");
   }
-  load_units(request.units.get());
+  load_units(request);
   if (!request.film.empty()) switch_film_on(scenario_.system, request.film);
   connect_terminals();
   if (request.idle_twins) add_twins();
@@ -188,8 +197,13 @@ void LoadedScenario::swap(const std::string& text) {
   scenario_.system.components[i].where = {fmt::format("--swap {}", text), 0};
 }
 
-void LoadedScenario::load_units(UnitStore* units) {
-  fmus_ = units != nullptr ? load_fmus(scenario_, *units) : load_fmus(scenario_);
+void LoadedScenario::load_units(const ScenarioRequest& request) {
+  std::vector<HostSettings> hosts(scenario_.sources.size());
+  if (has_remote_rule(scenario_.annotation.hosts, request.hosts)) {
+    hosts = host_settings(component_names(), scenario_.annotation.hosts, request.hosts);
+  }
+  UnitStore own;
+  fmus_ = load_fmus(scenario_, request.units ? *request.units : own, hosts);
   std::set<std::string> known;
   for (std::size_t i = 0; i < fmus_.size(); ++i) {
     core::ComponentDeclaration& component = scenario_.system.components[i];
@@ -379,6 +393,10 @@ void LoadedScenario::choose_hosts(const HostRequest& request) {
   }
   hostings_ = choose_hostings(components, *options_.step.policy, settings);
   check_unit_timeout(request, hostings_);
+  for (std::size_t i = 0; i < components.size(); ++i) {
+    if (!settings[i].remote) continue;
+    hostings_[i]->remote = remote_spec(*settings[i].remote, scenario_.sources[i]);
+  }
   bool is_changed = false;
   for (std::size_t i = 0; i < components.size(); ++i) {
     components[i].has_snapshots = hostings_[i] && hostings_[i]->options.takes_snapshots;
@@ -587,15 +605,26 @@ std::vector<std::unique_ptr<core::Unit>> LoadedScenario::instantiate(
   const std::filesystem::path folder =
       results.empty() ? results : std::filesystem::absolute(results);
   std::vector<std::unique_ptr<core::Unit>> units(components.size());
-  // processes first: they are forked from this one, which has loaded no unit's library yet
+  // processes first: they are forked from this one, which has loaded no unit's library yet; and
+  // before them links, so that machines are awaited together
+  std::vector<remote::RemoteUnit*> remote_units;
   for (std::size_t i = 0; i < units.size(); ++i) {
-    if (!hostings_[i]) continue;
+    if (!hostings_[i] || !hostings_[i]->remote) continue;
+    auto unit = std::make_unique<remote::RemoteUnit>(
+        *hostings_[i]->remote, fmus_[i], components[i].name,
+        instance_options(i, folder, interrupted), hostings_[i]->options);
+    remote_units.push_back(unit.get());
+    units[i] = std::move(unit);
+  }
+  for (std::size_t i = 0; i < units.size(); ++i) {
+    if (!hostings_[i] || units[i]) continue;
     isolation::HostOptions host = hostings_[i]->options;
     importer::InstanceOptions options = instance_options(i, folder, interrupted);
     if (!folder.empty()) host.writable.push_back(options.results);
     units[i] =
         isolation::instantiate(fmus_[i], components[i].name, std::move(options), std::move(host));
   }
+  for (remote::RemoteUnit* const unit : remote_units) unit->instantiate();
   for (std::size_t i = 0; i < units.size(); ++i) {
     if (units[i]) continue;
     importer::InstanceOptions options = instance_options(i, folder, interrupted);

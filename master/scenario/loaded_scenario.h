@@ -111,7 +111,7 @@ class LoadedScenario {
   /// For mistakes that concern the scenario as a whole.
   core::Context of_file() const;
   void swap(const std::string& text);
-  void load_units(UnitStore* units);
+  void load_units(const ScenarioRequest& request);
   void connect_terminals();
   void add_twins();
   std::vector<std::string> selection_names() const;
@@ -170,10 +170,12 @@ std::optional<ComponentFile> split_component_file(const std::string& text);
 ComponentFile component_file(const std::string& option, const std::string& text,
                              const std::string& form);
 
-/// The FMUs of a scenario's components, in their order; for `complete`, which needs no system.
+/// The FMUs of a scenario's components, in their order; for `complete`, which needs no system. Of
+/// units on other machines these are descriptions.
 std::vector<std::shared_ptr<importer::Fmu>> load_fmus(const Scenario& scenario);
-/// Likewise, with those that are there already; others are added.
-std::vector<std::shared_ptr<importer::Fmu>> load_fmus(const Scenario& scenario, UnitStore& units);
+/// Likewise, with those that are there already; others are added. `hosts`: of each component.
+std::vector<std::shared_ptr<importer::Fmu>> load_fmus(const Scenario& scenario, UnitStore& units,
+                                                      std::span<const HostSettings> hosts);
 
 }  // namespace stride::scenario
 

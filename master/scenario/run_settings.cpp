@@ -115,6 +115,8 @@ void HostSettings::override_with(const HostSettings& other) {
   take(memory_limit, other.memory_limit);
   take(sandbox, other.sandbox);
   take(snapshots, other.snapshots);
+  if (other.process == false) remote.reset();
+  if (other.remote) remote = other.remote;
 }
 
 std::vector<HostSettings> HostRules::settings(std::span<const std::string> components) const {

@@ -14,6 +14,7 @@
 
 #include "master/algorithm/run_options.h"
 #include "master/model/system.h"
+#include "master/remote/place.h"
 #include "master/scenario/component_selection.h"
 #include "master/util/error.h"
 
@@ -45,6 +46,15 @@ struct StepSettings {
   void apply(core::RunOptions& options) const;
 };
 
+/// Of a component whose unit runs on another machine.
+struct RemoteSettings {
+  remote::Place place{};
+  std::optional<std::string> fmu{};  ///< its path or name there; none: the name of the source
+  bool sends = false;                ///< the source is sent there
+  std::optional<std::chrono::milliseconds> connect_limit{}, silence_limit{};
+  core::Location where{};
+};
+
 /// The settings of the host of one component; each may be missing.
 struct HostSettings {
   std::optional<bool> process{};  ///< whether the component has a host
@@ -52,7 +62,8 @@ struct HostSettings {
   std::optional<std::chrono::milliseconds> call_limit{};
   std::optional<std::uint64_t> memory_limit{};  ///< [byte]
   std::optional<bool> sandbox{};
-  std::optional<bool> snapshots{};  ///< whether these may roll it back, if it has no state
+  std::optional<bool> snapshots{};         ///< whether these may roll it back, if it has no state
+  std::optional<RemoteSettings> remote{};  ///< none: it runs on this machine
 
   /// The settings of the other one take precedence.
   void override_with(const HostSettings& other);

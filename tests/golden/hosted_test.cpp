@@ -7,6 +7,7 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
+#include "tests/build.h"
 #include "tests/golden/scenario_run.h"
 
 using namespace stride::tests;
@@ -59,6 +60,13 @@ TEST_CASE("processes for all units change no byte of any scenario's results") {
 
 TEST_CASE("hosts change no result where idle units are skipped") {
   for (const std::string& scenario : golden_scenarios()) check_same(scenario, kShort);
+}
+
+TEST_CASE("units behind stride serve change no byte of any scenario's results") {
+  const std::string place = "*=exec:exec " + stride_program().string() + " serve";
+  for (const std::string& scenario : golden_scenarios()) {
+    check_same(scenario, kShort, {"--at", place});
+  }
 }
 
 TEST_CASE("hosts change no result on two threads, nor if only some units are hosted") {

@@ -9,6 +9,7 @@
 #include "master/isolation/hosted_unit.h"
 #include "master/recorders/csv_recorder.h"
 #include "master/recorders/event_recorder.h"
+#include "master/remote/remote_unit.h"
 #include "tests/master/importer/support.h"
 
 namespace stride::tests {
@@ -70,6 +71,17 @@ class ValueRecorder : public core::Observer {
   std::vector<core::Signal> signals_;
 };
 
+std::unique_ptr<core::Unit> serve(const std::shared_ptr<importer::Fmu>& fmu,
+                                  const std::string& name, const importer::InstanceOptions& options,
+                                  const isolation::HostOptions& host) {
+  remote::RemoteSpec spec{
+      .place = remote::parse_place("exec:exec " + stride_program().string() + " serve"),
+      .fmu = fmu->path().string()};
+  auto unit = std::make_unique<remote::RemoteUnit>(std::move(spec), fmu, name, options, host);
+  unit->instantiate();
+  return unit;
+}
+
 }  // namespace
 
 std::shared_ptr<importer::Fmu> test_unit(const std::string& name) {
@@ -129,6 +141,12 @@ Assembly Assembly::hosted() const {
   return hosted(std::move(all));
 }
 
+Assembly Assembly::served() const {
+  Assembly other = *this;
+  other.is_served_ = true;
+  return other;
+}
+
 Assembly Assembly::shuffled(unsigned seed) const {
   Assembly other = *this;
   std::mt19937 random(seed);
@@ -149,6 +167,10 @@ std::vector<std::unique_ptr<core::Unit>> Assembly::instantiate() const {
     } else {
       isolation::HostOptions host;
       host.takes_snapshots = component.has_snapshots;
+      if (is_served_) {
+        units.push_back(serve(fmu, component.name, options, host));
+        continue;
+      }
       units.push_back(isolation::instantiate(fmu, component.name, options, host));
     }
   }

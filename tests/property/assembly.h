@@ -38,6 +38,8 @@ class Assembly {
   Assembly hosted(std::set<std::string> components, bool snapshots = false) const;
   /// Likewise, all of its components.
   Assembly hosted() const;
+  /// The same system, whose components that have processes of their own run behind `stride serve`.
+  Assembly served() const;
   /// The same system with its components and connections in another order.
   Assembly shuffled(unsigned seed) const;
 
@@ -50,6 +52,7 @@ class Assembly {
   core::SystemDeclaration declaration_;
   std::map<std::string, std::shared_ptr<importer::Fmu>> units_;  ///< by component
   std::set<std::string> hosted_;                                 ///< components
+  bool is_served_ = false;                                       ///< these
 };
 
 struct Results {

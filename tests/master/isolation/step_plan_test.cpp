@@ -63,7 +63,7 @@ TEST_CASE("a served plan has memory for the values of its request") {
     out.put_bytes(input.block->bytes(), 2 * sizeof(double));
   }
   PacketReader in({memory.data(), out.size()});
-  StepBuffers plan(in);
+  StepBuffers plan(take_step_shape(in));
   plan.take_inputs(in);
   REQUIRE(plan.values().inputs.size() == 1);
   CHECK(plan.values().inputs[0].references[1] == 5);

@@ -1,0 +1,46 @@
+#include "master/scenario/remote_units.h"
+
+#include <fmt/format.h>
+
+#include "master/remote/description_files.h"
+#include "master/scenario/hosting.h"
+#include "master/scenario/unit_path.h"
+#include "master/util/input_file.h"
+
+namespace stride::scenario {
+
+remote::RemoteSpec remote_spec(const RemoteSettings& settings,
+                               const std::filesystem::path& source) {
+  remote::RemoteSpec spec;
+  spec.place = settings.place;
+  spec.fmu = settings.fmu.value_or(source.filename().string());
+  spec.connect_limit = settings.connect_limit.value_or(spec.connect_limit);
+  spec.silence_limit = settings.silence_limit.value_or(spec.silence_limit);
+  if (!settings.sends) return spec;
+  spec.sent = find_unit(source, settings.where);
+  if (core::is_file(spec.sent) && spec.sent.extension() == ".fmu") return spec;
+  core::fail_input({.where = settings.where},
+                   fmt::format("'{}' is no FMU in one file, so it cannot be sent", source.string()),
+                   "pack it (stride pack), or name an FMU of that machine (fmu=\"…\")");
+}
+
+std::vector<HostSettings> annotated_hosts(const Scenario& scenario) {
+  std::vector<std::string> names;
+  for (const auto& component : scenario.system.components) names.push_back(component.name);
+  if (!has_remote_rule(scenario.annotation.hosts, {})) {
+    return std::vector<HostSettings>(names.size());
+  }
+  return host_settings(names, scenario.annotation.hosts, {});
+}
+
+std::string description_digest(const importer::Fmu& fmu) {
+  return remote::description_digest(fmu.description_files());
+}
+
+std::filesystem::path key_of(const remote::RemoteSpec& spec) {
+  std::string key = spec.place.text;
+  for (const std::string& word : spec.place.command) key += '\n' + word;
+  return key + '\n' + spec.fmu;
+}
+
+}  // namespace stride::scenario

@@ -1,0 +1,32 @@
+// Components whose units run on other machines.
+#ifndef STRIDE_MASTER_SCENARIO_REMOTE_UNITS_H
+#define STRIDE_MASTER_SCENARIO_REMOTE_UNITS_H
+
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "master/remote/remote_unit.h"
+#include "master/scenario/run_settings.h"
+#include "master/scenario/scenario.h"
+
+namespace stride::scenario {
+
+/// What the settings say of a component with this source, which need not exist, unless it is sent.
+/// Throws core::Error (Input).
+remote::RemoteSpec remote_spec(const RemoteSettings& settings, const std::filesystem::path& source);
+
+/// The settings of the hosts of a scenario's components, by its annotation alone.
+std::vector<HostSettings> annotated_hosts(const Scenario& scenario);
+
+/// What is known of a unit that stays elsewhere: a hash of its description.
+std::string description_digest(const importer::Fmu& fmu);
+
+/// Under which a description that was read is kept: units of one key are the same.
+std::filesystem::path key_of(const remote::RemoteSpec& spec);
+
+}  // namespace stride::scenario
+
+#endif

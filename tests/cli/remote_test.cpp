@@ -1,0 +1,289 @@
+// Units on other machines, as a user meets them: `exec:` with the program of this build in place of
+// another machine.
+#include <chrono>
+#include <csignal>
+#include <memory>
+#include <thread>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/cli/leftovers.h"
+#include "tests/cli/scenarios.h"
+
+using namespace stride::tests;
+using Catch::Matchers::Contains;
+
+namespace {
+
+std::string serve_command(const std::string& further = "") {
+  return "exec:exec " + stride_program().string() + " serve" + further;
+}
+
+std::string host(const std::string& components, const std::string& further = "",
+                 const std::string& at = serve_command()) {
+  return "<stride:Host components=\"" + components + "\" at=\"" + at + "\" " + further + "/>\n";
+}
+
+Parts with_annotation(Parts parts, const std::string& annotation) {
+  parts.annotation = annotation;
+  return parts;
+}
+
+const Arguments kHalfSecond{"--set", "first.u=1", "--stop", "0.5", "--quiet"};
+
+nlohmann::json host_entry(const Workspace& workspace, std::size_t unit) {
+  return nlohmann::json::parse(workspace.result("run.json"))["units"][unit].value("host",
+                                                                                  nlohmann::json());
+}
+
+/// The error of a run that cannot begin; nothing stays.
+std::string error_of_start(const std::string& annotation, int code = 2) {
+  const Leftovers leftovers;
+  const Workspace workspace(with_annotation(two_filters(), annotation));
+  const Outcome outcome = workspace.run({"--quiet"});
+  CHECK(outcome.exit_code == code);
+  CHECK(leftovers.after_a_while().empty());
+  CHECK(workspace.left_behind().empty());
+  return outcome.err;
+}
+
+}  // namespace
+
+TEST_CASE("a unit behind stride serve changes no byte of the results, and nothing stays") {
+  const Leftovers leftovers;
+  const Workspace near(two_filters());
+  REQUIRE(near.run(kHalfSecond).exit_code == 0);
+  const Workspace workspace(with_annotation(two_filters(), host("*")));
+  const Outcome outcome = workspace.run(kHalfSecond);
+  CHECK(outcome.exit_code == 0);
+  CHECK(workspace.result("signals.csv") == near.result("signals.csv"));
+  for (const std::size_t unit : {0, 1}) {
+    const auto entry = host_entry(workspace, unit);
+    CHECK(entry["machine"] == serve_command().substr(5));
+    CHECK(entry["link"]["round_trips"] >= 500);
+    CHECK(entry["link"]["sent"] > 0);
+    CHECK(entry["memory"] > 0);
+  }
+  CHECK(leftovers.after_a_while().empty());
+  CHECK(workspace.left_behind().empty());
+}
+
+TEST_CASE("--at names a machine for this run") {
+  const Workspace workspace(two_filters());
+  Arguments options = kHalfSecond;
+  options.insert(options.end(), {"--at", "sec*=" + serve_command()});
+  CHECK(workspace.run(options).exit_code == 0);
+  CHECK(host_entry(workspace, 0).is_null());
+  CHECK(host_entry(workspace, 1).contains("machine"));
+  CHECK_THAT(workspace.run({"--at", "second"}).err, Contains("expected COMPONENT=PLACE"));
+  CHECK_THAT(workspace.run({"--at", "second=box"}).err, Contains("is no place for a unit"));
+  CHECK_THAT(workspace.run({"--at", "third=exec:x"}).err, Contains("third"));
+}
+
+TEST_CASE("the description comes from there, and the local file need not exist") {
+  Parts parts = two_filters();
+  parts.components = component("first", "minimal.fmu") + component("second", "not/here/secret.fmu");
+  const std::string only = serve_command(" --only minimal.fmu");
+  const Workspace workspace(with_annotation(parts, host("second", "fmu=\"\"", only)));
+  CHECK(workspace.run(kHalfSecond).exit_code == 0);
+  const Workspace other(with_annotation(parts, host("second", "", only)));
+  const Outcome outcome = other.run(kHalfSecond);
+  CHECK(outcome.exit_code == 2);
+  CHECK_THAT(outcome.err, Contains("'secret.fmu' is not offered there") &&
+                              Contains("what is offered: 'minimal.fmu'") &&
+                              Contains(other.at("<stride:Host")));
+}
+
+TEST_CASE("a file is sent where that is allowed") {
+  Parts parts = two_filters();
+  parts.components = component("first", "minimal.fmu") +
+                     component("second", (unit_folder() / "minimal.fmu").string());
+  const Workspace near(parts);
+  REQUIRE(near.run(kHalfSecond).exit_code == 0);
+  const Workspace workspace(with_annotation(
+      parts, host("second", "send=\"true\"", serve_command(" --accept-files --only judge.fmu"))));
+  CHECK(workspace.run(kHalfSecond).exit_code == 0);
+  CHECK(workspace.result("signals.csv") == near.result("signals.csv"));
+  CHECK(workspace.left_behind().empty());
+  CHECK_THAT(error_of_start(host("second", "send=\"true\"")),
+             Contains("no files are accepted there"));
+}
+
+TEST_CASE("attributes that contradict each other are refused with their line") {
+  const auto refusal = [](const std::string& attributes) {
+    const Workspace workspace(with_annotation(
+        two_filters(), "<stride:Host components=\"second\" " + attributes + "/>\n"));
+    const Outcome outcome = workspace.run({"--quiet"});
+    CHECK(outcome.exit_code == 2);
+    CHECK_THAT(outcome.err, Contains(workspace.at("<stride:Host")));
+    return outcome.err;
+  };
+  CHECK_THAT(refusal("fmu=\"x.fmu\""), Contains("fmu is for a unit on another machine"));
+  CHECK_THAT(refusal("send=\"true\""), Contains("send is for a unit on another machine"));
+  CHECK_THAT(refusal("at=\"exec:x\" process=\"false\""),
+             Contains("at is for a unit with a process"));
+  CHECK_THAT(refusal("at=\"exec:x\" fmu=\"a.fmu\" send=\"true\""),
+             Contains("leave one of them out"));
+  CHECK_THAT(refusal("at=\"ssh://-x\""), Contains("'-x' is no name of a machine"));
+  CHECK_THAT(refusal("at=\"exec:x\" stride=\"y\""), Contains("it belongs into the command"));
+  CHECK_THAT(refusal("at=\"exec:x\" silenceLimit=\"0\""), Contains("silenceLimit"));
+}
+
+TEST_CASE("stride check tries the machine, and says what its distance costs") {
+  const Workspace workspace(with_annotation(two_filters(), host("second")));
+  const Outcome outcome = workspace.stride({"check", "test.ssd"});
+  CHECK(outcome.exit_code == 0);
+  CHECK_THAT(outcome.out, Contains("On other machines") && Contains("round trip [ms]") &&
+                              Contains("1000 communication steps wait for a round trip"));
+}
+
+TEST_CASE("a machine without stride is an error with what it says") {
+  const std::string missing = error_of_start(host("second", "", "exec:/no/stride serve"), 1);
+  CHECK_THAT(missing, Contains("there is no stride serve on") && Contains("code 127") &&
+                          Contains("/no/stride") && Contains("hint: install stride there"));
+  const std::string chatty =
+      error_of_start(host("second", "", "exec:echo Welcome; echo oh dear &gt;&amp;2; exit 3"), 1);
+  CHECK_THAT(chatty, Contains("ended with the code 3") && Contains("it printed: Welcome") &&
+                         Contains("it said: oh dear"));
+}
+
+TEST_CASE("what is printed before the greeting does no harm, and what comes between does") {
+  const Workspace workspace(with_annotation(
+      two_filters(),
+      host("second", "", "exec:echo Welcome; exec " + stride_program().string() + " serve")));
+  Arguments options = kHalfSecond;
+  options.push_back("--verbose");
+  const Outcome outcome = workspace.run(options);
+  CHECK(outcome.exit_code == 0);
+  CHECK_THAT(outcome.err, Contains("printed before stride serve began: 'Welcome"));
+}
+
+TEST_CASE("another version of the protocol is an error that names both") {
+  const std::string other =
+      "exec:printf '\\001STRIDE-SERVE protocol 99, build 7.7\\n'; cat &gt; /dev/null";
+  CHECK_THAT(error_of_start(host("second", "", other), 1),
+             Contains("stride 7.7 on") && Contains("has protocol 99") &&
+                 Contains(std::string("stride ") + STRIDE_VERSION + " here has protocol 1"));
+}
+
+TEST_CASE("a machine that is silent is an error when its time is over") {
+  CHECK_THAT(error_of_start(host("second", "connectLimit=\"0.3\"", "exec:cat &gt; /dev/null"), 1),
+             Contains("has not answered within 0.3 s"));
+  const std::string greets_only =
+      "exec:printf '\\001STRIDE-SERVE protocol 1, build 1\\n'; cat &gt; /dev/null";
+  CHECK_THAT(error_of_start(host("second", "silenceLimit=\"0.3\"", greets_only), 1),
+             Contains("has given no sign of life for 0.3 s in the description"));
+}
+
+TEST_CASE("a machine whose unit computes for long gives signs of life") {
+  const Workspace workspace(
+      Parts{component("faulty", "faulty.fmu"), "", host("faulty", "silenceLimit=\"0.8\"")});
+  const Outcome outcome = workspace.run(
+      {"--quiet", "--stop", "0.1", "--set", "faulty.fault=doze", "--set", "faulty.at=0.05"});
+  CHECK(outcome.err == "");
+  CHECK(outcome.exit_code == 0);
+}
+
+TEST_CASE("a full disk there is an error with the file") {
+  Parts parts{
+      component("unit", (test_unit_folder() / "faulty.fmu").string()), "",
+      host("unit", "send=\"true\"",
+           "exec:ulimit -f 1; exec " + stride_program().string() + " serve --accept-files")};
+  const Workspace workspace(parts);
+  const Outcome outcome = workspace.run({"--quiet"});
+  CHECK(outcome.exit_code == 1);
+  CHECK_THAT(outcome.err, Contains("'faulty.fmu' cannot be written there: File too large"));
+  CHECK(workspace.left_behind().empty());
+}
+
+TEST_CASE("a run that is interrupted while a unit there hangs ends, and nothing stays") {
+  const Leftovers leftovers;
+  const Workspace workspace(Parts{component("faulty", "faulty.fmu"), "", host("faulty")});
+  Process process(stride_command({"run", "test.ssd", "--out", "out", "--quiet", "--set",
+                                  "faulty.fault=loop", "--set", "faulty.at=0.05"}),
+                  workspace.scratch().path());
+  while (process.is_running() && leftovers.processes("faulty").empty()) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  std::this_thread::sleep_for(std::chrono::seconds(1));  // until it hangs
+  process.send(SIGINT);
+  const Outcome outcome = process.wait();
+  CHECK_THAT(outcome.err, Contains("the run was interrupted"));
+  CHECK(leftovers.after_a_while().empty());
+}
+
+TEST_CASE("a run that goes on from a checkpoint has the same bytes") {
+  const Workspace near(two_filters());
+  REQUIRE(near.run(kHalfSecond).exit_code == 0);
+  const Workspace workspace(with_annotation(two_filters(), host("second")));
+  Arguments options{"--set", "first.u=1", "--stop", "0.3", "--quiet", "--checkpoint-every", "0.1"};
+  CHECK(workspace.run(options).exit_code == 0);
+  const Outcome outcome = workspace.stride({"resume", "out", "--stop", "0.5", "--quiet"});
+  CHECK(outcome.err == "");
+  CHECK(workspace.result("signals.csv") == near.result("signals.csv"));
+}
+
+TEST_CASE("a peer that sends no messages is refused") {
+  const std::string garbage =
+      "exec:printf '\\001STRIDE-SERVE protocol 1, build 1\\n'; echo what now; cat &gt; /dev/null";
+  CHECK_THAT(error_of_start(host("second", "", garbage), 1),
+             Contains("sends what cannot be read") && Contains("'what now'"));
+}
+
+TEST_CASE("a link that is lost in the run ends it with the results up to there") {
+  const Leftovers leftovers;
+  const std::string dying =
+      "exec:(sleep 1.5; kill -9 $$) &amp; exec " + stride_program().string() + " serve";
+  const Workspace workspace(with_annotation(two_filters(), host("second", "", dying)));
+  const Outcome outcome =
+      workspace.run({"--set", "first.u=1", "--stop", "10000", "--quiet", "--no-trace"});
+  CHECK(outcome.exit_code == 1);
+  CHECK_THAT(outcome.err, Contains("unit 'second', at ") && Contains("the link to ") &&
+                              Contains("has ended in "));
+  CHECK(workspace.signals().size() > 100);
+  CHECK(leftovers.after_a_while().empty());
+}
+
+TEST_CASE("what a unit does there is the error that it is in a host here") {
+  const Leftovers leftovers;
+  const auto error_of_fault = [](const std::string& fault, const std::string& hosting) {
+    const Workspace workspace(
+        Parts{component("filter", "minimal.fmu") + component("faulty", "faulty.fmu"), "", hosting});
+    const Outcome outcome =
+        workspace.run({"--quiet", "--set", "faulty.fault=" + fault, "--set", "faulty.at=0.5"});
+    CHECK(outcome.exit_code == 1);
+    CHECK(workspace.signals().size() > 490);
+    CHECK(workspace.left_behind().empty());
+    return outcome.err;
+  };
+  for (const std::string fault : {"segfault", "exit", "kill"}) {
+    INFO(fault);
+    CHECK(error_of_fault(fault, host("faulty")) ==
+          error_of_fault(fault, "<stride:Host components=\"faulty\"/>\n"));
+  }
+  CHECK_THAT(error_of_fault("loop", host("faulty", "timeout=\"0.5\"")),
+             Contains("it took longer than 0.5 s in fmi3DoStep"));
+  CHECK(leftovers.after_a_while().empty());
+}
+
+TEST_CASE("what a unit prints there is in the log with the machine, and its files come back") {
+  const auto run_with = [](const std::string& fault) {
+    auto workspace =
+        std::make_unique<Workspace>(Parts{component("faulty", "faulty.fmu"), "", host("faulty")});
+    const Outcome outcome = workspace->run({"--verbose", "--stop", "0.1", "--set",
+                                            "faulty.fault=" + fault, "--set", "faulty.at=0.05"});
+    CHECK(outcome.exit_code == 0);
+    return std::pair(std::move(workspace), outcome.err);
+  };
+  CHECK(read(*run_with("doze").first / "out/units/faulty/dozes") == "now");
+  const std::string log = run_with("print").second;
+  const std::string machine = serve_command().substr(5);
+  CHECK_THAT(log, Contains("unit 'faulty' printed: (" + machine + ") line     0: ....") &&
+                      Contains("(" + machine + ") line 16383: ...."));
+}
+
+TEST_CASE("stride serve is not for terminals and not for other peers") {
+  const Outcome outcome = run_program({"serve", "--only", "no_such.fmu"});
+  CHECK(outcome.exit_code == 2);
+  CHECK_THAT(outcome.err, Contains("there is no unit 'no_such.fmu'"));
+}
