@@ -121,12 +121,12 @@ std::optional<wire::Reply::Reader> Connection::next_reply() {
   require_link();
   try {
     while (const auto words = reader_.next()) {
-      return with_checked_messages([&]() -> std::optional<wire::Reply::Reader> {
+      const auto reply = with_checked_messages([&]() -> std::optional<wire::Reply::Reader> {
         message_.emplace(*words);
-        const auto reply = message_->root<wire::Reply>();
-        if (!reply.isBeat()) return reply;
-        return next_reply();
+        const auto present = message_->root<wire::Reply>();
+        return present.isBeat() ? std::nullopt : std::optional(present);
       });
+      if (reply) return reply;
     }
   } catch (const BadMessage& mistake) {
     fail_bad_message(mistake.what());

@@ -152,7 +152,7 @@ void UnitServer::handle(wire::Request::Reader request) {
       return answer([&](wire::Result::Builder result) { result.setText(text); });
     }
     case wire::Request::SET_REPEATING:
-      diagnostics_->set_repeating(request.getSetRepeating());
+      if (diagnostics_ != nullptr) diagnostics_->set_repeating(request.getSetRepeating());
       break;
     case wire::Request::GET_STATISTICS:
       return send_statistics();
