@@ -40,6 +40,13 @@ TEST_CASE("a job takes no longer than half of its limit") {
   CHECK(chunk_length(10, {.wall_time = 10, .time_limit = 12, .most_chunks = 100}) == 1);
 }
 
+TEST_CASE("a job that is waited for has one case, or as many as it runs at the same time") {
+  CHECK(chunk_length(8, {.wall_time = 0.1, .job_time = 0, .most_chunks = 100}) == 1);
+  CHECK(chunk_length(8, {.wall_time = 9, .time_limit = 60, .job_time = 0, .most_chunks = 4}) == 2);
+  CHECK(chunk_length(9, {.wall_time = 9, .job_time = 0, .side_by_side = 3, .most_chunks = 100}) ==
+        3);
+}
+
 TEST_CASE("there are a hundred jobs where no time is known") {
   CHECK(chunk_length(100'000, {.most_chunks = 1001}) == 1000);
   CHECK(chunk_length(8, {.most_chunks = 1001}) == 1);
