@@ -38,6 +38,18 @@ function row(unit, most) {
   );
 }
 
+const bytes = (count) => `${briefText(count / 1000)} kB`;
+
+/** Where the units ran that were on other machines, and what their links cost: a line for each. */
+export function linkTexts(units) {
+  const elsewhere = units.filter((unit) => unit.host?.link);
+  return elsewhere.map(({ name, host: { machine, link } }) => {
+    const traffic = `${bytes(link.sent)} there, ${bytes(link.received)} back`;
+    const count = link.round_trips.toLocaleString("en");
+    return `${name} ran on ${machine}: ${count} round trips (${traffic}), ${seconds(link.lost_time)} s lost to the network.`;
+  });
+}
+
 /** The wall-clock time of the run that belongs to no unit: the master's own work. */
 function restText(run) {
   if (!Number.isFinite(run.wall_time)) return "The run ended without its counts and times.";
@@ -75,6 +87,7 @@ export function costs(run) {
     { "aria-label": "Cost" },
     h("h2", {}, "What each unit cost"),
     h("p.note", {}, restText(run)),
+    ...linkTexts(units).map((text) => h("p.note", {}, text)),
     h("div.scroll", { tabIndex: 0 }, table),
   );
 }
