@@ -1,0 +1,90 @@
+// Units behind `stride serve`, call by call.
+#include "master/remote/remote_unit.h"
+
+#include <chrono>
+#include <memory>
+#include <string>
+
+#include <catch2/catch.hpp>
+#include <fmt/format.h>
+
+#include "master/algorithm/capabilities/concurrent_steps.h"
+#include "tests/build.h"
+#include "tests/master/util/archive/support.h"
+
+using namespace stride;
+using namespace stride::tests;
+using namespace std::chrono_literals;
+
+namespace {
+
+/// Passes on what it reads, but for the time in which a file is there.
+constexpr const char* kGate = R"(
+import os, sys, time
+while True:
+    piece = os.read(0, 65536)
+    while os.path.exists(sys.argv[1]):
+        time.sleep(0.001)
+    if not piece:
+        break
+    while piece:
+        piece = piece[os.write(1, piece):]
+)";
+
+std::string serve_command() { return fmt::format("exec:{} serve", stride_program().string()); }
+
+/// In Initialization Mode.
+std::unique_ptr<remote::RemoteUnit> unit_elsewhere(const std::string& unit,
+                                                   const std::string& at = serve_command()) {
+  const remote::RemoteSpec spec{.place = remote::parse_place(at, ""),
+                                .fmu = (test_unit_folder() / (unit + ".fmu")).string()};
+  auto made =
+      std::make_unique<remote::RemoteUnit>(spec, remote::describe(spec, {}), unit,
+                                           importer::InstanceOptions{}, isolation::HostOptions{});
+  made->instantiate();
+  made->enter_initialization(Time(), std::nullopt);
+  return made;
+}
+
+void begin(remote::RemoteUnit& unit) {
+  unit.exit_initialization();
+  unit.update_discrete_states();
+  unit.enter_step_mode();
+}
+
+core::ValueReference reference_of(const std::string& unit, const std::string& variable) {
+  const auto fmu = importer::Fmu::load(test_unit_folder() / (unit + ".fmu"));
+  return fmu->description()->variables[fmu->description()->find(variable).value()].reference;
+}
+
+}  // namespace
+
+TEST_CASE("while one machine is not done with a step another one is asked for its own") {
+  const tests::Scratch scratch;
+  const fs::path script = scratch.write("gate.py", kGate), closed = scratch / "closed";
+  const auto slow = unit_elsewhere("feedthrough", fmt::format("{} | python3 {} {}", serve_command(),
+                                                              script.string(), closed.string()));
+  const auto quick = unit_elsewhere("feedthrough");
+  begin(*slow);
+  begin(*quick);
+  const core::StepInterval interval(Time(), Time(10ms));
+  scratch.write("closed", "");
+  slow->begin_step(interval, {}, {});
+  quick->begin_step(interval, {}, {});
+  CHECK(quick->finish_step().reached == Time(10ms));
+  fs::remove(closed);
+  CHECK(slow->finish_step().reached == Time(10ms));
+}
+
+TEST_CASE("a value of many pieces comes back as it was sent") {
+  const core::ValueReference in = reference_of("types", "binary"),
+                             out = reference_of("types", "binary.echo");
+  const auto unit = unit_elsewhere("types");
+  core::ValueBlock sent(core::ValueType::Binary, 1), answered(core::ValueType::Binary, 1);
+  core::Binary& bytes = sent.binaries()[0];
+  bytes.resize(20'000'003);
+  for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<std::uint8_t>(i * i >> 7);
+  unit->set(std::span(&in, 1), sent);
+  unit->get(std::span(&out, 1), answered);
+  CHECK((answered == sent));
+}
