@@ -28,29 +28,9 @@
 #include "master/isolation/proxy_record.h"
 #include "master/isolation/step_plan.h"
 #include "master/remote/connection.h"
+#include "master/remote/remote_spec.h"
 
 namespace stride::remote {
-
-/// What a unit elsewhere is, and where.
-struct RemoteSpec {
-  Place place{};
-  std::string fmu{};             ///< its path or name there; empty: the only one that is offered
-  std::filesystem::path sent{};  ///< a file of this machine that is sent in its place; or empty
-  std::chrono::milliseconds connect_limit = std::chrono::seconds(60);
-  std::chrono::milliseconds silence_limit = std::chrono::seconds(30);
-};
-
-/// The FMU that a spec names: the description of the one that is there, or, where a file is sent,
-/// of that file. Throws core::Error at `where`, also for a machine that cannot be reached.
-std::shared_ptr<importer::Fmu> describe(const RemoteSpec& spec, const core::Location& where);
-
-/// What a machine answers, and how fast.
-struct Trial {
-  std::chrono::nanoseconds connecting{};
-  std::chrono::nanoseconds round_trip{};  ///< the median of some
-};
-/// Connects and asks for nothing. Throws core::Error likewise.
-Trial try_connection(const RemoteSpec& spec, const core::Location& where);
 
 /// Each function is a request to a `stride serve`, and what the unit answers or throws there is
 /// answered and thrown here. Its capabilities are those of a hosted unit. A step is one round trip,

@@ -1,0 +1,100 @@
+#include "master/remote/remote_spec.h"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "master/remote/codec.h"
+#include "master/remote/description_files.h"
+
+namespace stride::remote {
+namespace {
+
+/// The messages of a connection that belong to no unit, handled as they come.
+wire::Result::Reader take_done(Connection& connection) {
+  for (;;) {
+    const wire::Reply::Reader reply = connection.receive();
+    if (reply.isDone()) return reply.getDone();
+    if (reply.isFailed()) throw_error(reply.getFailed());
+    if (!reply.isLog()) connection.fail_bad_message("an answer that nobody has asked for");
+  }
+}
+
+/// What failed there is at a place here.
+[[noreturn]] void rethrow_at(const core::Error& error, const core::Location& where,
+                             const std::string& machine) {
+  core::Context context = error.context();
+  context.where = where;
+  throw core::Error(error.kind(), std::move(context),
+                    fmt::format("{}: {}", machine, error.message()), error.hint());
+}
+
+std::vector<importer::DescriptionFile> take_files(wire::Description::Reader description) {
+  std::vector<importer::DescriptionFile> files;
+  for (const auto file : description.getFiles()) {
+    const auto text = file.getBytes().asChars();
+    files.push_back({to_string(file.getName()), std::string(text.begin(), text.size())});
+  }
+  return files;
+}
+
+}  // namespace
+
+ConnectionOptions connection_options(const RemoteSpec& spec, const core::Location& where) {
+  return {.place = spec.place,
+          .context = {.where = where},
+          .connect_limit = spec.connect_limit,
+          .silence_limit = spec.silence_limit};
+}
+
+std::shared_ptr<importer::Fmu> describe(const RemoteSpec& spec, const core::Location& where) {
+  if (!spec.sent.empty()) return importer::Fmu::load(spec.sent, where);
+  Connection connection(connection_options(spec, where));
+  connection.greet();
+  connection.put([&](wire::Request::Builder request) {
+    request.setIsAwaited(true);
+    request.setDescribe(spec.fmu);
+  });
+  connection.send("the description");
+  return checked(connection, [&] {
+    try {
+      const wire::Result::Reader result = take_done(connection);
+      if (!result.isDescription()) throw BadMessage("an answer of another kind");
+      const auto description = result.getDescription();
+      return make_described_fmu(
+          take_files(description), where,
+          fmt::format("{}:{}", spec.place.machine, to_string(description.getPath())));
+    } catch (const core::EnvironmentError&) {
+      throw;
+    } catch (const core::Error& error) {
+      if (connection.has_failed() || !error.context().where.file.empty()) throw;
+      rethrow_at(error, where, connection.machine());
+    }
+  });
+}
+
+Trial try_connection(const RemoteSpec& spec, const core::Location& where) {
+  using Clock = std::chrono::steady_clock;
+  constexpr std::size_t kTrials = 15;
+  const auto begin = Clock::now();
+  Connection connection(connection_options(spec, where));
+  connection.greet();
+  const auto connected = Clock::now();
+  std::vector<std::chrono::nanoseconds> times;
+  while (times.size() < kTrials) {
+    const auto sent = Clock::now();
+    connection.put([](wire::Request::Builder request) {
+      request.setIsAwaited(true);
+      request.setPing();
+    });
+    connection.send("a round trip");
+    checked(connection, [&] { take_done(connection); });
+    times.push_back(Clock::now() - sent);
+  }
+  std::ranges::sort(times);
+  return {connected - begin, times[times.size() / 2]};
+}
+
+}  // namespace stride::remote
