@@ -8,7 +8,6 @@
 
 #include "master/remote/codec.h"
 #include "master/remote/description_files.h"
-#include "master/remote/remote_unit_calls.h"
 #include "master/remote/unit_files.h"
 #include "master/util/input_file.h"
 

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "master/remote/codec.h"
-#include "master/remote/remote_unit_calls.h"
+#include "master/remote/remote_unit.h"
 
 namespace stride::remote {
 

@@ -10,7 +10,6 @@
 #include "master/algorithm/capabilities/state_saving.h"
 #include "master/algorithm/capabilities/state_serialization.h"
 #include "master/remote/codec.h"
-#include "master/remote/unit_server_answers.h"
 
 namespace stride::remote {
 

@@ -21,6 +21,9 @@
 
 namespace stride::remote {
 
+/// What the master did for the unit within a step has failed; it knows how.
+struct CallbackFailure {};
+
 /// Carries out requests, one after the other. What fails is told to the master; only the end of the
 /// link, and messages that are none, end a session.
 class UnitServer {
@@ -82,6 +85,24 @@ class UnitServer {
   Clock::time_point began_;     ///< the present request
   std::exception_ptr failure_;  ///< of a request that is not awaited
 };
+
+template <class Fill>
+void UnitServer::answer(Fill&& fill) {
+  channel_.send([&](wire::Reply::Builder reply) {
+    auto result = reply.initDone();
+    if (diagnostics_ != nullptr) result.setCalls(diagnostics_->calls());
+    result.setNanoseconds(
+        static_cast<std::uint64_t>(std::chrono::nanoseconds(Clock::now() - began_).count()));
+    fill(result);
+  });
+}
+
+template <core::CapabilityInterface C>
+C& UnitServer::capability() const {
+  C* const found = unit().capability<C>();
+  if (found == nullptr) throw BadMessage("a unit is asked for what it cannot");
+  return *found;
+}
 
 }  // namespace stride::remote
 

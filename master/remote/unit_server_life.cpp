@@ -9,7 +9,7 @@
 #include "master/remote/codec.h"
 #include "master/remote/description_files.h"
 #include "master/remote/unit_files.h"
-#include "master/remote/unit_server_answers.h"
+#include "master/remote/unit_server.h"
 
 namespace stride::remote {
 namespace {

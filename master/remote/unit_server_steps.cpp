@@ -6,7 +6,7 @@
 #include "master/algorithm/capabilities/inputs_within_step.h"
 #include "master/algorithm/capabilities/state_saving.h"
 #include "master/remote/codec.h"
-#include "master/remote/unit_server_answers.h"
+#include "master/remote/unit_server.h"
 
 namespace stride::remote {
 
