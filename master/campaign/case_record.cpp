@@ -183,7 +183,9 @@ std::optional<CaseResult> parse_record(const Plan& plan, std::uint64_t index,
                                        std::string_view line) {
   try {
     const Json json = Json::parse(line);
-    if (json.at("case") != index) return std::nullopt;
+    if (json.at("case") != index || json.at("hash") != plan.hash(plan.at(index))) {
+      return std::nullopt;
+    }
     return result_of(plan, json);
   } catch (const std::exception&) {
     return std::nullopt;

@@ -78,7 +78,7 @@ std::string record_line(const Plan& plan, const Case& row, const CaseResult& res
 std::string missing_line(const Plan& plan, const Case& row);
 
 /// Reads what record_line() has made of the case with this index. Nothing for what is no record of
-/// it: half of one, say.
+/// it: half of one, or one of other values (its hash stands for them).
 std::optional<CaseResult> parse_record(const Plan& plan, std::uint64_t index,
                                        std::string_view line);
 

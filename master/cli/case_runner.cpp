@@ -373,6 +373,12 @@ void CaseRunner::require_circumstances(const CasePool::Ended& ended,
   }
   if (!lacked_something) return;
   if (const auto lack = find_machine_lack()) fail(lack->what, lack->hint);
+  if (has_units_elsewhere()) fail("a machine of one of its units is lost", "see to it");
+}
+
+bool CaseRunner::has_units_elsewhere() const {
+  return std::ranges::any_of(scenario_.loaded().hostings(),
+                             [](const auto& hosting) { return hosting && hosting->remote; });
 }
 
 /// What the process of the case could not do itself.

@@ -55,6 +55,7 @@ class CaseRunner {
   std::string simulate_rest(std::uint64_t index, const campaign::SharedBeginning& shared,
                             CaseRun& run) const;
   std::optional<campaign::CaseResult> result_of(const CasePool::Ended& ended) const;
+  bool has_units_elsewhere() const;
   void require_circumstances(const CasePool::Ended& ended,
                              const campaign::CaseResult& result) const;
   [[noreturn]] static void fail_case(std::uint64_t index, const std::string& why,

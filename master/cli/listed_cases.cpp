@@ -11,30 +11,10 @@
 #include "master/cli/missing_cases.h"
 
 namespace stride::cli {
-namespace {
 
-/// The record of this very case: its hash stands for its values.
-std::optional<campaign::CaseFolder::Record> read_own(const campaign::Plan& plan,
-                                                     const campaign::CaseFolder& cases,
-                                                     std::uint64_t index) {
-  auto record = cases.read(index);
-  if (!record) return std::nullopt;
-  const std::string hash = fmt::format("\"hash\":\"{}\"", plan.hash(plan.at(index)));
-  if (record->line.find(hash) == std::string::npos) return std::nullopt;
-  return record;
-}
-
-}  // namespace
-
-bool has_record(const campaign::Plan& plan, const campaign::CaseFolder& cases,
-                std::uint64_t index) {
-  return read_own(plan, cases, index).has_value();
-}
-
-void drop_others(const campaign::Plan& plan, const campaign::CaseFolder& cases,
-                 const campaign::CaseRange& range) {
+void drop_others(const campaign::CaseFolder& cases, const campaign::CaseRange& range) {
   for (std::uint64_t i = range.first; i <= range.last; ++i) {
-    if (has_record(plan, cases, i)) continue;
+    if (cases.read(i)) continue;
     std::error_code ignored;  // it is written over then
     std::filesystem::remove(cases.record_file(i), ignored);
   }
@@ -43,7 +23,7 @@ void drop_others(const campaign::Plan& plan, const campaign::CaseFolder& cases,
 RunBatch local_batches(const campaign::CampaignScenario& scenario, std::size_t jobs) {
   return [&scenario, jobs](const campaign::Plan& plan, const campaign::CaseFolder& cases,
                            const campaign::CaseRange& batch) {
-    drop_others(plan, cases, batch);
+    drop_others(cases, batch);
     const campaign::CaseScratch scratch(cases);
     MissingCases(plan, scenario, cases, scratch,
                  {.range = batch, .jobs = jobs, .progress = ProgressStyle::None})
@@ -79,8 +59,8 @@ bool ListedCases::add(std::vector<search::Row> rows) {
   }
   auto plan = std::make_unique<const campaign::Plan>(make_plan());
   const campaign::CaseFolder cases(*plan, folder_);
-  if (!take_results(*plan, cases) &&
-      (!run_(*plan, cases, {first, rows_.size() - 1}) || !take_results(*plan, cases))) {
+  if (!take_results(cases) &&
+      (!run_(*plan, cases, {first, rows_.size() - 1}) || !take_results(cases))) {
     rows_.resize(first);
     return false;
   }
@@ -89,10 +69,10 @@ bool ListedCases::add(std::vector<search::Row> rows) {
 }
 
 /// Of the new rows, if all are there.
-bool ListedCases::take_results(const campaign::Plan& plan, const campaign::CaseFolder& cases) {
+bool ListedCases::take_results(const campaign::CaseFolder& cases) {
   std::vector<campaign::CaseResult> results;
   for (std::uint64_t i = results_.size(); i < rows_.size(); ++i) {
-    auto record = read_own(plan, cases, i);
+    auto record = cases.read(i);
     if (!record) return false;
     results.push_back(std::move(record->result));
   }

@@ -28,11 +28,7 @@ RunBatch local_batches(const campaign::CampaignScenario& scenario, std::size_t j
 
 /// Removes records that are those of other cases than the plan has by these indices: of another
 /// tolerance, say. Nobody else may be at work on these cases.
-void drop_others(const campaign::Plan& plan, const campaign::CaseFolder& cases,
-                 const campaign::CaseRange& range);
-
-/// Whether there is a record of this very case.
-bool has_record(const campaign::Plan& plan, const campaign::CaseFolder& cases, std::uint64_t index);
+void drop_others(const campaign::CaseFolder& cases, const campaign::CaseRange& range);
 
 /// A growing campaign whose cases are listed, with records in a folder: what has one is not run
 /// again. What `origin` refers to must outlive it.
@@ -54,7 +50,7 @@ class ListedCases final : public search::Cases {
 
  private:
   campaign::Plan make_plan() const;
-  bool take_results(const campaign::Plan& plan, const campaign::CaseFolder& cases);
+  bool take_results(const campaign::CaseFolder& cases);
 
   const campaign::Plan& origin_;
   const search::Row seeds_;

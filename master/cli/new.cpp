@@ -81,12 +81,6 @@ std::string class_name(const std::string& name) {
   return text;
 }
 
-std::string upper_case(std::string name) {
-  std::ranges::transform(name, name.begin(),
-                         [](char c) { return static_cast<char>(std::toupper(c)); });
-  return name;
-}
-
 std::string replaced(std::string text, std::string_view what, std::string_view by) {
   for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at)) {
     text.replace(at, what.size(), by);
@@ -96,11 +90,8 @@ std::string replaced(std::string text, std::string_view what, std::string_view b
 }
 
 std::string text_of(const StarterFile& file, const std::string& name) {
-  const std::array<std::pair<std::string_view, std::string>, 4> words{
-      {{"@NAME@", name},
-       {"@CLASS@", class_name(name)},
-       {"@MACRO@", upper_case(name)},
-       {"@VERSION@", STRIDE_VERSION}}};
+  const std::array<std::pair<std::string_view, std::string>, 3> words{
+      {{"@NAME@", name}, {"@CLASS@", class_name(name)}, {"@VERSION@", STRIDE_VERSION}}};
   std::string text(file.text);
   for (const auto& [word, by] : words) text = replaced(std::move(text), word, by);
   return text;

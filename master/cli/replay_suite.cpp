@@ -93,7 +93,7 @@ ReplaySuite::ReplaySuite(const CampaignInput& input, const campaign::CaseFolder&
     : input_(input),
       cases_(cases),
       folder_(without_slash(std::move(folder))),
-      fresh_(folder_.string() + ".new"),
+      fresh_(folder_.string() + ".stride-new"),
       options_(options),
       files_(fresh_) {
   if (core::path_exists(folder_) &&
@@ -101,9 +101,9 @@ ReplaySuite::ReplaySuite(const CampaignInput& input, const campaign::CaseFolder&
     core::fail_input({.where = {folder_.string(), 0}}, "there is something in the way of the suite",
                      "choose a folder that is not there, or remove this one");
   }
-  std::error_code ignored;
-  fs::remove_all(fresh_, ignored);
   recorders::make_results_folder(fresh_);
+  lock_.emplace(fresh_);
+  for (const fs::path& left : core::folder_entries(fresh_)) fs::remove_all(left);
 }
 
 ReplaySuite::~ReplaySuite() {

@@ -11,6 +11,7 @@
 
 #include "master/campaign/case_folder.h"
 #include "master/cli/campaign_input.h"
+#include "master/recorders/results_folder.h"
 #include "master/replay/replay_files.h"
 
 namespace stride::cli {
@@ -60,6 +61,7 @@ class ReplaySuite {
   const campaign::CaseFolder& cases_;
   const std::filesystem::path folder_;
   const std::filesystem::path fresh_;
+  std::optional<recorders::ResultsLock> lock_;  ///< of it
   const Options options_;
   replay::ReplayFiles files_;
   std::map<std::uint64_t, bool> added_;

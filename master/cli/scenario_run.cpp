@@ -430,6 +430,7 @@ void run_scenario(RunArguments arguments) {
                      "let one run write the checkpoint, and another one have the branches");
   }
   arguments.scenario.files = check_output_paths(arguments);
+  arguments.scenario.hosts.interrupted = &Interruption::flag();
   const core::ProcessState process;
   Records records{{arguments.junit, arguments.scenario.scenario}};
   if (core::is_file(arguments.junit))

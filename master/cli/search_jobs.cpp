@@ -43,11 +43,10 @@ std::string last_line(const std::filesystem::path& file) {
   return last;
 }
 
-std::vector<std::uint64_t> missing_in(const campaign::Plan& plan, const campaign::CaseFolder& cases,
-                                      const CaseRange& batch) {
+std::vector<std::uint64_t> missing_in(const campaign::CaseFolder& cases, const CaseRange& batch) {
   std::vector<std::uint64_t> missing;
   for (std::uint64_t i = batch.first; i <= batch.last; ++i) {
-    if (!has_record(plan, cases, i)) missing.push_back(i);
+    if (!cases.read(i)) missing.push_back(i);
   }
   return missing;
 }
@@ -73,26 +72,26 @@ std::string SearchJobs::text_of(const std::vector<std::string>& ids) const {
   return fmt::format("job {} of {}", fmt::join(ids, ", "), jobs_.cluster().name());
 }
 
-bool SearchJobs::run(const campaign::Plan& plan, const campaign::CaseFolder& cases,
+bool SearchJobs::run(const campaign::Plan&, const campaign::CaseFolder& cases,
                      const CaseRange& batch) {
   if (!std::exchange(has_looked_for_earlier_, true)) {
     const std::vector<std::string> earlier = jobs_.in_queue();
-    if (!earlier.empty() && !wait(earlier, plan, cases, batch)) return false;
+    if (!earlier.empty() && !wait(earlier, cases, batch)) return false;
   }
-  drop_others(plan, cases, batch);
-  if (missing_in(plan, cases, batch).empty()) return true;
+  drop_others(cases, batch);
+  if (missing_in(cases, batch).empty()) return true;
   const JobArray submitted = array(cases, batch);
   std::string id;
   jobs_.submit(submitted, false, [&](const std::string& given) { id = given; });
-  if (!wait({id}, plan, cases, batch)) return false;
-  note_lost(id, submitted, plan, cases, batch);
+  if (!wait({id}, cases, batch)) return false;
+  note_lost(id, submitted, cases, batch);
   return lost_.cases.empty();
 }
 
 /// Until all records are there or the jobs have ended. False if it was interrupted.
-bool SearchJobs::wait(const std::vector<std::string>& ids, const campaign::Plan& plan,
-                      const campaign::CaseFolder& cases, const CaseRange& batch) {
-  std::vector<std::uint64_t> missing = missing_in(plan, cases, batch);
+bool SearchJobs::wait(const std::vector<std::string>& ids, const campaign::CaseFolder& cases,
+                      const CaseRange& batch) {
+  std::vector<std::uint64_t> missing = missing_in(cases, batch);
   std::chrono::milliseconds pause = kLeastSleep;
   std::chrono::seconds silence = kLeastUnasked;
   Clock::time_point question = Clock::now() + silence;
@@ -110,7 +109,7 @@ bool SearchJobs::wait(const std::vector<std::string>& ids, const campaign::Plan&
     on_wait_(text_of(ids));
     std::this_thread::sleep_for(pause);
     pause = std::min(pause + pause / 4, kMostSleep);
-    std::erase_if(missing, [&](std::uint64_t index) { return has_record(plan, cases, index); });
+    std::erase_if(missing, [&](std::uint64_t index) { return cases.read(index).has_value(); });
   }
   return true;
 }
@@ -126,9 +125,9 @@ bool SearchJobs::are_in_queue(const std::vector<std::string>& ids) {
   }
 }
 
-void SearchJobs::note_lost(const std::string& id, const JobArray& array, const campaign::Plan& plan,
+void SearchJobs::note_lost(const std::string& id, const JobArray& array,
                            const campaign::CaseFolder& cases, const CaseRange& batch) {
-  for (const std::uint64_t index : missing_in(plan, cases, batch)) {
+  for (const std::uint64_t index : missing_in(cases, batch)) {
     lost_.cases.push_back(std::to_string(index));
     const auto job = std::ranges::find_if(
         array.ranges, [&](const CaseRange& range) { return index <= range.last; });

@@ -46,11 +46,11 @@ class SearchJobs {
 
   JobArray array(const campaign::CaseFolder& cases, const campaign::CaseRange& batch) const;
   std::string text_of(const std::vector<std::string>& ids) const;
-  bool wait(const std::vector<std::string>& ids, const campaign::Plan& plan,
-            const campaign::CaseFolder& cases, const campaign::CaseRange& batch);
+  bool wait(const std::vector<std::string>& ids, const campaign::CaseFolder& cases,
+            const campaign::CaseRange& batch);
   bool are_in_queue(const std::vector<std::string>& ids);
-  void note_lost(const std::string& id, const JobArray& array, const campaign::Plan& plan,
-                 const campaign::CaseFolder& cases, const campaign::CaseRange& batch);
+  void note_lost(const std::string& id, const JobArray& array, const campaign::CaseFolder& cases,
+                 const campaign::CaseRange& batch);
 
   const CaseJobs jobs_;
   const std::function<void(const std::string& what)> on_wait_;

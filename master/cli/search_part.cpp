@@ -49,7 +49,7 @@ class SearchPart {
                                        batch.last));
     }
     begin_search_folder(input_.folder(), arguments_.request, input_.plan());
-    drop_others(plan, cases, {std::max(range_.first, batch.first), range_.last});
+    drop_others(cases, {std::max(range_.first, batch.first), range_.last});
     const campaign::CaseScratch scratch(cases);
     MissingCases missing(plan, input_.scenario(), cases, scratch,
                          {.range = range_,
@@ -98,10 +98,10 @@ void run_search_part(const SearchArguments& arguments, const CampaignInput& inpu
 
 void print_next_cases(const SearchArguments& arguments, const CampaignInput& input) {
   is_this_search_in(input.folder(), arguments.request, input.plan());
-  const auto print = [](const campaign::Plan& plan, const campaign::CaseFolder& cases,
+  const auto print = [](const campaign::Plan&, const campaign::CaseFolder& cases,
                         const CaseRange& batch) {
     for (std::uint64_t i = batch.first; i <= batch.last; ++i) {
-      if (!has_record(plan, cases, i)) print_text("{}\n", i);
+      if (!cases.read(i)) print_text("{}\n", i);
     }
     return false;
   };

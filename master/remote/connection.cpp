@@ -101,9 +101,9 @@ void Connection::send(const char* call) {
 
 wire::Reply::Reader Connection::receive() {
   for (;;) {
+    check_limits(options_.silence_limit);  // also where the other side never stops to talk
     if (const auto reply = next_reply()) return *reply;
     if (!pump(kGlance) && !process_->out.is_open()) fail_end();
-    check_limits(options_.silence_limit);
   }
 }
 

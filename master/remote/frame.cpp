@@ -55,7 +55,7 @@ void append_frames(std::string& bytes, std::span<const std::span<const std::byte
 std::span<char> FrameReader::room() {
   if (begin_ == end_) begin_ = end_ = 0;
   if (buffer_.size() - end_ < kRoom / 2) {
-    std::memmove(buffer_.data(), buffer_.data() + begin_, end_ - begin_);
+    std::ranges::copy(unread(), buffer_.begin());
     end_ -= begin_;
     begin_ = 0;
     if (buffer_.size() - end_ < kRoom / 2) buffer_.resize(end_ + kRoom);
@@ -92,7 +92,8 @@ std::optional<std::span<const std::uint64_t>> FrameReader::next() {
 bool FrameReader::take_header() {
   const std::string_view bytes = unread();
   std::uint32_t header[2] = {kMark, 0};
-  std::memcpy(header, bytes.data(), std::min(bytes.size(), sizeof header[0]));
+  std::copy_n(bytes.data(), std::min(bytes.size(), sizeof header[0]),
+              reinterpret_cast<char*>(header));
   if (bytes.size() >= sizeof header[0] && header[0] != kMark) {
     throw BadMessage(fmt::format("what came is no message: '{}'",
                                  core::readable_text(bytes.substr(0, bytes.find('\n')), 200)));
@@ -115,7 +116,7 @@ void FrameReader::take_content() {
   const std::size_t size = std::min(rest_, end_ - begin_);
   const std::size_t words = (taken_ + size + sizeof(std::uint64_t) - 1) / sizeof(std::uint64_t);
   if (message_.size() < words) message_.resize(words);
-  std::memcpy(reinterpret_cast<char*>(message_.data()) + taken_, buffer_.data() + begin_, size);
+  std::copy_n(buffer_.data() + begin_, size, reinterpret_cast<char*>(message_.data()) + taken_);
   taken_ += size;
   begin_ += size;
   rest_ -= size;

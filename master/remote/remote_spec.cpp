@@ -22,15 +22,6 @@ wire::Result::Reader take_done(Connection& connection) {
   }
 }
 
-/// What failed there is at a place here.
-[[noreturn]] void rethrow_at(const core::Error& error, const core::Location& where,
-                             const std::string& machine) {
-  core::Context context = error.context();
-  context.where = where;
-  throw core::Error(error.kind(), std::move(context),
-                    fmt::format("{}: {}", machine, error.message()), error.hint());
-}
-
 std::vector<importer::DescriptionFile> take_files(wire::Description::Reader description) {
   std::vector<importer::DescriptionFile> files;
   for (const auto file : description.getFiles()) {
@@ -42,11 +33,21 @@ std::vector<importer::DescriptionFile> take_files(wire::Description::Reader desc
 
 }  // namespace
 
+void rethrow_here(const core::Error& error, const core::Location& where, const std::string& unit,
+                  const std::string& machine) {
+  core::Context context = error.context();
+  context.where = where;
+  if (context.unit.empty()) context.unit = unit;
+  throw core::Error(error.kind(), std::move(context),
+                    fmt::format("{}: {}", machine, error.message()), error.hint());
+}
+
 ConnectionOptions connection_options(const RemoteSpec& spec, const core::Location& where) {
   return {.place = spec.place,
           .context = {.where = where},
           .connect_limit = spec.connect_limit,
-          .silence_limit = spec.silence_limit};
+          .silence_limit = spec.silence_limit,
+          .interrupted = spec.interrupted};
 }
 
 std::shared_ptr<importer::Fmu> describe(const RemoteSpec& spec, const core::Location& where) {
@@ -70,7 +71,7 @@ std::shared_ptr<importer::Fmu> describe(const RemoteSpec& spec, const core::Loca
       throw;
     } catch (const core::Error& error) {
       if (connection.has_failed() || !error.context().where.file.empty()) throw;
-      rethrow_at(error, where, connection.machine());
+      rethrow_here(error, where, "", connection.machine());
     }
   });
 }

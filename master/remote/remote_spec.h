@@ -3,6 +3,7 @@
 #define STRIDE_MASTER_REMOTE_REMOTE_SPEC_H
 
 #include <chrono>
+#include <csignal>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -19,6 +20,7 @@ struct RemoteSpec {
   std::filesystem::path sent{};  ///< a file of this machine that is sent in its place; or empty
   std::chrono::milliseconds connect_limit = std::chrono::seconds(60);
   std::chrono::milliseconds silence_limit = std::chrono::seconds(30);
+  const volatile std::sig_atomic_t* interrupted = nullptr;  ///< ends a wait; null = nothing does
 };
 
 /// The FMU that a spec names: the description of the one that is there, or, where a file is sent,
@@ -35,6 +37,10 @@ Trial try_connection(const RemoteSpec& spec, const core::Location& where);
 
 /// Of a connection to it, for a component at that place of the scenario.
 ConnectionOptions connection_options(const RemoteSpec& spec, const core::Location& where);
+
+/// What has failed there, at a place here, of a unit if one is named.
+[[noreturn]] void rethrow_here(const core::Error& error, const core::Location& where,
+                               const std::string& unit, const std::string& machine);
 
 /// As with_checked_messages(); a mistake in them is a failure of the connection.
 template <class Action>

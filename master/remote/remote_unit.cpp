@@ -48,14 +48,22 @@ RemoteUnit::~RemoteUnit() {
 
 void RemoteUnit::instantiate() {
   connection_->greet();
-  if (!spec_.sent.empty()) send_file();
-  call(
-      "the instantiation", [&](wire::Request::Builder request) { fill(request.initInstantiate()); },
-      [&](wire::Result::Reader result) {
-        if (!result.isInstance()) throw BadMessage("an answer of another kind");
-        capabilities_ = take_capabilities(result.getInstance());
-        take_protections(result.getInstance(), statistics_);
-      });
+  try {
+    if (!spec_.sent.empty()) send_file();
+    call(
+        "the instantiation",
+        [&](wire::Request::Builder request) { fill(request.initInstantiate()); },
+        [&](wire::Result::Reader result) {
+          if (!result.isInstance()) throw BadMessage("an answer of another kind");
+          capabilities_ = take_capabilities(result.getInstance());
+          take_protections(result.getInstance(), statistics_);
+        });
+  } catch (const core::EnvironmentError&) {
+    throw;
+  } catch (const core::Error& error) {
+    if (connection_->has_failed() || !error.context().where.file.empty()) throw;
+    rethrow_here(error, options_.where, name_, connection_->machine());
+  }
   has_unit_ = true;
   for (const core::CapabilityId id :
        {core::CapabilityId::UnitDiagnostics, core::CapabilityId::HostDiagnostics,
@@ -157,7 +165,8 @@ void RemoteUnit::fetch_statistics() {
 
 void RemoteUnit::fetch_files() {
   if (options_.results.empty()) return;
-  UnitFileWriter writer(options_.results);
+  UnitFileWriter writer(options_.results,
+                        {.where = options_.where, .unit = name_, .time = times_.now});
   send("the transfer of its files", [](wire::Request::Builder request) { request.setGetFiles(); });
   guard([&] {
     for (;;) {

@@ -12,6 +12,7 @@
 
 #include "master/util/descriptor.h"
 #include "master/util/error.h"
+#include "master/util/readable_text.h"
 
 namespace stride::remote {
 namespace {
@@ -19,10 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kPiece = std::size_t{1} << 20;
-
-[[noreturn]] void fail(const std::string& name, const std::string& why) {
-  core::fail_run({}, fmt::format("'{}', a file of the unit, {}", name, why));
-}
+constexpr std::size_t kLongestShown = 300;
 
 /// In the order of their names. What is no file and no folder is counted.
 std::vector<fs::path> regular_files(const fs::path& folder, std::size_t& others) {
@@ -56,7 +54,7 @@ bool is_inside(const fs::path& name) {
   const auto is_step = [](const fs::path& part) { return part == ".." || part == "."; };
   return !name.empty() && name.is_relative() && name.has_filename() &&
          std::none_of(name.begin(), name.end(), is_step) &&
-         name.native().find('\0') == std::string::npos;
+         std::ranges::none_of(name.native(), [](unsigned char c) { return c < ' ' || c == 0x7f; });
 }
 
 }  // namespace
@@ -74,6 +72,11 @@ std::string read_unit_files(const fs::path& folder, const TakePiece& take) {
   if (left_out == 0) return "";
   return fmt::format("{} of its files are links or the like, or cannot be read, and stay there",
                      left_out);
+}
+
+void UnitFileWriter::fail(const std::string& name, const std::string& why) const {
+  core::fail_run(context_, fmt::format("'{}', a file of the unit, {}",
+                                       core::readable_text(name, kLongestShown), why));
 }
 
 void UnitFileWriter::make_folders(const fs::path& inside) const {
@@ -103,8 +106,9 @@ void UnitFileWriter::take(const std::string& name, std::string_view bytes, bool 
   }
   if (file.is_open() && bytes.empty()) return;
   const int reason = errno;
-  throw core::EnvironmentError({}, fmt::format("'{}', a file of the unit, cannot be written: {}",
-                                               name, std::generic_category().message(reason)));
+  throw core::EnvironmentError(context_,
+                               fmt::format("'{}', a file of the unit, cannot be written: {}", name,
+                                           std::generic_category().message(reason)));
 }
 
 }  // namespace stride::remote

@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 
+#include "master/util/error.h"
 #include "master/util/untrusted_folder.h"
 
 namespace stride::remote {
@@ -28,7 +29,9 @@ class UnitFileWriter {
   static constexpr std::size_t kMostFiles = 100'000;
   static constexpr std::uintmax_t kMostBytes = std::uintmax_t{64} << 30;
 
-  explicit UnitFileWriter(std::filesystem::path folder) : folder_(std::move(folder)) {}
+  /// `context`: whose files they are, for errors.
+  explicit UnitFileWriter(std::filesystem::path folder, core::Context context = {})
+      : folder_(std::move(folder)), context_(std::move(context)) {}
 
   /// Throws core::Error (Run) for a name that leads out of the folder, or through a link, for more
   /// than there may be, and where it cannot be written.
@@ -36,8 +39,10 @@ class UnitFileWriter {
 
  private:
   void make_folders(const std::filesystem::path& inside) const;
+  [[noreturn]] void fail(const std::string& name, const std::string& why) const;
 
   std::filesystem::path folder_;
+  core::Context context_;
   std::size_t files_ = 0;
   std::uintmax_t bytes_ = 0;
 };

@@ -30,6 +30,8 @@ class UnitOffer {
   /// The FMU, loaded once. An empty name is that of the only one. What was sent takes precedence.
   /// Throws core::Error (Input).
   std::shared_ptr<importer::Fmu> fmu(const std::string& name);
+  /// Whether other FMUs than these are not to be seen, nor where they are.
+  bool is_pinned() const { return !only_.empty(); }
   /// A piece of an FMU. Throws core::Error: Input if none is accepted, Run where it cannot be
   /// written.
   void take_piece(const std::string& name, std::string_view bytes, bool is_first);

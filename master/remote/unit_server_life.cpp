@@ -60,7 +60,7 @@ void UnitServer::describe(const std::string& name) {
   const std::vector<importer::DescriptionFile> files = fmu->description_files();
   answer([&](wire::Result::Builder result) {
     auto description = result.initDescription();
-    description.setPath(fmu->path().string());
+    description.setPath((offer_.is_pinned() ? fmu->path().filename() : fmu->path()).string());
     auto list = description.initFiles(static_cast<unsigned>(files.size()));
     for (unsigned i = 0; i < list.size(); ++i) {
       list[i].setName(files[i].name);

@@ -88,7 +88,11 @@ bool has_remote_rule(const HostRules& rules, const HostRequest& request) {
 std::vector<HostSettings> host_settings(std::span<const std::string> components, HostRules rules,
                                         const HostRequest& request) {
   add_rules(request, rules.rules);
-  return rules.settings(components);
+  std::vector<HostSettings> settings = rules.settings(components);
+  for (HostSettings& of_component : settings) {
+    if (of_component.remote) of_component.remote->interrupted = request.interrupted;
+  }
+  return settings;
 }
 
 std::vector<std::optional<Hosting>> choose_hostings(

@@ -2,6 +2,7 @@
 #ifndef STRIDE_MASTER_SCENARIO_HOSTING_H
 #define STRIDE_MASTER_SCENARIO_HOSTING_H
 
+#include <csignal>
 #include <optional>
 #include <span>
 #include <string>
@@ -21,6 +22,7 @@ struct HostRequest {
   std::string unit_timeout;         ///< seconds, for all hosted units
   bool no_sandbox = false;
   std::vector<std::string> places;  ///< "COMPONENT=PLACE", a glob and where its units run
+  const volatile std::sig_atomic_t* interrupted = nullptr;  ///< ends a wait for a machine
 };
 
 /// The host of a component.

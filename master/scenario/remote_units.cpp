@@ -15,6 +15,7 @@ remote::RemoteSpec remote_spec(const RemoteSettings& settings,
   spec.place = settings.place;
   spec.fmu = settings.fmu.value_or(source.filename().string());
   spec.connect_limit = settings.connect_limit.value_or(spec.connect_limit);
+  spec.interrupted = settings.interrupted;
   spec.silence_limit = settings.silence_limit.value_or(spec.silence_limit);
   if (!settings.sends) return spec;
   spec.sent = find_unit(source, settings.where);

@@ -3,6 +3,7 @@
 #define STRIDE_MASTER_SCENARIO_RUN_SETTINGS_H
 
 #include <chrono>
+#include <csignal>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -53,6 +54,7 @@ struct RemoteSettings {
   bool sends = false;                ///< the source is sent there
   std::optional<std::chrono::milliseconds> connect_limit{}, silence_limit{};
   core::Location where{};
+  const volatile std::sig_atomic_t* interrupted = nullptr;  ///< ends a wait for the machine
 };
 
 /// The settings of the host of one component; each may be missing.

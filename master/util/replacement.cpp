@@ -50,7 +50,7 @@ void check(const fs::path& path) {
 
 /// Beside the file; cut off, in whole characters, where the name with the suffix would be too long.
 fs::path fresh_name(const fs::path& target) {
-  constexpr std::string_view kSuffix = ".new";
+  constexpr std::string_view kSuffix = ".stride-new";
   constexpr std::size_t kLongest = 255;  // of a name in a file system
   std::string name = target.filename().string();
   if (name.size() + kSuffix.size() > kLongest) {

@@ -9,12 +9,12 @@
 
 namespace stride::core {
 
-/// Writes "FILE.new" (of a long name its beginning only) beside a file and puts it in its place at
-/// the end, so that no reader ever sees a half of it, and a failure leaves the old file as it was.
-/// A "FILE.new" that exists, such as that of a killed process, is removed; if it is a link, what it
-/// leads to is not touched. What is no regular file, such as a pipe, and a path of an open one,
-/// such as /dev/stdout, is written at once. A symbolic link stays; the file that it leads to is
-/// replaced.
+/// Writes "FILE.stride-new" (of a long name its beginning only) beside a file and puts it in its
+/// place at the end, so that no reader ever sees a half of it, and a failure leaves the old file as
+/// it was. A "FILE.stride-new" that exists, such as that of a killed process, is removed; if it is
+/// a link, what it leads to is not touched. What is no regular file, such as a pipe, and a path of
+/// an open one, such as /dev/stdout, is written at once. A symbolic link stays; the file that it
+/// leads to is replaced.
 class Replacement {
  public:
   /// Throws Error (Input) if the file cannot be written.

@@ -83,7 +83,7 @@ TEST_CASE("without coverage there is a case for each way to end") {
                  Contains("the records have no coverage of it") &&
                  Contains("failed by 'bounded'") && Contains("Suite in suite:"));
   CHECK(space.replays() == std::vector<std::string>{"case_000000", "case_000001"});
-  CHECK_FALSE(fs::exists(space / "suite.new"));
+  CHECK_FALSE(fs::exists(space / "suite.stride-new"));
   CHECK_THAT(read(space / "suite/README.md"),
              Contains("| 1 | failed by 'bounded' | its end | results and stimuli "
                       "of the case | `stride run test.ssd --set first.u=9` |") &&
@@ -323,6 +323,13 @@ TEST_CASE("a case that no replay can have is replaced by another, or missed") {
   CHECK(space.run_suite().exit_code == 0);
 }
 
+TEST_CASE("a folder of the user's beside the suite is left alone") {
+  const Distilled space(inputs({"0.5"}, all_of("second")), checked_filters(), 0);
+  space.scratch().write("suite.new/thesis", "mine");
+  CHECK(space.distil().exit_code == 0);
+  CHECK(read(space / "suite.new/thesis") == "mine");
+}
+
 TEST_CASE("results of a case that are others are found") {
   const Distilled space(inputs({"0.5"}, all_of("second")), checked_filters(), 0);
   const std::string name = "cases/cases/000/000000/signals.csv";
@@ -336,7 +343,7 @@ TEST_CASE("results of a case that are others are found") {
              Contains("1 cases cannot be replayed, as case 0: it does not do what it did "
                       "in the case: y at 0.5 s"));
   CHECK_FALSE(fs::exists(space / "suite"));
-  CHECK_FALSE(fs::exists(space / "suite.new"));
+  CHECK_FALSE(fs::exists(space / "suite.stride-new"));
 }
 
 TEST_CASE("a device that alone is not given what it was is found") {

@@ -57,7 +57,7 @@ TEST_CASE("a run onto a full disk leaves what can be read") {
   CHECK_THAT(outcome.err, Contains("stride: error: out/s") && Contains(": at ") &&
                               Contains("No space left on device") && Contains("make room"));
   CHECK_THAT(read(workspace / "junit.xml"), Contains("No space left on device"));
-  CHECK_FALSE(fs::exists(workspace / "out/run.json.new"));
+  CHECK_FALSE(fs::exists(workspace / "out/run.json.stride-new"));
   CHECK(workspace.signals().size() > 100);  // which throws for a row that is cut
   const Outcome report = workspace.stride({"report", "out", "-o", "page.html"});
   CHECK(report.exit_code == 0);
@@ -85,7 +85,7 @@ TEST_CASE("whatever a command writes, a full disk is an error that names the fil
              Contains("stride: error: ") && Contains("cannot write") && Contains("File too large"));
   if (arguments.front() != "pack") CHECK_THAT(outcome.err, Contains(file));
   CHECK_FALSE(fs::exists(workspace / file));
-  CHECK_FALSE(fs::exists(workspace / (file + ".new")));
+  CHECK_FALSE(fs::exists(workspace / (file + ".stride-new")));
 }
 
 TEST_CASE("where a capture cannot be ended, run.json contains that") {

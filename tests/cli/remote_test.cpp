@@ -212,6 +212,21 @@ TEST_CASE("a run that is interrupted while a unit there hangs ends, and nothing 
   CHECK(leftovers.after_a_while().empty());
 }
 
+TEST_CASE("an interruption ends the wait for a machine that does not answer") {
+  const Leftovers leftovers;
+  const Workspace workspace(with_annotation(two_filters(), host("second", "", "exec:sleep 30")));
+  Process run(stride_command({"run", "test.ssd", "--quiet", "--out", "out"}),
+              workspace.scratch().path());
+  while (run.is_running() && leftovers.processes("sleep").empty()) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  run.send(SIGTERM);
+  const Outcome outcome = run.wait();
+  CHECK(outcome.exit_code == 1);
+  CHECK_THAT(outcome.err, Contains("the run was interrupted"));
+  CHECK(leftovers.after_a_while().empty());
+}
+
 TEST_CASE("a run that goes on from a checkpoint has the same bytes") {
   const Workspace near(two_filters());
   REQUIRE(near.run(kHalfSecond).exit_code == 0);

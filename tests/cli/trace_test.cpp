@@ -37,7 +37,7 @@ class Folder {
   std::string error(const Arguments& further) const {
     const std::string message = input_error_of(trace(further));
     CHECK_FALSE(fs::exists(scratch_ / "out.vcd"));
-    CHECK_FALSE(fs::exists(scratch_ / "out.vcd.new"));
+    CHECK_FALSE(fs::exists(scratch_ / "out.vcd.stride-new"));
     return message;
   }
 
@@ -184,9 +184,9 @@ TEST_CASE("trace leaves nothing of a file that grows too large") {
   }
   const Outcome outcome = Process(limited, (folder / "").parent_path()).wait();
   CHECK(outcome.exit_code == 1);
-  CHECK_THAT(outcome.err, Contains("out.vcd.new: cannot write the file: File too large"));
+  CHECK_THAT(outcome.err, Contains("out.vcd.stride-new: cannot write the file: File too large"));
   CHECK_FALSE(fs::exists(folder / "out.vcd"));
-  CHECK_FALSE(fs::exists(folder / "out.vcd.new"));
+  CHECK_FALSE(fs::exists(folder / "out.vcd.stride-new"));
 }
 
 TEST_CASE("trace writes into a pipe, too") {

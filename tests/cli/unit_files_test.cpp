@@ -56,7 +56,8 @@ class Trap {
       INFO(file);
       CHECK(fs::is_regular_file(fs::symlink_status(workspace / "out" / file)));
       CHECK(fs::file_size(workspace / "out" / file) > 0);
-      CHECK_FALSE(fs::exists(fs::symlink_status(workspace / "out" / (std::string(file) + ".new"))));
+      CHECK_FALSE(
+          fs::exists(fs::symlink_status(workspace / "out" / (std::string(file) + ".stride-new"))));
     }
     CHECK(data_of(workspace.result("report.html"))["notes"].empty());
   }

@@ -55,7 +55,7 @@ void read_trace(const std::string& bytes, CutOff cut_off) {
     } catch (const Refusal&) {
     }
   }
-  for (const char* name : {"short.vcd.new", "long.vcd.new"}) {
+  for (const char* name : {"short.vcd.stride-new", "long.vcd.stride-new"}) {
     ensure(!fs::exists(working_path(name)), "no part of a file is left");
   }
 }

@@ -51,6 +51,9 @@ TEST_CASE("a record is read as it was written") {
     CHECK(parse_record(records.plan, 1, line) == result);
     CHECK(parse_record(records.plan, 2, line) == std::nullopt);
     CHECK(parse_record(records.plan, 1, line.substr(0, line.size() / 2)) == std::nullopt);
+    std::string other = line;
+    other[other.find("\"hash\":\"") + 8] ^= 1;  // of other values
+    CHECK(parse_record(records.plan, 1, other) == std::nullopt);
   }
   const std::string line = record_line(records.plan, records.plan.at(0), odd);
   CHECK(parse_record(records.plan, 0, line)->aggregates == odd.aggregates);

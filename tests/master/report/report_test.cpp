@@ -66,7 +66,7 @@ TEST_CASE("the page has the data in place of its mark, and all else as it is") {
   CHECK(page_with_data.starts_with(empty.substr(0, mark)));
   CHECK(page_with_data.ends_with(empty.substr(mark + kDataMark.size())));
   CHECK(page_with_data.find(kDataMark) == std::string::npos);
-  CHECK_FALSE(std::filesystem::exists(folder / "report.html.new"));
+  CHECK_FALSE(std::filesystem::exists(folder / "report.html.stride-new"));
 }
 
 TEST_CASE("the data is what was recorded") {
@@ -161,7 +161,7 @@ TEST_CASE("where it fails the page before stays, and no part of a new one") {
   CHECK_THAT(error_of([&] { write_report(folder / "report.html", results, ""); }),
              Contains("gone.jpg: cannot read the picture"));
   CHECK(content(folder / "report.html") == "old");
-  CHECK_FALSE(std::filesystem::exists(folder / "report.html.new"));
+  CHECK_FALSE(std::filesystem::exists(folder / "report.html.stride-new"));
 }
 
 TEST_CASE("a file that cannot be written is named") {

@@ -25,7 +25,7 @@ std::string compress_error(const std::string& text, std::optional<Duration> min_
   const std::string message =
       error_of([&] { compress(folder / "in.vcd", folder / "out.vcd", min_gap, CutOff::Refuse); });
   CHECK_FALSE(std::filesystem::exists(folder / "out.vcd"));
-  CHECK_FALSE(std::filesystem::exists(folder / "out.vcd.new"));
+  CHECK_FALSE(std::filesystem::exists(folder / "out.vcd.stride-new"));
   return message;
 }
 

@@ -24,7 +24,7 @@ std::string expand_error(const std::string& text) {
   const std::string message =
       error_of([&] { expand(folder / "in.vcd", folder / "out.vcd", CutOff::Refuse); });
   CHECK(content(folder / "out.vcd") == "old");
-  CHECK_FALSE(std::filesystem::exists(folder / "out.vcd.new"));
+  CHECK_FALSE(std::filesystem::exists(folder / "out.vcd.stride-new"));
   return message;
 }
 

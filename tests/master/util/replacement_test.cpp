@@ -71,16 +71,16 @@ TEST_CASE("What is in the place of the new file is removed, and no link there is
   const TemporaryFolder folder;
   folder.write("other", "other");
   folder.write("x", "old");
-  fs::create_symlink(folder / "other", folder / "x.new");
+  fs::create_symlink(folder / "other", folder / "x.stride-new");
   replace(folder / "x", "new");
-  folder.write("x.new", "left by a killed process");
+  folder.write("x.stride-new", "left by a killed process");
   replace(folder / "x", "newer");
   CHECK(content(folder / "x") == "newer");
   CHECK(content(folder / "other") == "other");
   CHECK(files_in(folder / "") == 2);
-  fs::create_directories(folder / "x.new/full");
+  fs::create_directories(folder / "x.stride-new/full");
   CHECK_THAT(error_of([&] { replace(folder / "x", ""); }),
-             Contains("x.new: cannot create the file: File exists"));
+             Contains("x.stride-new: cannot create the file: File exists"));
 }
 
 TEST_CASE("What is not a regular file is written, not replaced") {
@@ -113,7 +113,7 @@ TEST_CASE("A disk that is full leaves the old file as it was") {
   folder.write("x", "old");
   const FileSizeLimit limit(1000);
   CHECK_THAT(error_of([&] { replace(folder / "x", std::string(2000, 'x')); }),
-             Contains("x.new: cannot write the file: File too large") &&
+             Contains("x.stride-new: cannot write the file: File too large") &&
                  Contains("nothing is left of it"));
   CHECK(content(folder / "x") == "old");
   CHECK(files_in(folder / "") == 1);
@@ -126,7 +126,7 @@ TEST_CASE("What cannot be written is named, and nothing is left") {
                                            Contains("make the folder"));
   CHECK_THAT(error(folder / ""), Contains("this is a folder; expected a file to write to"));
   CHECK_THAT(error(""), Contains("no file is named to write to"));
-  CHECK_THAT(error("/sys/x"), Contains("/sys/x.new: cannot create the file") &&
+  CHECK_THAT(error("/sys/x"), Contains("/sys/x.stride-new: cannot create the file") &&
                                   Contains("a folder in which you may write"));
   CHECK(files_in(folder / "") == 0);
 }

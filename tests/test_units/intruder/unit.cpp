@@ -17,9 +17,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kMasterFiles[] = {"signals.csv",  "events.csv", "activity.csv",
-                                        "signals.vcd",  "run.json",   "report.html",
-                                        "run.json.new", "junit.xml",  "report.html.new"};
+constexpr const char* kMasterFiles[] = {
+    "signals.csv", "events.csv",          "activity.csv", "signals.vcd",           "run.json",
+    "report.html", "run.json.stride-new", "junit.xml",    "report.html.stride-new"};
 
 /// The folder that it was given, and the file outside that it is after.
 struct Places {
