@@ -86,7 +86,8 @@ void Connection::greet() {
   call_ = "the connection";
   while (!greeting_) {
     if (!pump(kGlance) && !process_->out.is_open()) fail_end();
-    check_limits(options_.connect_limit);
+    check_silence(options_.connect_limit);
+    check_interruption();
   }
   heard_ = Clock::now();
 }
@@ -101,19 +102,20 @@ void Connection::send(const char* call) {
 
 wire::Reply::Reader Connection::receive() {
   for (;;) {
-    check_limits(options_.silence_limit);  // also where the other side never stops to talk
-    if (const auto reply = next_reply()) return *reply;
-    if (!pump(kGlance) && !process_->out.is_open()) fail_end();
+    if (const auto reply = receive(options_.silence_limit)) return *reply;
   }
 }
 
+/// What has come already counts, however long nobody has looked; and who never stops to talk can be
+/// interrupted, too.
 std::optional<wire::Reply::Reader> Connection::receive(std::chrono::milliseconds limit) {
   const auto end = Clock::now() + limit;
   for (;;) {
+    check_interruption();
     if (const auto reply = next_reply()) return reply;
     if (Clock::now() >= end) return std::nullopt;
     if (!pump(kGlance) && !process_->out.is_open()) fail_end();
-    check_limits(options_.silence_limit);
+    check_silence(options_.silence_limit);
   }
 }
 
@@ -223,16 +225,18 @@ void Connection::read_err() {
 
 // ---- Failures ----
 
-void Connection::check_limits(std::chrono::milliseconds limit) {
-  const auto now = Clock::now();
-  if (now - heard_ >= limit) {
-    fail(greeting_ ? fmt::format("{} has given no sign of life for {} s{}", machine(),
-                                 seconds(limit), present_call())
-                   : fmt::format("{} has not answered within {} s", machine(), seconds(limit)),
-         greeting_ ? "a slow network may need a longer silenceLimit"
-                   : "what needs longer, such as a queue of jobs, needs a longer connectLimit");
-  }
+void Connection::check_silence(std::chrono::milliseconds limit) {
+  if (Clock::now() - heard_ < limit) return;
+  fail(greeting_ ? fmt::format("{} has given no sign of life for {} s{}", machine(), seconds(limit),
+                               present_call())
+                 : fmt::format("{} has not answered within {} s", machine(), seconds(limit)),
+       greeting_ ? "a slow network may need a longer silenceLimit"
+                 : "what needs longer, such as a queue of jobs, needs a longer connectLimit");
+}
+
+void Connection::check_interruption() {
   if (options_.interrupted == nullptr || *options_.interrupted == 0) return;
+  const auto now = Clock::now();
   if (!interrupted_at_) interrupted_at_ = now;
   if (now - *interrupted_at_ <= kInterruptedPatience) return;
   fail(

@@ -61,6 +61,15 @@ class Connection {
   /// Sends what was put, as far as the other side takes it. `call`: what it is for, in words for
   /// errors, a literal.
   void send(const char* call);
+  /// Both, of a request that is awaited.
+  template <class Fill>
+  void ask(const char* call, Fill&& fill) {
+    put([&](wire::Request::Builder request) {
+      request.setIsAwaited(true);
+      fill(request);
+    });
+    send(call);
+  }
   /// Awaits the next reply that is not a sign of life; its message stays until the next call.
   wire::Reply::Reader receive();
   /// The same for no longer than the limit; null if there is none.
@@ -84,7 +93,8 @@ class Connection {
   void read_err();
   void take_greeting(std::string_view bytes);
   std::optional<wire::Reply::Reader> next_reply();
-  void check_limits(std::chrono::milliseconds limit);
+  void check_silence(std::chrono::milliseconds limit);
+  void check_interruption();
   [[noreturn]] void fail_end();
   [[noreturn]] void fail(const std::string& what, const std::string& hint = "");
   std::string hint_of_end() const;

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <memory>
 #include <string>
+#include <thread>
 
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
@@ -35,9 +36,11 @@ std::string serve_command() { return fmt::format("exec:{} serve", stride_program
 
 /// In Initialization Mode.
 std::unique_ptr<remote::RemoteUnit> unit_elsewhere(const std::string& unit,
-                                                   const std::string& at = serve_command()) {
+                                                   const std::string& at = serve_command(),
+                                                   std::chrono::milliseconds silence_limit = 30s) {
   const remote::RemoteSpec spec{.place = remote::parse_place(at, ""),
-                                .fmu = (test_unit_folder() / (unit + ".fmu")).string()};
+                                .fmu = (test_unit_folder() / (unit + ".fmu")).string(),
+                                .silence_limit = silence_limit};
   auto made =
       std::make_unique<remote::RemoteUnit>(spec, remote::describe(spec, {}), unit,
                                            importer::InstanceOptions{}, isolation::HostOptions{});
@@ -74,6 +77,14 @@ TEST_CASE("while one machine is not done with a step another one is asked for it
   CHECK(quick->finish_step().reached == Time(10ms));
   fs::remove(closed);
   CHECK(slow->finish_step().reached == Time(10ms));
+}
+
+TEST_CASE("a machine whose answer nobody has looked at for long was not silent") {
+  const auto unit = unit_elsewhere("feedthrough", serve_command(), 1s);
+  begin(*unit);
+  unit->begin_step(core::StepInterval(Time(), Time(10ms)), {}, {});
+  std::this_thread::sleep_for(1500ms);  // other units step meanwhile
+  CHECK(unit->finish_step().reached == Time(10ms));
 }
 
 TEST_CASE("a value of many pieces comes back as it was sent") {
