@@ -9,6 +9,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "master/coverage/told_apart.h"
+
 namespace stride::campaign {
 namespace {
 
@@ -158,13 +160,12 @@ const coverage::GroupDefinition* CountedBins::group_in(
 
 std::string CountedBins::title(const coverage::GroupDefinition& group,
                                const coverage::PointDefinition& point) const {
-  constexpr std::size_t kDigits = 8;
   const coverage::GroupDefinition* const usual = group_in(definitions_.of_scenario());
   if (usual == nullptr || usual == &group) return point.name;
   const auto same = std::ranges::find(usual->points, point.name, &PointDefinition::name);
   const std::string definition = hash(group, point);
   if (same == usual->points.end() || hash(*usual, *same) == definition) return point.name;
-  return fmt::format("{}@{}", point.name, definition.substr(0, kDigits));
+  return coverage::label(point.name, definition);
 }
 
 std::map<std::string, std::uint64_t> CountedBins::of(const CaseResult& result,

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -30,6 +29,7 @@
 #include "master/util/input_file.h"
 #include "master/util/message_text.h"
 #include "master/util/number_text.h"
+#include "master/util/saturated_sum.h"
 #include "master/util/suggest.h"
 
 namespace stride::cli {
@@ -60,10 +60,7 @@ constexpr std::string_view kEndsItem = "ends: ";
 
 void add_items(const std::map<std::string, std::uint64_t>& items,
                std::map<std::string, std::uint64_t>& all) {
-  for (const auto& [item, count] : items) {
-    std::uint64_t& sum = all[item];
-    sum += std::min(count, std::numeric_limits<std::uint64_t>::max() - sum);
-  }
+  for (const auto& [item, count] : items) all[item] = core::saturated_sum(all[item], count);
 }
 
 Cases read_cases(const CampaignInput& input, const campaign::CaseFolder& folder,

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstdio>
-#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
@@ -27,8 +26,6 @@
 namespace stride::cli {
 namespace {
 
-namespace fs = std::filesystem;
-
 struct SubmitArguments {
   CampaignArguments campaign;
   ClusterArguments cluster;
@@ -40,8 +37,7 @@ struct SubmitArguments {
 /// The command of a job.
 std::vector<std::string> job_words(const SubmitArguments& arguments) {
   const CampaignArguments& named = arguments.campaign;
-  std::vector<std::string> words{fs::read_symlink("/proc/self/exe").string(), "campaign", "run",
-                                 named.file.string()};
+  std::vector<std::string> words{"campaign", "run", named.file.string()};
   if (!named.out.empty()) words.insert(words.end(), {"--out", named.out.string()});
   words.insert(words.end(), {"--jobs", std::to_string(arguments.processors), "--cases"});
   return words;

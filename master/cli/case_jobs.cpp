@@ -60,6 +60,11 @@ std::vector<std::string> environment() {
   return variables;
 }
 
+std::vector<std::string> with_program(std::vector<std::string> words) {
+  words.insert(words.begin(), fs::read_symlink("/proc/self/exe").string());
+  return words;
+}
+
 }  // namespace
 
 CLI::Option* add_cluster_options(CLI::App& command, ClusterArguments& arguments,
@@ -93,7 +98,7 @@ CaseJobs::CaseJobs(const ClusterArguments& arguments, const campaign::Campaign& 
       campaign_(campaign),
       cluster_(make_cluster(arguments.cluster)),
       folder_(folder / cluster_->word()),
-      command_(std::move(command)),
+      command_(with_program(std::move(command))),
       processors_(processors) {}
 
 std::string CaseJobs::script_name(const std::string& id) { return id + kScriptEnd; }

@@ -34,7 +34,8 @@ CLI::Option* add_cluster_options(CLI::App& command, ClusterArguments& arguments,
 
 class CaseJobs {
  public:
-  /// `folder`: that of the cases. `command`: of a job; a range of cases follows it. `processors`:
+  /// `folder`: that of the cases. `command`: of a job, behind
+  /// the program; a range of cases follows it. `processors`:
   /// of a job, which runs as many cases at the same time. The other arguments must outlive it.
   CaseJobs(const ClusterArguments& arguments, const campaign::Campaign& campaign,
            const std::filesystem::path& folder, std::vector<std::string> command,

@@ -18,6 +18,7 @@
 #include "master/cli/starters.h"
 #include "master/util/error.h"
 #include "master/util/output_file.h"
+#include "master/util/program_root.h"
 #include "master/util/shell_word.h"
 
 namespace stride::cli {
@@ -37,8 +38,7 @@ struct NewRequest {
   }
 };
 
-/// It is the name of files, of a target of CMake, of a namespace or class of C++, and in FMI that
-/// of a library.
+/// It is the name of files, of a target of CMake, and in FMI an identifier of C.
 constexpr std::string_view kTaken[] = {
     "all",       "and",      "auto",     "bool",     "break",    "case",     "catch",   "char",
     "class",     "clean",    "const",    "continue", "default",  "delete",   "do",      "double",
@@ -127,10 +127,10 @@ std::vector<std::string> write_files(const NewRequest& request, const fs::path& 
 
 /// What CMake has to be told to find this stride; empty where it looks by itself.
 std::string prefix_option() {
-  std::error_code failure;
-  const fs::path prefix = fs::read_symlink("/proc/self/exe", failure).parent_path().parent_path();
+  const fs::path prefix = core::program_root();
   if (prefix == "/usr" || prefix == "/usr/local") return "";
-  const bool is_installed = fs::exists(prefix / STRIDE_PACKAGE_FOLDER, failure);
+  std::error_code unknown;
+  const bool is_installed = fs::exists(prefix / STRIDE_PACKAGE_FOLDER, unknown);
   const std::string where = is_installed ? prefix.string() : "FOLDER";
   return " " + core::shell_word("-DCMAKE_PREFIX_PATH=" + where) +
          (is_installed ? "" : "   # FOLDER: where stride is installed");

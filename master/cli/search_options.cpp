@@ -94,8 +94,7 @@ std::size_t cases_side_by_side(const SearchArguments& arguments) {
 std::vector<std::string> part_words(const SearchArguments& arguments,
                                     const std::filesystem::path& folder) {
   const search::Request& request = arguments.request;
-  std::vector<std::string> words{std::filesystem::read_symlink("/proc/self/exe").string(),
-                                 "campaign",
+  std::vector<std::string> words{"campaign",
                                  "search",
                                  arguments.campaign.file.string(),
                                  "--out",

@@ -32,8 +32,8 @@ void add_search_options(CLI::App& command, SearchArguments& arguments);
 
 /// How many cases of a job of a cluster run at the same time.
 std::size_t cases_side_by_side(const SearchArguments& arguments);
-/// The words of a command that runs some cases of the search in this folder: a range of them
-/// follows.
+/// The words behind the program of what runs some cases of the search in this folder: a range of
+/// them follows.
 std::vector<std::string> part_words(const SearchArguments& arguments,
                                     const std::filesystem::path& folder);
 

@@ -12,14 +12,12 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "master/util/saturated_sum.h"
+
 namespace stride::coverage {
 namespace {
 
 constexpr std::uint64_t kNoCase = std::numeric_limits<std::uint64_t>::max();
-
-std::uint64_t saturated_sum(std::uint64_t a, std::uint64_t b) {
-  return a + std::min(b, std::numeric_limits<std::uint64_t>::max() - a);
-}
 
 std::optional<std::uint64_t> earlier_of(std::optional<std::uint64_t> a,
                                         std::optional<std::uint64_t> b) {
@@ -35,7 +33,7 @@ void add(BinCount& bin, const BinCount& other) {
     bin.first = other.first;
     bin.in_case = other.in_case;
   }
-  bin.count = saturated_sum(bin.count, other.count);
+  bin.count = core::saturated_sum(bin.count, other.count);
 }
 
 std::ptrdiff_t first_other(const PointReport& point) {
@@ -88,7 +86,7 @@ void merge(PointReport& point, const PointReport& other) {
   for (std::size_t i = other.declared; i < other.bins.size(); ++i) add_other(point, other.bins[i]);
   fold_further(point);
   point.place = std::min(point.place, other.place);
-  point.runs = saturated_sum(point.runs, other.runs);
+  point.runs = core::saturated_sum(point.runs, other.runs);
   point.first_case = earlier_of(point.first_case, other.first_case);
 }
 
@@ -192,9 +190,9 @@ void merge(Report& report, const Report& other) {
   merge_groups(report.groups, other.groups);
   report.scenario = merged_names(report.scenario, other.scenario);
   report.definition = definition_of(report.groups);
-  report.runs = saturated_sum(report.runs, other.runs);
+  report.runs = core::saturated_sum(report.runs, other.runs);
   if (report.cases || other.cases) {
-    report.cases = saturated_sum(report.cases.value_or(0), other.cases.value_or(0));
+    report.cases = core::saturated_sum(report.cases.value_or(0), other.cases.value_or(0));
   }
 }
 

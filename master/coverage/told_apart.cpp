@@ -8,8 +8,6 @@
 namespace stride::coverage {
 namespace {
 
-constexpr std::size_t kLabelDigits = 8;
-
 /// What a bin is called where the definition of a point decides it.
 std::string declared_bin(const PointReport& point, std::size_t i) {
   if (i >= point.declared) return "not there";
@@ -60,9 +58,14 @@ std::string why(const GroupReport& group, const PointReport& point) {
 
 }  // namespace
 
+std::string label(const std::string& name, const std::string& definition) {
+  constexpr std::size_t kDigits = 8;
+  return fmt::format("{}@{}", name, definition.substr(0, kDigits));
+}
+
 std::string label(const GroupReport& group, const PointReport& point) {
   if (std::ranges::count(group.points, point.name, &PointReport::name) == 1) return point.name;
-  return fmt::format("{}@{}", point.name, point.definition.substr(0, kLabelDigits));
+  return label(point.name, point.definition);
 }
 
 std::vector<std::string> part_labels(const GroupReport& group, const PointReport& cross) {

@@ -11,8 +11,10 @@
 
 namespace stride::coverage {
 
+/// A name, and behind it a part of the definition of what it names: "output@3f2a91c0".
+std::string label(const std::string& name, const std::string& definition);
 /// What the point is called where names have to be unique in a group: its name, and behind it a
-/// part of its definition where another definition has the same name: "output@3f2a91c0".
+/// part of its definition where another definition has the same name.
 std::string label(const GroupReport& group, const PointReport& point);
 /// Of the parts of a cross.
 std::vector<std::string> part_labels(const GroupReport& group, const PointReport& cross);

@@ -1,38 +1,17 @@
 #include "master/isolation/codec.h"
 
-#include <algorithm>
-#include <cmath>
 #include <string>
 #include <type_traits>
+#include <utility>
+
+#include "master/isolation/untrusted_values.h"
 
 namespace stride::isolation {
-namespace {
-
-constexpr bool is_number(core::ValueType type) {
-  return type != core::ValueType::String && type != core::ValueType::Binary;
-}
-
-constexpr bool is_truth(core::ValueType type) {
-  return type == core::ValueType::Boolean || type == core::ValueType::Clock;
-}
-
-std::size_t byte_count(const core::ValueBlock& values) {
-  return values.size() * core::element_size(values.type());
-}
-
-/// A bool of another byte than 0 and 1 has no value in C++.
-void make_true_or_false(core::ValueBlock& values) {
-  std::byte* const bytes = values.bytes();
-  std::transform(bytes, bytes + byte_count(values), bytes,
-                 [](std::byte byte) { return std::byte{byte != std::byte{0}}; });
-}
-
-}  // namespace
 
 // ---- Values ----
 
 void put_values(PacketWriter& to, const core::ValueBlock& values) {
-  if (is_number(values.type())) return to.put_bytes(values.bytes(), byte_count(values));
+  if (has_fixed_size(values.type())) return to.put_bytes(values.bytes(), byte_count(values));
   core::visit(values, [&]<class T>(std::span<const T> elements) {
     if constexpr (!std::is_arithmetic_v<T>) {
       for (const T& element : elements) {
@@ -44,10 +23,9 @@ void put_values(PacketWriter& to, const core::ValueBlock& values) {
 }
 
 void take_values(PacketReader& from, core::ValueBlock& values) {
-  if (is_number(values.type())) {
+  if (has_fixed_size(values.type())) {
     from.take_into(values.bytes(), byte_count(values));
-    if (is_truth(values.type())) make_true_or_false(values);
-    return;
+    return make_true_or_false(values);
   }
   core::visit(values, [&]<class T>(std::span<T> elements) {
     if constexpr (!std::is_arithmetic_v<T>) {
@@ -101,13 +79,13 @@ void put_step(PacketWriter& to, const core::StepResult& result) {
 core::StepResult take_step(PacketReader& from, const core::StepInterval& interval) {
   const auto flags = from.take<std::uint8_t>();
   const Time reached{Duration(from.take<Duration::rep>())};
-  const bool is_rejected = (flags & kRejected) != 0;
-  if (!is_rejected && (reached < interval.from || reached > interval.to)) throw BadPacket();
-  return {.rejected = is_rejected,
-          .early_return = (flags & kEarlyReturn) != 0,
-          .event_handling_needed = (flags & kEventNeeded) != 0,
-          .terminate_simulation = (flags & kTerminate) != 0,
-          .reached = reached};
+  const core::StepResult result{.rejected = (flags & kRejected) != 0,
+                                .early_return = (flags & kEarlyReturn) != 0,
+                                .event_handling_needed = (flags & kEventNeeded) != 0,
+                                .terminate_simulation = (flags & kTerminate) != 0,
+                                .reached = reached};
+  if (!is_possible(result, interval)) throw BadPacket();
+  return result;
 }
 
 void put_events(PacketWriter& to, const core::EventResult& result) {
@@ -121,9 +99,7 @@ core::EventResult take_events(PacketReader& from) {
   result.discrete_states_need_update = from.take<bool>();
   result.terminate_simulation = from.take<bool>();
   result.next_event_time = take_time(from);
-  // no unit can give a later one, and with these a sum does not overflow
-  const double seconds = to_seconds(result.next_event_time.value_or(Time{}));
-  if (std::abs(seconds) > kMaxSeconds + 1) throw BadPacket();
+  if (!is_possible(result)) throw BadPacket();
   return result;
 }
 

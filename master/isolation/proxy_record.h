@@ -10,9 +10,28 @@
 
 #include <stride/time.h>
 
+#include "master/algorithm/capabilities/clock_intervals.h"
+#include "master/algorithm/capabilities/concurrent_steps.h"
+#include "master/algorithm/capabilities/configuration_mode.h"
+#include "master/algorithm/capabilities/directional_derivatives.h"
+#include "master/algorithm/capabilities/host_diagnostics.h"
+#include "master/algorithm/capabilities/idle_promises.h"
 #include "master/algorithm/capabilities/inputs_within_step.h"
+#include "master/algorithm/capabilities/message_text.h"
+#include "master/algorithm/capabilities/resetting.h"
+#include "master/algorithm/capabilities/state_saving.h"
+#include "master/algorithm/capabilities/state_serialization.h"
+#include "master/algorithm/capabilities/unit_diagnostics.h"
+#include "master/algorithm/capability.h"
 
 namespace stride::isolation {
+
+/// What any unit may be capable of; which of it this one is, is known when it is there.
+using ProxyCapabilities =
+    core::Capabilities<core::ConfigurationMode, core::StateSaving, core::StateSerialization,
+                       core::Resetting, core::IdlePromises, core::DirectionalDerivatives,
+                       core::ClockIntervals, core::InputsWithinStep, core::MessageText,
+                       core::UnitDiagnostics, core::HostDiagnostics, core::ConcurrentSteps>;
 
 /// The simulated time of the unit, and those of its saved states, for errors.
 class ProxyTimes {

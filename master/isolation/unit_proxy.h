@@ -7,18 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "master/algorithm/capabilities/clock_intervals.h"
-#include "master/algorithm/capabilities/concurrent_steps.h"
-#include "master/algorithm/capabilities/configuration_mode.h"
-#include "master/algorithm/capabilities/directional_derivatives.h"
-#include "master/algorithm/capabilities/host_diagnostics.h"
-#include "master/algorithm/capabilities/idle_promises.h"
-#include "master/algorithm/capabilities/inputs_within_step.h"
-#include "master/algorithm/capabilities/message_text.h"
-#include "master/algorithm/capabilities/resetting.h"
-#include "master/algorithm/capabilities/state_saving.h"
-#include "master/algorithm/capabilities/state_serialization.h"
-#include "master/algorithm/capabilities/unit_diagnostics.h"
 #include "master/algorithm/unit.h"
 #include "master/isolation/codec.h"
 #include "master/isolation/host_client.h"
@@ -31,13 +19,7 @@ namespace stride::isolation {
 /// Represents a unit in another process: each function is a request, and what the unit answers or
 /// throws is answered and thrown here. Its capabilities are those of the unit, besides
 /// HostDiagnostics and ConcurrentSteps, and StateSaving where states are snapshots of the process.
-class UnitProxy final
-    : public core::Unit,
-      public core::Capabilities<core::ConfigurationMode, core::StateSaving,
-                                core::StateSerialization, core::Resetting, core::IdlePromises,
-                                core::DirectionalDerivatives, core::ClockIntervals,
-                                core::InputsWithinStep, core::MessageText, core::UnitDiagnostics,
-                                core::HostDiagnostics, core::ConcurrentSteps> {
+class UnitProxy final : public core::Unit, public ProxyCapabilities {
  public:
   using References = std::span<const core::ValueReference>;
 

@@ -1,7 +1,6 @@
 #include "master/remote/codec.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstring>
 #include <string>
 #include <type_traits>
@@ -9,23 +8,16 @@
 
 #include <fmt/format.h>
 
+#include "master/isolation/untrusted_values.h"
+
 namespace stride::remote {
 namespace {
 
-constexpr bool is_number(core::ValueType type) {
-  return type != core::ValueType::String && type != core::ValueType::Binary;
-}
-
-constexpr bool is_truth(core::ValueType type) {
-  return type == core::ValueType::Boolean || type == core::ValueType::Clock;
-}
-
-std::size_t byte_count(const core::ValueBlock& values) {
-  return is_number(values.type()) ? values.size() * core::element_size(values.type()) : 0;
-}
+using isolation::byte_count;
+using isolation::has_fixed_size;
 
 std::size_t text_count(const core::ValueBlock& values) {
-  return is_number(values.type()) ? 0 : values.size();
+  return has_fixed_size(values.type()) ? 0 : values.size();
 }
 
 using TextsBuilder = capnp::List<capnp::Data>::Builder;
@@ -53,21 +45,26 @@ unsigned take_texts(TextsReader from, unsigned at, core::ValueBlock& values) {
   return at;
 }
 
-/// A bool of another byte than 0 and 1 has no value in C++.
-void make_true_or_false(core::ValueBlock& values) {
-  std::byte* const bytes = values.bytes();
-  std::transform(bytes, bytes + byte_count(values), bytes,
-                 [](std::byte byte) { return std::byte{byte != std::byte{0}}; });
-}
+/// What blocks have in them.
+struct Extent {
+  std::size_t bytes = 0;  ///< of elements with a fixed size
+  std::size_t texts = 0;
+};
 
 /// `block(i)`: of `count` blocks.
 template <class GetBlock>
-void put_blocks(wire::Values::Builder to, std::size_t count, GetBlock&& block) {
-  std::size_t bytes = 0, texts = 0;
+Extent extent_of(std::size_t count, GetBlock&& block) {
+  Extent extent;
   for (std::size_t i = 0; i < count; ++i) {
-    bytes += byte_count(block(i));
-    texts += text_count(block(i));
+    extent.bytes += byte_count(block(i));
+    extent.texts += text_count(block(i));
   }
+  return extent;
+}
+
+template <class GetBlock>
+void put_blocks(wire::Values::Builder to, std::size_t count, GetBlock&& block) {
+  const auto [bytes, texts] = extent_of(count, block);
   if (bytes > kLongestMessage || texts > kLongestMessage) {
     throw BadMessage("the values of a call are too many for a message");
   }
@@ -90,11 +87,7 @@ void put_blocks(wire::Values::Builder to, std::size_t count, GetBlock&& block) {
 
 template <class GetBlock>
 void take_blocks(wire::Values::Reader from, std::size_t count, GetBlock&& block) {
-  std::size_t bytes = 0, texts = 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    bytes += byte_count(block(i));
-    texts += text_count(block(i));
-  }
+  const auto [bytes, texts] = extent_of(count, block);
   const capnp::Data::Reader numbers = from.getNumbers();
   const TextsReader list = from.getTexts();
   if (numbers.size() != bytes || list.size() != texts) {
@@ -105,12 +98,12 @@ void take_blocks(wire::Values::Reader from, std::size_t count, GetBlock&& block)
   unsigned text = 0;
   for (std::size_t i = 0; i < count; ++i) {
     core::ValueBlock& to = block(i);
-    if (!is_number(to.type())) {
+    if (!has_fixed_size(to.type())) {
       text = take_texts(list, text, to);
     } else if (const std::size_t size = byte_count(to); size > 0) {
       std::memcpy(to.bytes(), at, size);
       at += size;
-      if (is_truth(to.type())) make_true_or_false(to);
+      isolation::make_true_or_false(to);
     }
   }
 }
@@ -238,14 +231,15 @@ void put_result(wire::StepResult::Builder to, const core::StepResult& result) {
 }
 
 core::StepResult take_result(wire::StepResult::Reader from, const core::StepInterval& interval) {
-  const Time reached = to_time(from.getReached());
-  const bool is_within = reached >= interval.from && reached <= interval.to;
-  if (!from.getIsRejected() && !is_within) throw BadMessage("a step has ended outside of itself");
-  return {.rejected = from.getIsRejected(),
-          .early_return = from.getIsEarlyReturn(),
-          .event_handling_needed = from.getEventHandlingNeeded(),
-          .terminate_simulation = from.getTerminateSimulation(),
-          .reached = reached};
+  const core::StepResult result{.rejected = from.getIsRejected(),
+                                .early_return = from.getIsEarlyReturn(),
+                                .event_handling_needed = from.getEventHandlingNeeded(),
+                                .terminate_simulation = from.getTerminateSimulation(),
+                                .reached = to_time(from.getReached())};
+  if (!isolation::is_possible(result, interval)) {
+    throw BadMessage("a step has ended outside of itself");
+  }
+  return result;
 }
 
 void put_events(wire::EventResult::Builder to, const core::EventResult& result) {
@@ -259,9 +253,7 @@ core::EventResult take_events(wire::EventResult::Reader from) {
   result.discrete_states_need_update = from.getDiscreteStatesNeedUpdate();
   result.terminate_simulation = from.getTerminateSimulation();
   result.next_event_time = take_time(from.getNextEventTime());
-  // no unit can give a later one, and with these a sum does not overflow
-  const double seconds = to_seconds(result.next_event_time.value_or(Time{}));
-  if (std::abs(seconds) > kMaxSeconds + 1) throw BadMessage("there is no such time of an event");
+  if (!isolation::is_possible(result)) throw BadMessage("there is no such time of an event");
   return result;
 }
 

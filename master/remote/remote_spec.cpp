@@ -33,11 +33,10 @@ std::vector<importer::DescriptionFile> take_files(wire::Description::Reader desc
 
 }  // namespace
 
-void rethrow_here(const core::Error& error, const core::Location& where, const std::string& unit,
-                  const std::string& machine) {
+void rethrow_here(const core::Error& error, const core::Context& here, const std::string& machine) {
   core::Context context = error.context();
-  context.where = where;
-  if (context.unit.empty()) context.unit = unit;
+  context.where = here.where;
+  if (context.unit.empty()) context.unit = here.unit;
   throw core::Error(error.kind(), std::move(context),
                     fmt::format("{}: {}", machine, error.message()), error.hint());
 }
@@ -54,25 +53,17 @@ std::shared_ptr<importer::Fmu> describe(const RemoteSpec& spec, const core::Loca
   if (!spec.sent.empty()) return importer::Fmu::load(spec.sent, where);
   Connection connection(connection_options(spec, where));
   connection.greet();
-  connection.put([&](wire::Request::Builder request) {
-    request.setIsAwaited(true);
-    request.setDescribe(spec.fmu);
-  });
-  connection.send("the description");
-  return checked(connection, [&] {
-    try {
+  connection.ask("the description",
+                 [&](wire::Request::Builder request) { request.setDescribe(spec.fmu); });
+  return told_here(connection, {.where = where}, [&] {
+    return checked(connection, [&] {
       const wire::Result::Reader result = take_done(connection);
       if (!result.isDescription()) throw BadMessage("an answer of another kind");
       const auto description = result.getDescription();
       return make_described_fmu(
           take_files(description), where,
           fmt::format("{}:{}", spec.place.machine, to_string(description.getPath())));
-    } catch (const core::EnvironmentError&) {
-      throw;
-    } catch (const core::Error& error) {
-      if (connection.has_failed() || !error.context().where.file.empty()) throw;
-      rethrow_here(error, where, "", connection.machine());
-    }
+    });
   });
 }
 
@@ -86,11 +77,7 @@ Trial try_connection(const RemoteSpec& spec, const core::Location& where) {
   std::vector<std::chrono::nanoseconds> times;
   while (times.size() < kTrials) {
     const auto sent = Clock::now();
-    connection.put([](wire::Request::Builder request) {
-      request.setIsAwaited(true);
-      request.setPing();
-    });
-    connection.send("a round trip");
+    connection.ask("a round trip", [](wire::Request::Builder request) { request.setPing(); });
     checked(connection, [&] { take_done(connection); });
     times.push_back(Clock::now() - sent);
   }

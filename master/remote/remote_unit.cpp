@@ -48,7 +48,7 @@ RemoteUnit::~RemoteUnit() {
 
 void RemoteUnit::instantiate() {
   connection_->greet();
-  try {
+  told_here(*connection_, {.where = options_.where, .unit = name_}, [&] {
     if (!spec_.sent.empty()) send_file();
     call(
         "the instantiation",
@@ -58,12 +58,7 @@ void RemoteUnit::instantiate() {
           capabilities_ = take_capabilities(result.getInstance());
           take_protections(result.getInstance(), statistics_);
         });
-  } catch (const core::EnvironmentError&) {
-    throw;
-  } catch (const core::Error& error) {
-    if (connection_->has_failed() || !error.context().where.file.empty()) throw;
-    rethrow_here(error, options_.where, name_, connection_->machine());
-  }
+  });
   has_unit_ = true;
   for (const core::CapabilityId id :
        {core::CapabilityId::UnitDiagnostics, core::CapabilityId::HostDiagnostics,

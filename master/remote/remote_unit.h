@@ -9,18 +9,6 @@
 #include <string>
 #include <vector>
 
-#include "master/algorithm/capabilities/clock_intervals.h"
-#include "master/algorithm/capabilities/concurrent_steps.h"
-#include "master/algorithm/capabilities/configuration_mode.h"
-#include "master/algorithm/capabilities/directional_derivatives.h"
-#include "master/algorithm/capabilities/host_diagnostics.h"
-#include "master/algorithm/capabilities/idle_promises.h"
-#include "master/algorithm/capabilities/inputs_within_step.h"
-#include "master/algorithm/capabilities/message_text.h"
-#include "master/algorithm/capabilities/resetting.h"
-#include "master/algorithm/capabilities/state_saving.h"
-#include "master/algorithm/capabilities/state_serialization.h"
-#include "master/algorithm/capabilities/unit_diagnostics.h"
 #include "master/algorithm/unit.h"
 #include "master/importer/fmu.h"
 #include "master/isolation/codec.h"
@@ -40,13 +28,7 @@ namespace stride::remote {
 /// A failure of the link is a core::Error of the kind Run with the machine and its last words;
 /// after it each call but terminate() and free() throws. Files that the unit has written there are
 /// in `options.results` when it is freed.
-class RemoteUnit final
-    : public core::Unit,
-      public core::Capabilities<core::ConfigurationMode, core::StateSaving,
-                                core::StateSerialization, core::Resetting, core::IdlePromises,
-                                core::DirectionalDerivatives, core::ClockIntervals,
-                                core::InputsWithinStep, core::MessageText, core::UnitDiagnostics,
-                                core::HostDiagnostics, core::ConcurrentSteps> {
+class RemoteUnit final : public core::Unit, public isolation::ProxyCapabilities {
  public:
   using References = std::span<const core::ValueReference>;
 
@@ -178,11 +160,7 @@ template <class Fill>
 void RemoteUnit::send(const char* name, Fill&& fill) {
   guard([&] {
     connection_->set_time(times_.now);
-    connection_->put([&](wire::Request::Builder request) {
-      request.setIsAwaited(true);
-      fill(request);
-    });
-    connection_->send(name);
+    connection_->ask(name, fill);
   });
   sent_at_ = waited_from_ = Clock::now();
 }

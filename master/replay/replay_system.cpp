@@ -205,19 +205,11 @@ class ReplayWriter {
       const bool is_set = change.kind == core::Intervention::Kind::Set;
       writer_.open(is_set ? "stride:Set" : "stride:Force");
       writer_.attribute("variable", own_name(system_.variable(change.id).name));
-      if (change.value) writer_.attribute("value", text_of(*change.value));
+      if (change.value) writer_.attribute("value", core::elements_text(*change.value));
       writer_.attribute(is_set ? "at" : "from", core::to_text(change.from));
       if (change.until) writer_.attribute("until", core::to_text(*change.until));
       writer_.close();
     }
-  }
-
-  static std::string text_of(const core::ValueBlock& values) {
-    std::string text;
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      text += (i == 0 ? "" : " ") + core::element_text(values, i);
-    }
-    return text;
   }
 
   void write_records() {

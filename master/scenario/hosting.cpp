@@ -79,12 +79,6 @@ Hosting make_hosting(std::string reason, const core::UnitDescription& unit,
 
 }  // namespace
 
-bool has_remote_rule(const HostRules& rules, const HostRequest& request) {
-  return !request.places.empty() || std::ranges::any_of(rules.rules, [](const HostRule& rule) {
-    return rule.settings.remote.has_value();
-  });
-}
-
 std::vector<HostSettings> host_settings(std::span<const std::string> components, HostRules rules,
                                         const HostRequest& request) {
   add_rules(request, rules.rules);

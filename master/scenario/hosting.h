@@ -33,9 +33,6 @@ struct Hosting {
   std::optional<remote::RemoteSpec> remote{};  ///< none: on this machine
 };
 
-/// Whether anything says that a unit runs on another machine.
-bool has_remote_rule(const HostRules& rules, const HostRequest& request);
-
 /// The settings of each component, from the scenario and the command line, which has precedence.
 /// Throws core::Error (Input) for a pattern that matches none, and for a number that is none.
 std::vector<HostSettings> host_settings(std::span<const std::string> components, HostRules rules,

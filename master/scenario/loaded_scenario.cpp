@@ -117,7 +117,7 @@ ComponentFile component_file(const std::string& option, const std::string& text,
 
 std::vector<std::shared_ptr<importer::Fmu>> load_fmus(const Scenario& scenario) {
   UnitStore units;
-  return load_fmus(scenario, units, annotated_hosts(scenario));
+  return load_fmus(scenario, units, hosts_for_loading(scenario, {}));
 }
 
 std::vector<std::shared_ptr<importer::Fmu>> load_fmus(const Scenario& scenario, UnitStore& units,
@@ -198,12 +198,9 @@ void LoadedScenario::swap(const std::string& text) {
 }
 
 void LoadedScenario::load_units(const ScenarioRequest& request) {
-  std::vector<HostSettings> hosts(scenario_.sources.size());
-  if (has_remote_rule(scenario_.annotation.hosts, request.hosts)) {
-    hosts = host_settings(component_names(), scenario_.annotation.hosts, request.hosts);
-  }
   UnitStore own;
-  fmus_ = load_fmus(scenario_, request.units ? *request.units : own, hosts);
+  fmus_ = load_fmus(scenario_, request.units ? *request.units : own,
+                    hosts_for_loading(scenario_, request.hosts));
   std::set<std::string> known;
   for (std::size_t i = 0; i < fmus_.size(); ++i) {
     core::ComponentDeclaration& component = scenario_.system.components[i];

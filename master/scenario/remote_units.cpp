@@ -1,9 +1,10 @@
 #include "master/scenario/remote_units.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "master/remote/description_files.h"
-#include "master/scenario/hosting.h"
 #include "master/scenario/unit_path.h"
 #include "master/util/input_file.h"
 
@@ -25,13 +26,15 @@ remote::RemoteSpec remote_spec(const RemoteSettings& settings,
                    "pack it (stride pack), or name an FMU of that machine (fmu=\"…\")");
 }
 
-std::vector<HostSettings> annotated_hosts(const Scenario& scenario) {
+std::vector<HostSettings> hosts_for_loading(const Scenario& scenario, const HostRequest& request) {
+  const HostRules& rules = scenario.annotation.hosts;
+  const bool has_any =
+      !request.places.empty() || std::ranges::any_of(rules.rules, [](const HostRule& rule) {
+        return rule.settings.remote.has_value();
+      });
   std::vector<std::string> names;
   for (const auto& component : scenario.system.components) names.push_back(component.name);
-  if (!has_remote_rule(scenario.annotation.hosts, {})) {
-    return std::vector<HostSettings>(names.size());
-  }
-  return host_settings(names, scenario.annotation.hosts, {});
+  return has_any ? host_settings(names, rules, request) : std::vector<HostSettings>(names.size());
 }
 
 std::string description_digest(const importer::Fmu& fmu) {

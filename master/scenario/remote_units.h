@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "master/remote/remote_unit.h"
+#include "master/scenario/hosting.h"
 #include "master/scenario/run_settings.h"
 #include "master/scenario/scenario.h"
 
@@ -18,8 +19,9 @@ namespace stride::scenario {
 /// Throws core::Error (Input).
 remote::RemoteSpec remote_spec(const RemoteSettings& settings, const std::filesystem::path& source);
 
-/// The settings of the hosts of a scenario's components, by its annotation alone.
-std::vector<HostSettings> annotated_hosts(const Scenario& scenario);
+/// The settings of the hosts of a scenario's components, for units that are loaded: none where they
+/// say of no unit that it is elsewhere, so that mistakes in them are looked for later.
+std::vector<HostSettings> hosts_for_loading(const Scenario& scenario, const HostRequest& request);
 
 /// What is known of a unit that stays elsewhere: a hash of its description.
 std::string description_digest(const importer::Fmu& fmu);

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "master/util/input_file.h"
+#include "master/util/program_root.h"
 #include "master/util/suggest.h"
 
 namespace stride::scenario {
@@ -37,10 +38,7 @@ std::vector<fs::path> unit_folders() {
       rest.erase(0, end + 1);
     }
   }
-  std::error_code unknown;
-  const fs::path program = fs::read_symlink("/proc/self/exe", unknown);
-  if (!unknown) {
-    const fs::path root = program.parent_path().parent_path();
+  if (const fs::path root = core::program_root(); !root.empty()) {
     folders.push_back(root / "units");
     folders.push_back(root / "lib" / "stride" / "units");
   }

@@ -1,20 +1,18 @@
 #include <string>
-#include <system_error>
 
 #include <dlfcn.h>
 #include <fmt/format.h>
 
 #include "master/search/optimiser.h"
 #include "master/util/error.h"
+#include "master/util/program_root.h"
 
 namespace stride::search {
 
 namespace fs = std::filesystem;
 
 fs::path optimiser_library() {
-  std::error_code unknown;
-  const fs::path program = fs::read_symlink("/proc/self/exe", unknown);
-  return program.parent_path().parent_path() / "lib" / "stride" / STRIDE_OPTIMISER_LIBRARY;
+  return core::program_root() / "lib" / "stride" / STRIDE_OPTIMISER_LIBRARY;
 }
 
 /// Its symbols are its own, so no unit sees them.

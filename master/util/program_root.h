@@ -1,0 +1,14 @@
+#ifndef STRIDE_MASTER_UTIL_PROGRAM_ROOT_H
+#define STRIDE_MASTER_UTIL_PROGRAM_ROOT_H
+
+#include <filesystem>
+
+namespace stride::core {
+
+/// The folder above that of this program: of a build, or where stride is installed. Empty if it is
+/// not known.
+std::filesystem::path program_root();
+
+}  // namespace stride::core
+
+#endif
