@@ -25,6 +25,7 @@ RunContext::RunContext(const System& system_of_run, std::vector<std::unique_ptr<
       outputs(system, observed),
       exchange(system, outputs.sources()),
       statistics{.units = std::vector<UnitStatistics>(units.size())},
+      until(options.stop),
       clock(options.measure_time) {
   outputs.connect(exchange);
   statistics.start = statistics.reached = options.start;

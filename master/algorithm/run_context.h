@@ -34,6 +34,7 @@ struct RunContext {
   RunStatistics statistics;
   std::vector<Observer*> observers;
   Activities activities;
+  Time until;       ///< no step goes beyond it
   WallClock clock;  ///< measures in some of the communication steps only (TimeSampling)
 };
 

@@ -77,12 +77,17 @@ class Simulation::Run {
 
   void set_control(RunControl& control) { pauses_.set_control(control); }
 
-  void run() {
-    perform([&] { initialize(); });
+  void run_from_here() {
+    advance(options_.stop);
+    end();
   }
 
-  void resume(StateArchive& state, const std::function<void()>& started) {
-    perform([&] {
+  void begin() {
+    start([&] { initialize(); });
+  }
+
+  void begin(StateArchive& state, const std::function<void()>& started) {
+    start([&] {
       is_initialized_ = true;
       restore(state);
       start_observers();
@@ -90,24 +95,66 @@ class Simulation::Run {
     });
   }
 
+  void advance(Time until) {
+    make_part([&] {
+      context_.until = std::min(until, options_.stop);
+      go_on();
+    });
+  }
+
+  void make_event(std::vector<Intervention> interventions, std::span<const SentMessage> messages) {
+    make_part([&] {
+      interventions_.add(std::move(interventions), time_);
+      for (const SentMessage& message : messages) event_handler_.send(message);
+      handle_events();
+      notify_observers();
+    });
+  }
+
+  ValueBlock value(VariableId id) {
+    std::optional<ValueBlock> value;
+    make_part([&] { value = read_value(id); });
+    return *std::move(value);
+  }
+
+  void end() {
+    check_between_parts();
+    began_ = WallClock::Source::now();
+    if (time_ < options_.stop && statistics_.end == RunEnd::Completed) {
+      statistics_.end = RunEnd::EndedEarly;
+    }
+    end_behind([] {});
+  }
+
+  RunStatistics present_statistics() const {
+    RunStatistics present = statistics_;
+    if (!is_between_parts_) add_wall_time(present);
+    sampling_.scale(present);
+    counters_.add_to(present);
+    return present;
+  }
+
   void persist(StateArchive& state) {
-    pauses_.check_paused();
+    if (!is_between_parts_) pauses_.check_paused();
     if (state.is_reading()) throw std::logic_error("a state is read by resume() only");
     persist_all(state);
   }
 
   void add_interventions(std::vector<Intervention> interventions) {
     pauses_.check_paused();
-    interventions_.add(std::move(interventions), time_);
+    interventions_.add(std::move(interventions), time_ + Duration(1));
   }
 
   void run_rest() {
     pauses_.check_paused();
-    end_behind([&] { go_on(); });
+    end_behind([&] {
+      pauses_.begin(time_);
+      go_on();
+    });
   }
 
   void abandon() noexcept {
-    add_wall_time(statistics_);
+    if (!is_between_parts_) add_wall_time(statistics_);
     sampling_.end();
     std::exception_ptr ignored;
     finish_observers(ignored);
@@ -117,20 +164,39 @@ class Simulation::Run {
   std::size_t count() const { return units_.size(); }
   bool sets_inputs_in_steps() const { return options_.sets_inputs_in_steps(); }
 
-  /// The whole run. `begin` leaves the units in Step Mode.
+  /// The part before the first step. `begin` leaves the units in Step Mode.
   template <class Begin>
-  void perform(Begin&& begin) {
+  void start(Begin&& begin) {
     if (std::exchange(has_run_, true)) throw std::logic_error("a simulation runs once");
-    began_ = WallClock::Source::now();
-    end_behind([&] {
+    is_between_parts_ = true;
+    make_part([&] {
       clock_.timed(statistics_.phases.initialization, begin);
       is_initialized_ = true;
       sampling_.begin();
-      go_on();
+      pauses_.begin(time_);
     });
   }
 
-  /// What follows the last step, whether the steps succeed or not.
+  /// If it fails, the run has ended.
+  template <class Part>
+  void make_part(Part&& part) {
+    check_between_parts();
+    is_between_parts_ = false;
+    began_ = WallClock::Source::now();
+    try {
+      part();
+    } catch (...) {
+      conclude(std::current_exception());
+    }
+    add_wall_time(statistics_);
+    is_between_parts_ = true;
+  }
+
+  void check_between_parts() const {
+    if (!is_between_parts_) throw std::logic_error("the run has not begun, is under way or over");
+  }
+
+  /// The last part of the run, and what follows it.
   template <class Steps>
   void end_behind(Steps&& steps) {
     std::exception_ptr failure;
@@ -141,6 +207,12 @@ class Simulation::Run {
     } catch (...) {
       failure = std::current_exception();
     }
+    conclude(failure);
+  }
+
+  /// What follows the last step, whether the steps have succeeded or not.
+  void conclude(std::exception_ptr failure) {
+    is_between_parts_ = false;
     terminate_units(failure);
     add_wall_time(statistics_);
     sampling_.end();
@@ -279,9 +351,8 @@ class Simulation::Run {
     }
   }
 
-  /// Up to the end of the run.
+  /// Up to the end of this part.
   void go_on() {
-    pauses_.begin(time_);
     while (true) {
       if (pauses_.may_be_due(time_)) [[unlikely]]
         make_pauses();
@@ -336,15 +407,12 @@ class Simulation::Run {
       statistics_.reached = time_;
       return;
     }
-    RunStatistics present = statistics_;
-    add_wall_time(present);
-    sampling_.scale(present);
-    counters_.add_to(present);
+    RunStatistics present = present_statistics();
     core::persist(state, present);
   }
 
   bool should_continue() {
-    if (time_ >= options_.stop || statistics_.end == RunEnd::EndedByUnit) return false;
+    if (time_ >= context_.until || statistics_.end == RunEnd::EndedByUnit) return false;
     if (options_.interrupted == nullptr || *options_.interrupted == 0) [[likely]]
       return true;
     statistics_.end = RunEnd::Interrupted;
@@ -419,7 +487,7 @@ class Simulation::Run {
       if (quiet_until) target = step_policy_->next_while_idle(time_, *quiet_until);
     }
     if (target == time_) target = step_policy_->next(time_);
-    return interventions_.next(event_handler_.next_event(target));
+    return std::min(interventions_.next(event_handler_.next_event(target)), context_.until);
   }
 
   void handle_events() {
@@ -427,6 +495,29 @@ class Simulation::Run {
     interventions_.make(time_);
     event_handler_.handle_events();
     if (inputs_) inputs_->accept(time_, event_handler_.had_event());
+  }
+
+  ValueBlock read_value(VariableId id) {
+    if (system_.is_output(id)) return read_output(system_.outputs()[id.variable]);
+    const Variable& variable = system_.variable(id);
+    ValueBlock value(variable.type, variable.size);
+    if (exchange_.has(id)) {
+      const Signal known = exchange_.signal(id);
+      copy_elements(value, 0, *known.block, known.first, value.size());
+      return value;
+    }
+    if (idle_ && idle_->is_suspended(id.component)) {
+      idle_->catch_up_and_report(id.component, time_);
+    }
+    units_[id.component]->get({&variable.reference, 1}, value);
+    return value;
+  }
+
+  ValueBlock read_output(const SystemOutput& output) {
+    ValueBlock value(output.variable.type, output.variable.size);
+    copy_elements(value, 0, read_value(output.from), output.from_first, value.size(),
+                  output.conversion);
+    return value;
   }
 
   void check_stall() {
@@ -464,6 +555,7 @@ class Simulation::Run {
   std::vector<Verdict> verdicts_;
 
   bool has_run_ = false;
+  bool is_between_parts_ = false;
   bool is_initialized_ = false;
   bool has_started_observers_ = false;
   WallClock::Source::time_point began_{};
@@ -489,10 +581,14 @@ void Simulation::add_observer(Observer& observer, std::vector<VariableId> signal
 
 void Simulation::set_control(RunControl& control) { run_->set_control(control); }
 
-void Simulation::run() { run_->run(); }
+void Simulation::run() {
+  run_->begin();
+  run_->run_from_here();
+}
 
 void Simulation::resume(StateArchive& state, const std::function<void()>& started) {
-  run_->resume(state, started);
+  run_->begin(state, started);
+  run_->run_from_here();
 }
 
 void Simulation::persist(StateArchive& state) { run_->persist(state); }
@@ -502,6 +598,25 @@ void Simulation::add_interventions(std::vector<Intervention> interventions) {
 }
 
 void Simulation::run_rest() { run_->run_rest(); }
+
+void Simulation::begin() { run_->begin(); }
+
+void Simulation::begin(StateArchive& state, const std::function<void()>& started) {
+  run_->begin(state, started);
+}
+
+void Simulation::advance(Time until) { run_->advance(until); }
+
+void Simulation::make_event(std::vector<Intervention> interventions,
+                            std::span<const SentMessage> messages) {
+  run_->make_event(std::move(interventions), messages);
+}
+
+ValueBlock Simulation::value(VariableId id) { return run_->value(id); }
+
+void Simulation::end() { run_->end(); }
+
+RunStatistics Simulation::present_statistics() const { return run_->present_statistics(); }
 
 void Simulation::abandon() noexcept { run_->abandon(); }
 

@@ -10,6 +10,7 @@
 
 #include <stride/time.h>
 
+#include "master/algorithm/events/sent_message.h"
 #include "master/algorithm/observer.h"
 #include "master/algorithm/run_control.h"
 #include "master/algorithm/run_options.h"
@@ -17,6 +18,7 @@
 #include "master/algorithm/unit.h"
 #include "master/algorithm/verdict.h"
 #include "master/model/system.h"
+#include "master/model/values.h"
 
 namespace stride::core {
 
@@ -54,8 +56,8 @@ class Simulation {
   /// been terminated, and the observers' on_finish() has been called then, too.
   void resume(StateArchive& state, const std::function<void()>& started);
 
-  /// In a pause or an interruption (RunControl): writes the state of the run, but for what belongs
-  /// to the units and to the observers.
+  /// In a pause or an interruption (RunControl), and between the parts of a run: writes the state
+  /// of the run, but for what belongs to the units and to the observers.
   void persist(StateArchive& state);
   /// In a pause: further interventions, beside those of the options. They begin later than now.
   void add_interventions(std::vector<Intervention> interventions);
@@ -63,6 +65,29 @@ class Simulation {
   /// In a pause, in a fork of the process: makes the rest of the run, as run() does. Of the paused
   /// call nothing may go on behind it.
   void run_rest();
+
+  // ---- In parts, instead of run() ----
+  //
+  // Each of them throws as run() does, and the run is over then, as behind end().
+
+  /// From initialisation to the first communication point, which is observed.
+  void begin();
+  /// Likewise from a state, as resume() does.
+  void begin(StateArchive& state, const std::function<void()>& started);
+  /// From a communication point to the one at `until`, at the stop time, or where a unit ends the
+  /// simulation or it is interrupted. A step ends at `until` as it does at an event.
+  void advance(Time until);
+  /// Between the parts: what begins now, at the instant that has been reached, and further
+  /// messages, at most one to each clock. Units handle that as an event at this instant, which is
+  /// then observed again. The interventions begin now or later.
+  void make_event(std::vector<Intervention> interventions, std::span<const SentMessage> messages);
+  /// Between the parts: the present value of any variable. A suspended unit catches up if its
+  /// variable is neither connected nor observed.
+  ValueBlock value(VariableId id);
+  /// Terminates and frees the units.
+  void end();
+  /// What statistics() are between the parts, with the wall-clock times so far.
+  RunStatistics present_statistics() const;
 
   /// Calls the observers' on_finish(), and no unit, where run() cannot go on: for a process that a
   /// unit has damaged. The statistics are those up to there.

@@ -54,6 +54,8 @@ const char* name(RunEnd end) {
       return "ended by a unit";
     case RunEnd::Interrupted:
       return "interrupted";
+    case RunEnd::EndedEarly:
+      return "ended early";
   }
   return "";
 }

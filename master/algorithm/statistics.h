@@ -74,7 +74,12 @@ struct PhaseTimes {
 };
 
 /// How a run that did not fail ended.
-enum class RunEnd : std::uint8_t { Completed, EndedByUnit, Interrupted };
+enum class RunEnd : std::uint8_t {
+  Completed,
+  EndedByUnit,
+  Interrupted,
+  EndedEarly,  ///< by Simulation::end() before the stop time
+};
 
 class StateArchive;
 

@@ -13,7 +13,7 @@ Stretch::Stretch(RunContext& context, const Parts& parts, bool is_possible)
 
 /// The steps end before that.
 Time Stretch::free_until() const {
-  const Time event = std::min(context_.options.stop, parts_.event_handler.quiet_until());
+  const Time event = std::min(context_.until, parts_.event_handler.quiet_until());
   return std::min(parts_.interventions.next(event), parts_.pauses.may_be_due_from());
 }
 

@@ -14,6 +14,7 @@
 #include "master/algorithm/capabilities/message_text.h"
 #include "master/algorithm/events/clocks.h"
 #include "master/algorithm/events/messages.h"
+#include "master/algorithm/events/sent_message.h"
 #include "master/algorithm/idle/idle_scheduler.h"
 #include "master/algorithm/loops/ordered_evaluation.h"
 #include "master/algorithm/run_context.h"
@@ -44,6 +45,11 @@ class EventHandler : private OrderedEvaluation::Participants,
   void set_in_event(VariableId id, const ValueBlock& value) {
     assignments_.push_back({id, &value});
     activate(id.component);
+  }
+  /// Its receiver gets it in the next handle_events(). It must outlive that call.
+  void send(const SentMessage& message) {
+    sent_.push_back(&message);
+    activate(message.clock.component);
   }
   /// What a clock receives is dropped, delayed or corrupted from now on, and until release().
   void disturb(const Intervention& intervention) { messages_.disturb(intervention); }
@@ -91,6 +97,8 @@ class EventHandler : private OrderedEvaluation::Participants,
   }
   void activate(std::size_t i) { active_[i] = has_active_ = true; }
   void make_assignments();
+  void receive_sent(const SentMessage& message);
+  void set(VariableId id, const ValueBlock& value);
   void activate_announced();
   void update_announced();
   bool prepare_events();
@@ -136,7 +144,8 @@ class EventHandler : private OrderedEvaluation::Participants,
     VariableId id;
     const ValueBlock* value;
   };
-  std::vector<Assignment> assignments_;  ///< in the next event iteration
+  std::vector<Assignment> assignments_;   ///< in the next event iteration
+  std::vector<const SentMessage*> sent_;  ///< likewise
 
   Time time_{};
   std::uint32_t index_ = 0;                  ///< of the super-dense instant at that time

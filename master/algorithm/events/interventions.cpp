@@ -29,9 +29,9 @@ void Interventions::sort() {
       changes_, {}, [](const Change& change) { return std::tuple(change.time, !change.is_end); });
 }
 
-void Interventions::add(std::vector<Intervention> interventions, Time now) {
+void Interventions::add(std::vector<Intervention> interventions, Time earliest) {
   for (Intervention& intervention : interventions) {
-    if (intervention.from <= now) {
+    if (intervention.from < earliest) {
       throw std::logic_error("an intervention is added that would have begun already");
     }
     plan(added_.emplace_back(std::move(intervention)));

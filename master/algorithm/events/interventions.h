@@ -26,9 +26,9 @@ class Interventions {
   /// All must outlive this object. `idle`: optional idle scheduler.
   Interventions(RunContext& context, EventHandler& event_handler, IdleScheduler* idle);
 
-  /// At a communication point: those that begin later than `now`, beside those of the context.
-  /// Throws std::logic_error for others.
-  void add(std::vector<Intervention> interventions, Time now);
+  /// At a communication point whose interventions are made: further ones, which begin at `earliest`
+  /// or later. Throws std::logic_error for others.
+  void add(std::vector<Intervention> interventions, Time earliest);
   /// In a run that goes on at `now`: what has begun by then, and has not ended, is in force. What
   /// is forced is in the exchange.
   void go_on(Time now);

@@ -154,8 +154,12 @@ class Exchange {
   std::vector<VariableId> sampled_changes(std::size_t component,
                                           std::span<const ValueReference> ticking) const;
 
-  /// The value of a variable. That of a connected input is the routed one, that of an input of a
-  /// time-based clock the one at its last tick.
+  /// Whether the variable is connected or observed, so that its value is here.
+  bool has(VariableId id) {
+    return locate_input(id).transfer != nullptr || locate_output(id).transfer != nullptr;
+  }
+  /// The value of such a variable. That of a connected input is the routed one, that of an input of
+  /// a time-based clock the one at its last tick.
   Signal signal(VariableId id);
 
   /// The value of a connected variable, for the evaluation of single variables: an output that was
