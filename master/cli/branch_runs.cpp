@@ -106,13 +106,13 @@ void BranchRuns::make_rest(const Branch& branch) {
 
 /// Its run.json has the error of a crash, and gets the reason where nothing could write it.
 std::string BranchRuns::explain(const Branch& branch, const std::string& reason) const {
-  const ResultsTarget results{folder(branch), setup_.results.files};
+  const results::ResultsTarget results{folder(branch), setup_.results.files};
   const fs::path run_file = results.folder / results.files.statistics;
   if (results.files.statistics.empty() || !core::is_file(run_file)) return reason;
   std::string explained = reason;
   warn_of_failure([&] {
     explained = recorders::error_in(run_file).value_or(reason);
-    add_error(results, reason);
+    results::add_error(results, reason);
   });
   return explained;
 }

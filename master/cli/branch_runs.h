@@ -30,7 +30,7 @@ bool can_fork(const scenario::LoadedScenario& loaded, const std::filesystem::pat
 struct BranchSetup {
   const RunArguments& arguments;
   const scenario::LoadedScenario& loaded;
-  ResultsTarget& results;  ///< in the process of a branch: of the branch
+  results::ResultsTarget& results;  ///< in the process of a branch: of the branch
   RecordedRun& recorded;
   Checkpoints::Take take;
 };

@@ -9,13 +9,13 @@
 #include "master/cli/commands.h"
 #include "master/cli/crash_guard.h"
 #include "master/cli/output.h"
-#include "master/cli/output_paths.h"
 #include "master/importer/binaries.h"
 #include "master/importer/build_description.h"
 #include "master/importer/exported_functions.h"
 #include "master/importer/model_description.h"
 #include "master/importer/unpacked_fmu.h"
 #include "master/isolation/source_build.h"
+#include "master/results/output_paths.h"
 #include "master/scenario/unit_path.h"
 #include "master/util/archive/temporary_folder.h"
 #include "master/util/archive/zip.h"
@@ -35,8 +35,9 @@ struct BuildRequest {
 void build(BuildRequest request) {
   const CrashGuard guard;
   request.fmu = scenario::find_unit(request.fmu, {});
-  const OutputPath output{"--output " + request.output.string(), request.output};
-  refuse_kept_paths({&output, 1}, std::vector<KeptPath>{{request.fmu, "the FMU itself"}});
+  const results::OutputPath output{"--output " + request.output.string(), request.output};
+  results::refuse_kept_paths({&output, 1},
+                             std::vector<results::KeptPath>{{request.fmu, "the FMU itself"}});
   for (fs::path& folder : request.includes) folder = fs::absolute(folder);
   const importer::UnpackedFmu fmu(request.fmu);
   const auto unit = importer::read_model_description(fmu.description());

@@ -16,7 +16,7 @@
 #include "master/campaign/plan_check.h"
 #include "master/campaign/plan_folder.h"
 #include "master/cli/output.h"
-#include "master/cli/output_paths.h"
+#include "master/results/output_paths.h"
 #include "master/util/error.h"
 #include "master/util/input_file.h"
 #include "master/util/message_text.h"
@@ -121,8 +121,8 @@ CampaignInput::CampaignInput(const CampaignArguments& arguments, campaign::Campa
 
 std::string CampaignInput::word() const { return (is_default_folder_ ? file_ : folder_).string(); }
 
-std::vector<KeptPath> CampaignInput::inputs() const {
-  std::vector<KeptPath> inputs = inputs_of(scenario_.loaded());
+std::vector<results::KeptPath> CampaignInput::inputs() const {
+  std::vector<results::KeptPath> inputs = results::inputs_of(scenario_.loaded());
   inputs.push_back({file_, "the campaign"});
   for (const std::string& file : value_files(plan_.campaign())) {
     inputs.push_back({file, "a file of the campaign's values"});
@@ -130,22 +130,22 @@ std::vector<KeptPath> CampaignInput::inputs() const {
   return inputs;
 }
 
-void CampaignInput::refuse_output(const OutputPath& output) const {
+void CampaignInput::refuse_output(const results::OutputPath& output) const {
   using namespace campaign;
-  std::vector<KeptPath> kept = inputs();
+  std::vector<results::KeptPath> kept = inputs();
   for (const char* name : {kPlanTable, kPlanDescription, kCaseTable, kCaseLines}) {
     kept.push_back({folder_ / name, fmt::format("{} of the campaign", name)});
   }
-  refuse_kept_paths({&output, 1}, kept);
-  refuse_folders(output, folder_, {kCases, kRunning}, "the campaign");
+  results::refuse_kept_paths({&output, 1}, kept);
+  results::refuse_folders(output, folder_, {kCases, kRunning}, "the campaign");
 }
 
 void CampaignInput::refuse_inputs(std::initializer_list<const char*> names) const {
-  const std::vector<KeptPath> kept = inputs();
+  const std::vector<results::KeptPath> kept = inputs();
   for (const char* name : names) {
-    const OutputPath output{fmt::format("{} in the folder {}", name, folder_.string()),
-                            folder_ / name};
-    refuse_kept_paths({&output, 1}, kept);
+    const results::OutputPath output{fmt::format("{} in the folder {}", name, folder_.string()),
+                                     folder_ / name};
+    results::refuse_kept_paths({&output, 1}, kept);
   }
 }
 

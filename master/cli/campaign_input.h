@@ -14,7 +14,7 @@
 #include "master/campaign/definition.h"
 #include "master/campaign/plan.h"
 #include "master/cli/crash_guard.h"
-#include "master/cli/output_paths.h"
+#include "master/results/output_paths.h"
 
 namespace CLI {
 class App;
@@ -53,7 +53,7 @@ class CampaignInput {
 
   /// Throws core::Error (Input) if an output is one of the files that are read, or of the
   /// campaign's own beside its page.
-  void refuse_output(const OutputPath& output) const;
+  void refuse_output(const results::OutputPath& output) const;
   /// Throws core::Error (Input) if a file of these names in the folder is one that is read.
   void refuse_inputs(std::initializer_list<const char*> names) const;
   /// Throws core::Error (Input) where there is no plan yet, or another one.
@@ -71,7 +71,7 @@ class CampaignInput {
  private:
   explicit CampaignInput(const CampaignArguments& arguments, campaign::Campaign read);
 
-  std::vector<KeptPath> inputs() const;
+  std::vector<results::KeptPath> inputs() const;
 
   const std::filesystem::path file_, folder_;
   const bool is_default_folder_;

@@ -11,8 +11,8 @@
 #include "master/campaign/case_table.h"
 #include "master/campaign/plan_folder.h"
 #include "master/cli/output.h"
-#include "master/cli/output_paths.h"
-#include "master/cli/report_page.h"
+#include "master/results/output_paths.h"
+#include "master/results/report_page.h"
 
 namespace stride::cli {
 namespace {

@@ -27,12 +27,12 @@
 #include "master/cli/interruption.h"
 #include "master/cli/missing_cases.h"
 #include "master/cli/output.h"
-#include "master/cli/output_paths.h"
-#include "master/cli/report_page.h"
 #include "master/cli/table.h"
 #include "master/coverage/coverage_json.h"
 #include "master/coverage/demand.h"
 #include "master/recorders/results_folder.h"
+#include "master/results/output_paths.h"
+#include "master/results/report_page.h"
 #include "master/util/error.h"
 #include "master/util/message_text.h"
 #include "master/util/shell_word.h"
@@ -146,7 +146,7 @@ MissingCases::Options missing_options(const CampaignRunArguments& arguments,
 /// A page that cannot be written does not hide what became of the cases.
 void write_page(const CampaignRunArguments& arguments, const CampaignInput& input,
                 const campaign::CaseFolder& cases) {
-  if (!has_reports()) return;
+  if (!results::has_reports()) return;
   const fs::path page = input.folder() / campaign::kCampaignPage;
   write_campaign_report(page, input, cases);
   if (!arguments.quiet) print_text("Page in {}\n", page.string());

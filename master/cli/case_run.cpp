@@ -9,9 +9,9 @@
 #include "master/cli/branch_runs.h"
 #include "master/cli/crash_guard.h"
 #include "master/cli/output.h"
-#include "master/cli/provenance.h"
-#include "master/cli/report_page.h"
 #include "master/recorders/results_folder.h"
+#include "master/results/provenance.h"
+#include "master/results/report_page.h"
 
 namespace stride::cli {
 namespace {
@@ -29,8 +29,6 @@ std::string failure_text(const std::vector<core::Verdict>& verdicts) {
   }
   return count > 1 ? fmt::format("{} (and {} more)", text, count - 1) : text;
 }
-
-recorders::ResultFiles no_files() { return {{}, {}, {}, {}, {}, {}, {}}; }
 
 std::unique_ptr<recorders::UnitFolders> unit_folders_in(const std::filesystem::path& results,
                                                         const scenario::LoadedScenario& loaded) {
@@ -55,18 +53,16 @@ CaseRun::CaseRun(const scenario::ScenarioRequest& request,
       options_(run_options()),
       capture_(capture_of(results)),
       unit_folders_(unit_folders_in(target_.folder, loaded_)),
-      recorders_(loaded_.system(), target_),
-      recorded_(
-          {loaded_, options_, provenance_, target_, display_, recorders_, capture_, no_tests_},
-          instantiate()) {
+      recorded_({loaded_, options_, provenance_, target_, display_, capture_, no_tests_},
+                instantiate()) {
   if (!aggregates.empty()) recorded_.add_observer(aggregates_, aggregates_.signals());
 }
 
-ResultsTarget CaseRun::target_of(const CaseResults& results,
-                                 const scenario::LoadedScenario& loaded) {
-  if (results.folder.empty()) return {{}, no_files()};
-  ResultsTarget target{results.folder, loaded.scenario().annotation.results};
-  if (!results.has_report || !has_reports()) target.files.report.clear();
+results::ResultsTarget CaseRun::target_of(const CaseResults& results,
+                                          const scenario::LoadedScenario& loaded) {
+  if (results.folder.empty()) return {{}, results::no_files()};
+  results::ResultsTarget target{results.folder, loaded.scenario().annotation.results};
+  if (!results.has_report || !results::has_reports()) target.files.report.clear();
   if (loaded.coverage().empty()) target.files.coverage.clear();
   recorders::make_results_folder(target.folder);
   recorders::check_name_lengths(target.folder, target.files);
@@ -76,9 +72,7 @@ ResultsTarget CaseRun::target_of(const CaseResults& results,
 recorders::Provenance CaseRun::provenance(const CaseResults& results,
                                           const scenario::LoadedScenario& loaded) {
   if (results.folder.empty()) return {};
-  recorders::Provenance made = provenance_of(loaded, results.digests);
-  made.commands = {results.command};
-  return made;
+  return results::provenance_of(loaded, results.command, results.digests);
 }
 
 core::RunOptions CaseRun::run_options() const {

@@ -62,8 +62,8 @@ class CaseRun {
 
   static recorders::Provenance provenance(const CaseResults& results,
                                           const scenario::LoadedScenario& loaded);
-  static ResultsTarget target_of(const CaseResults& results,
-                                 const scenario::LoadedScenario& loaded);
+  static results::ResultsTarget target_of(const CaseResults& results,
+                                          const scenario::LoadedScenario& loaded);
   core::RunOptions run_options() const;
   capture::Capture capture_of(const CaseResults& results) const;
   std::vector<std::unique_ptr<core::Unit>> instantiate();
@@ -73,7 +73,7 @@ class CaseRun {
   const core::SpareFiles spare_;
   const Interruption interruption_;
   const scenario::LoadedScenario loaded_;
-  ResultsTarget target_;
+  results::ResultsTarget target_;
   recorders::Provenance provenance_;
   campaign::Aggregates aggregates_;
   core::RunOptions options_;
@@ -82,7 +82,6 @@ class CaseRun {
   const std::unique_ptr<const recorders::UnitFolders> unit_folders_;  ///< null: none
   const EndOfUnits end_{loaded_.process()};
   const RunDisplay display_{.progress = ProgressStyle::None, .quiet = true};
-  Recorders recorders_;
   RecordedRun recorded_;
 };
 

@@ -19,11 +19,11 @@
 #include "master/cli/interruption.h"
 #include "master/cli/machine_lack.h"
 #include "master/cli/output.h"
-#include "master/cli/output_paths.h"
-#include "master/cli/provenance.h"
-#include "master/cli/report_page.h"
 #include "master/importer/fmu.h"
 #include "master/isolation/process/keeper.h"
+#include "master/results/output_paths.h"
+#include "master/results/provenance.h"
+#include "master/results/report_page.h"
 #include "master/util/error.h"
 #include "master/util/host_name.h"
 #include "master/util/input_file.h"
@@ -87,7 +87,7 @@ void add_libraries(core::FileStamps& libraries, const importer::Fmu& fmu) {
 }
 
 void add_files(core::FileStamps& files, const scenario::LoadedScenario& loaded) {
-  for (const KeptPath& input : inputs_of(loaded)) {
+  for (const results::KeptPath& input : results::inputs_of(loaded)) {
     if (core::is_file(input.path)) files.add(input.path);
   }
   for (const auto& fmu : loaded.fmus()) {
@@ -109,11 +109,11 @@ CaseRunner::CaseRunner(const campaign::Plan& plan, const campaign::CampaignScena
   for (const fs::path& document : std::set(files.documents())) {
     if (core::is_file(document)) files.read_ahead(document);
   }
-  provenance_of(scenario.loaded(), digests_);
+  results::provenance_of(scenario.loaded(), {}, digests_);
   add_files(files_, scenario.loaded());
   for (const auto& [path, fmu] : *scenario.units()) add_libraries(libraries_, *fmu);
   for (const auto& alternative : scenario.alternatives()) {
-    provenance_of(alternative.loaded, digests_);
+    results::provenance_of(alternative.loaded, {}, digests_);
     add_files(files_, alternative.loaded);
   }
 }
@@ -310,7 +310,7 @@ std::optional<CaseResult> CaseRunner::conclude(const CasePool::Ended& ended) con
   require_libraries(ended.index);
   if (!is_complete(*result)) require_circumstances(ended, *result);
   result->wall_time = ended.wall_time.count();
-  result->began = utc_text(ended.began);
+  result->began = results::utc_text(ended.began);
   result->host = core::host_name();
   result->reason = with_lasting_paths(ended.index, std::move(result->reason));
   const bool is_wanted =
@@ -383,14 +383,17 @@ bool CaseRunner::has_units_elsewhere() const {
 
 /// What the process of the case could not do itself.
 void CaseRunner::complete_results(std::uint64_t index, const CaseResult& result) const {
-  const ResultsTarget target{scratch_.results(index),
-                             scenario_.loaded().scenario().annotation.results};
+  const results::ResultsTarget target{scratch_.results(index),
+                                      scenario_.loaded().scenario().annotation.results};
   const auto& [folder, files] = target;
   const bool has_ended = result.outcome == Outcome::Failed || result.outcome == Outcome::Passed;
   if (!has_ended)
-    add_error(target, result.reason, result.reached ? std::nullopt : std::optional(Time{}));
-  if (!has_reports() || files.report.empty() || core::is_file(folder / files.report)) return;
-  if (core::is_file(folder / files.statistics)) write_report(folder, files, folder / files.report);
+    results::add_error(target, result.reason,
+                       result.reached ? std::nullopt : std::optional(Time{}));
+  if (!results::has_reports() || files.report.empty() || core::is_file(folder / files.report))
+    return;
+  if (core::is_file(folder / files.statistics))
+    results::write_report(folder, files, folder / files.report);
 }
 
 /// Files that a process could not end are ended here; one that has no step is none.

@@ -15,10 +15,10 @@
 #include "master/cli/crash_guard.h"
 #include "master/cli/output.h"
 #include "master/cli/remote_check.h"
-#include "master/cli/scenario_options.h"
 #include "master/cli/table.h"
 #include "master/model/array_element.h"
 #include "master/scenario/loaded_scenario.h"
+#include "master/settings/scenario_options.h"
 #include "master/util/time_text.h"
 
 namespace stride::cli {
@@ -254,7 +254,7 @@ void add_check(CLI::App& app) {
                                          "Load a scenario and its units, print units, connections, "
                                          "orders and algebraic loops; run nothing");
   const auto request = std::make_shared<scenario::ScenarioRequest>();
-  add_scenario_options(*command, *request);
+  settings::add_scenario_options(*command, *request);
   command->callback([request] { check(*request); });
 }
 

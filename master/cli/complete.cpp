@@ -9,7 +9,7 @@
 
 #include "master/cli/commands.h"
 #include "master/cli/crash_guard.h"
-#include "master/cli/output_paths.h"
+#include "master/results/output_paths.h"
 #include "master/scenario/loaded_scenario.h"
 #include "master/scenario/unit_path.h"
 #include "master/util/archive/zip.h"
@@ -35,10 +35,11 @@ void write_package(const CompleteArguments& arguments, const ssp::Files::Archive
 /// The scenario itself may be replaced, and nothing else that it consists of.
 void check_output_path_of(const CompleteArguments& arguments) {
   if (arguments.output.empty()) return;
-  const OutputPath output{"--output " + arguments.output.string(), arguments.output};
-  std::vector<KeptPath> kept = files_of_scenario(arguments.scenario).inputs;
-  std::erase_if(kept, [](const KeptPath& path) { return path.what == kTheScenario; });
-  refuse_kept_paths({&output, 1}, kept);
+  const results::OutputPath output{"--output " + arguments.output.string(), arguments.output};
+  std::vector<results::KeptPath> kept = results::files_of_scenario(arguments.scenario).inputs;
+  std::erase_if(kept,
+                [](const results::KeptPath& path) { return path.what == results::kTheScenario; });
+  results::refuse_kept_paths({&output, 1}, kept);
 }
 
 /// The components of the scenario with what their FMUs declare.

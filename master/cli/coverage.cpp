@@ -13,11 +13,11 @@
 #include "master/cli/commands.h"
 #include "master/cli/coverage_table.h"
 #include "master/cli/output.h"
-#include "master/cli/output_paths.h"
 #include "master/coverage/coverage_json.h"
 #include "master/coverage/merge.h"
 #include "master/coverage/ucis.h"
 #include "master/recorders/results_folder.h"
+#include "master/results/output_paths.h"
 #include "master/util/error.h"
 #include "master/util/input_file.h"
 #include "master/util/replacement.h"
@@ -94,17 +94,17 @@ void write_ucis(const fs::path& file, const coverage::Report& report,
 
 void show_coverage(const CoverageArguments& arguments) {
   std::vector<fs::path> files;
-  std::vector<KeptPath> inputs;
+  std::vector<results::KeptPath> inputs;
   for (const fs::path& path : arguments.paths) {
     files.push_back(coverage_file(path));
     inputs.push_back({files.back(), "a coverage that is read"});
   }
-  std::vector<OutputPath> outputs;
+  std::vector<results::OutputPath> outputs;
   if (!arguments.out.empty()) outputs.push_back({"--out " + arguments.out.string(), arguments.out});
   if (!arguments.ucis.empty()) {
     outputs.push_back({"--ucis " + arguments.ucis.string(), arguments.ucis});
   }
-  refuse_kept_paths(outputs, inputs);
+  results::refuse_kept_paths(outputs, inputs);
   require_different(files);
   const auto& [report, where] = merged(files);
   if (!arguments.out.empty()) coverage::write_coverage(arguments.out, report);

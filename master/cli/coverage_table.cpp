@@ -89,12 +89,4 @@ std::string told_apart_table(const coverage::Report& report, const FilesOfPoints
   return table.size() == 0 ? "" : "\nNot alike in all runs\n" + table.text();
 }
 
-std::vector<recorders::CoverageSummary> coverage_summaries(const coverage::Report& report) {
-  std::vector<recorders::CoverageSummary> summaries;
-  for (const coverage::GroupReport& group : report.groups) {
-    summaries.push_back({group.component, group.percentage(), group.goal});
-  }
-  return summaries;
-}
-
 }  // namespace stride::cli

@@ -26,8 +26,6 @@ std::string missing_table(const coverage::Report& report);
 using FilesOfPoints = std::map<std::pair<std::string, std::string>, std::string>;
 std::string told_apart_table(const coverage::Report& report, const FilesOfPoints& where = {});
 
-std::vector<recorders::CoverageSummary> coverage_summaries(const coverage::Report& report);
-
 }  // namespace stride::cli
 
 #endif

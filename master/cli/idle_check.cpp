@@ -257,7 +257,7 @@ std::optional<Difference> first_message(const core::System& system,
 
 std::string compare_with_full_run(const scenario::LoadedScenario& loaded,
                                   const core::RunStatistics& statistics,
-                                  const ResultsTarget& skipping,
+                                  const results::ResultsTarget& skipping,
                                   const std::filesystem::path& full) {
   const auto& [folder, files] = skipping;
   std::optional<Difference> first;

@@ -24,7 +24,8 @@ inline constexpr const char* kFullRunFolder = "no_idle_skip";
 /// the run with skipping.
 std::string compare_with_full_run(const scenario::LoadedScenario& loaded,
                                   const core::RunStatistics& statistics,
-                                  const ResultsTarget& skipping, const std::filesystem::path& full);
+                                  const results::ResultsTarget& skipping,
+                                  const std::filesystem::path& full);
 
 }  // namespace stride::cli
 

@@ -13,7 +13,7 @@
 #include "master/cli/commands.h"
 #include "master/cli/crash_guard.h"
 #include "master/cli/output.h"
-#include "master/cli/output_paths.h"
+#include "master/results/output_paths.h"
 #include "master/scenario/file_units.h"
 #include "master/scenario/fmu_archives.h"
 #include "master/scenario/scenario.h"
@@ -33,11 +33,11 @@ bool is_scenario(const fs::path& path) {
 
 /// The package replaces neither what is packed nor what is bundled with it.
 void check_output_path(const importer::PackRequest& request) {
-  std::vector<KeptPath> kept{{request.library, "what is to be packed"}};
-  if (is_scenario(request.library)) kept = files_of_scenario(request.library).inputs;
+  std::vector<results::KeptPath> kept{{request.library, "what is to be packed"}};
+  if (is_scenario(request.library)) kept = results::files_of_scenario(request.library).inputs;
   for (const fs::path& library : request.bundled) kept.push_back({library, "a bundled library"});
-  const OutputPath output{"--output " + request.output.string(), request.output};
-  refuse_kept_paths({&output, 1}, kept);
+  const results::OutputPath output{"--output " + request.output.string(), request.output};
+  results::refuse_kept_paths({&output, 1}, kept);
 }
 
 void pack_scenario(const importer::PackRequest& request) {

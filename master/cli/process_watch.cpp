@@ -283,7 +283,7 @@ void Watch::report(const core::Error& error) const {
     if (!is_there(run_file)) return;
     recorders::ResultFiles files = report::result_files(run_file.parent_path());
     files.statistics = run_file.filename();
-    add_error({run_file.parent_path(), files}, error.what(), error.context().time);
+    results::add_error({run_file.parent_path(), files}, error.what(), error.context().time);
   });
   const fs::path test_report(run_files().test_report.view());
   warn_of_failure([&] {

@@ -14,33 +14,16 @@
 #include "master/algorithm/verdict.h"
 #include "master/capture/capture.h"
 #include "master/checkpoint/checkpoint_file.h"
-#include "master/checks/checks.h"
 #include "master/cli/progress.h"
 #include "master/cli/run_arguments.h"
 #include "master/cli/summary.h"
 #include "master/cli/test_report.h"
-#include "master/coverage/coverage.h"
-#include "master/recorders/activity_recorder.h"
-#include "master/recorders/csv_recorder.h"
-#include "master/recorders/event_recorder.h"
 #include "master/recorders/provenance.h"
-#include "master/recorders/results_folder.h"
-#include "master/recorders/vcd_recorder.h"
+#include "master/results/results_target.h"
+#include "master/results/run_records.h"
 #include "master/scenario/loaded_scenario.h"
 
 namespace stride::cli {
-
-/// Where the results go, and which of them are written.
-struct ResultsTarget {
-  std::filesystem::path folder;
-  recorders::ResultFiles files;
-};
-
-/// Adds an error to the run.json of a run that is over, or will not end by itself, and makes its
-/// report anew; `reached` is the time in the latter case. Does nothing if there is no run.json, or
-/// if it has an error already. Throws as recorders::add_error() and write_report() do.
-void add_error(const ResultsTarget& results, const std::string& error,
-               std::optional<Time> reached = {});
 
 struct RunDisplay {
   ProgressStyle progress = ProgressStyle::Auto;
@@ -48,45 +31,16 @@ struct RunDisplay {
   bool open_report = false;  ///< in a browser, when the run is over
 };
 
-/// The recorders of the result files that are written.
-class Recorders {
- public:
-  /// Creates the files. Throws core::Error.
-  Recorders(const core::System& system, const ResultsTarget& results);
-  /// Goes on with the files that a run has left; of its signals only where they are the same.
-  Recorders(const core::System& system, const ResultsTarget& results, const Resumption& resumption);
-
-  void add_to(core::Simulation& simulation);
-  void add_to(checkpoint::Checkpoint& checkpoint);
-  /// Compares the files that were left, and goes on in them.
-  void restore(const checkpoint::Checkpoint& checkpoint);
-  void go_on();
-  /// Before a fork, and in it.
-  void flush();
-  void continue_in_copies(const ResultsTarget& results);
-
- private:
-  /// Calls `visit` with the name, the recorder and the member of ResultFiles of each that there is.
-  template <class Visit>
-  void visit(Visit&& visit);
-
-  std::optional<recorders::CsvRecorder> signals_;
-  std::optional<recorders::EventRecorder> events_;
-  std::optional<recorders::VcdRecorder> trace_;
-  std::optional<recorders::ActivityRecorder> activity_;
-};
-
 /// What a run is made from, and must outlive it.
 struct RunSetup {
   const scenario::LoadedScenario& loaded;
   const core::RunOptions& options;
   const recorders::Provenance& provenance;
-  const ResultsTarget& results;
+  const results::ResultsTarget& results;
   const RunDisplay& display;
-  Recorders& recorders;
   capture::Capture& capture;
   TestReport& test_report;
-  bool is_resumed = false;
+  const Resumption* resumption = nullptr;    ///< null: the run begins at its start
   const Checkpoints* checkpoints = nullptr;  ///< if there are any
 };
 
@@ -107,7 +61,7 @@ class RecordedRun {
   void run();
   /// Instead of run(), for units that are what they were at the checkpoint. Throws core::Error
   /// (Input) also where the checkpoint does not suit; the results are then what they were.
-  void resume(const Resumption& resumption);
+  void resume();
 
   /// In a pause, before the process is forked: what is written so far is in the files.
   void flush();
@@ -122,11 +76,9 @@ class RecordedRun {
 
   const core::RunStatistics& statistics() const { return simulation_.statistics(); }
   /// When it is over.
-  const std::vector<core::Verdict>& verdicts() const { return verdicts_; }
+  const std::vector<core::Verdict>& verdicts() const { return records_.verdicts(); }
   /// At any time.
-  coverage::Report coverage() const {
-    return coverage_.report(scenario::stem(setup_.loaded.scenario().path));
-  }
+  coverage::Report coverage() const { return records_.coverage(); }
   /// Whether its results are its own: not before resume() has found that it can go on.
   bool has_begun() const { return has_begun_; }
   /// Why it has not come to its end, if it has not.
@@ -139,31 +91,22 @@ class RecordedRun {
  private:
   template <class Go>
   void execute(Go&& go);
-  void restore(const Resumption& resumption);
+  void restore();
   void restore_process() const;
   void conclude_failure(const std::string& error);
   void conclude();
-  void collect_verdicts(bool is_complete);
-  void write_statistics(std::optional<std::string> error);
   void announce() const;
-  void write_run_file(const std::optional<std::string>& error, bool is_over = true) const;
-  void write_coverage_file() const;
+  void write_statistics(std::optional<std::string> error);
   void write_page() const;
   void print_summary() const;
   void require_end() const;
   void warn_of_verdicts() const;
-  void warn_of_late_events() const;
-  void warn_of_inexact_repetitions() const;
-  bool is_cut_short() const;
 
   const RunSetup setup_;
   core::Simulation simulation_;
   bool has_test_report_ = true;
   bool has_begun_;  ///< or, before that: the results are still those of the run that is resumed
-  checks::Checks checks_;
-  coverage::Coverage coverage_;
-  std::vector<core::Verdict> verdicts_;
-  std::vector<core::Intervention> further_;  ///< interventions of run_rest()
+  results::RunRecords records_;
   std::optional<std::string> failure_{};
   Summary summary_;
   Progress progress_;

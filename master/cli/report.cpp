@@ -7,11 +7,13 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include "master/cli/browser.h"
 #include "master/cli/commands.h"
 #include "master/cli/output.h"
-#include "master/cli/output_paths.h"
-#include "master/cli/report_page.h"
+#include "master/cli/result_folders.h"
 #include "master/report/results.h"
+#include "master/results/output_paths.h"
+#include "master/results/report_page.h"
 #include "master/util/error.h"
 #include "master/util/input_file.h"
 
@@ -26,18 +28,19 @@ struct ReportArguments {
 
 /// The page of the run may be replaced, and no other file of its results.
 void check_output_path(const ReportArguments& arguments, recorders::ResultFiles files) {
-  const OutputPath output{"--output " + arguments.out.string(), arguments.out};
+  const results::OutputPath output{"--output " + arguments.out.string(), arguments.out};
   files.report.clear();
   refuse_result_folders(arguments.folder, output);
-  refuse_kept_paths({&output, 1}, kept_results(arguments.folder, files));
+  results::refuse_kept_paths({&output, 1}, results::kept_results(arguments.folder, files));
 }
 
 /// The name comes from run.json, which may be anything.
 void check_page(const std::filesystem::path& folder, const std::string& name,
                 recorders::ResultFiles files) {
-  const OutputPath page{fmt::format("files.report of run.json, '{}'", name), folder / name};
+  const results::OutputPath page{fmt::format("files.report of run.json, '{}'", name),
+                                 folder / name};
   files.report.clear();
-  refuse_kept_paths({&page, 1}, kept_results(folder, files));
+  results::refuse_kept_paths({&page, 1}, results::kept_results(folder, files));
   constexpr std::string_view kBegin = "<!DOCTYPE html";
   if (!core::is_file(page.file) || core::head_of(page.file, kBegin.size()) == kBegin) return;
   core::fail_input({.where = {page.file.string(), 0}},
@@ -55,7 +58,7 @@ void make_report(const ReportArguments& arguments) {
   } else {
     check_output_path(arguments, files);
   }
-  for (const std::string& note : write_report(arguments.folder, files, file)) {
+  for (const std::string& note : results::write_report(arguments.folder, files, file)) {
     spdlog::warn("{}", note);
   }
   print_text("Report in {}\n", file.string());

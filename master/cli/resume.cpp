@@ -18,10 +18,10 @@
 #include "master/cli/commands.h"
 #include "master/cli/repeated_options.h"
 #include "master/cli/run_arguments.h"
-#include "master/cli/scenario_options.h"
 #include "master/cli/scenario_run.h"
 #include "master/recorders/results_folder.h"
 #include "master/scenario/unit_path.h"
+#include "master/settings/scenario_options.h"
 #include "master/util/error.h"
 #include "master/util/input_file.h"
 #include "master/util/time_text.h"
@@ -152,7 +152,7 @@ void add_options(CLI::App& command, ResumeArguments& arguments) {
                   "Other variables to record, from the checkpoint on; with --out")
       ->type_name("GLOB")
       ->allow_extra_args(false);
-  add_intervention_options(command, changes.scenario);
+  settings::add_intervention_options(command, changes.scenario);
   command
       .add_option_function<std::string>(
           "--branch",

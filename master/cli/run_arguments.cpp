@@ -2,14 +2,12 @@
 
 #include <CLI/CLI.hpp>
 
-#include "master/cli/scenario_options.h"
 #include "master/scenario/scenario.h"
+#include "master/settings/scenario_options.h"
 #include "master/util/error.h"
 
 namespace stride::cli {
 namespace {
-
-constexpr int kMostThreads = 1024;
 
 void add_recording_options(CLI::App& command, RunArguments& arguments) {
   command
@@ -22,17 +20,7 @@ void add_recording_options(CLI::App& command, RunArguments& arguments) {
                   "be given several times")
       ->type_name("COMPONENT=FILE")
       ->allow_extra_args(false);
-  command
-      .add_option("--coverage", arguments.scenario.coverage,
-                  "Count which values and messages a component is given, as the scenario may ask "
-                  "itself; may be given several times")
-      ->type_name("COMPONENT")
-      ->allow_extra_args(false);
-  // a flag, so that what follows a blank is the scenario; the value of a flag without one is
-  // "true", kUnspecifiedFilmInterval
-  command.add_flag("--film", arguments.scenario.film,
-                   "Pictures of the MuJoCo worlds in units/COMPONENT/film/, every 0.1 s of "
-                   "simulated time, or as in --film=SECONDS");
+  settings::add_observation_options(command, arguments.scenario);
   command.add_flag("--no-report", arguments.no_report, "Write no report.html");
   command.add_flag("--no-trace", arguments.no_trace, "Write no signals.vcd");
 }
@@ -45,11 +33,7 @@ std::filesystem::path results_folder(const RunArguments& arguments) {
 }
 
 void add_thread_and_junit_options(CLI::App& command, RunArguments& arguments) {
-  command
-      .add_option("--threads", arguments.threads,
-                  "Step units on up to N threads where that is faster; the results are the same")
-      ->type_name("N")
-      ->check(CLI::Range(1, kMostThreads));
+  settings::add_thread_option(command, arguments.threads);
   command
       .add_option_function<std::string>(
           "--junit",
@@ -75,7 +59,7 @@ void add_display_options(CLI::App& command, RunArguments& arguments) {
 }
 
 void add_run_options(CLI::App& command, RunArguments& arguments) {
-  add_scenario_options(command, arguments.scenario);
+  settings::add_scenario_options(command, arguments.scenario);
   add_recording_options(command, arguments);
   add_thread_and_junit_options(command, arguments);
   add_checkpoint_options(command, arguments.checkpoints);

@@ -15,21 +15,23 @@
 #include "master/cli/branch_runs.h"
 #include "master/cli/branches.h"
 #include "master/cli/checkpoints.h"
+#include "master/cli/command_line.h"
 #include "master/cli/crash_guard.h"
 #include "master/cli/end_note.h"
 #include "master/cli/idle_check.h"
 #include "master/cli/interruption.h"
 #include "master/cli/output.h"
-#include "master/cli/output_paths.h"
-#include "master/cli/provenance.h"
 #include "master/cli/recorded_run.h"
-#include "master/cli/report_page.h"
+#include "master/cli/result_folders.h"
 #include "master/cli/summary.h"
 #include "master/cli/test_report.h"
 #include "master/recorders/copied_results.h"
 #include "master/recorders/provenance.h"
 #include "master/recorders/results_folder.h"
 #include "master/recorders/unit_folders.h"
+#include "master/results/output_paths.h"
+#include "master/results/provenance.h"
+#include "master/results/report_page.h"
 #include "master/util/input_file.h"
 #include "master/util/output_file.h"
 #include "master/util/process/process_state.h"
@@ -41,8 +43,8 @@ namespace stride::cli {
 namespace {
 
 /// The files that the command line names, without what is no name: that is reported later.
-std::vector<OutputPath> output_paths(const RunArguments& arguments) {
-  std::vector<OutputPath> outputs;
+std::vector<results::OutputPath> output_paths(const RunArguments& arguments) {
+  std::vector<results::OutputPath> outputs;
   for (const std::string& text : arguments.captures) {
     const auto parts = scenario::split_component_file(text);
     if (parts) outputs.push_back({"--capture " + text, parts->file});
@@ -53,8 +55,8 @@ std::vector<OutputPath> output_paths(const RunArguments& arguments) {
   return outputs;
 }
 
-std::vector<KeptPath> further_inputs(const RunArguments& arguments) {
-  std::vector<KeptPath> inputs;
+std::vector<results::KeptPath> further_inputs(const RunArguments& arguments) {
+  std::vector<results::KeptPath> inputs;
   if (arguments.branches.request) {
     inputs.push_back({arguments.branches.request->file, "the file of the branches"});
   }
@@ -65,16 +67,16 @@ std::vector<KeptPath> further_inputs(const RunArguments& arguments) {
 /// Throws core::Error (Input), before anything is written. Returns what it has read of the
 /// scenario, which may be nothing.
 std::shared_ptr<ssp::Files> check_output_paths(const RunArguments& arguments) {
-  const std::vector<OutputPath> outputs = output_paths(arguments);
+  const std::vector<results::OutputPath> outputs = output_paths(arguments);
   if (outputs.empty()) return nullptr;
   const std::filesystem::path folder = results_folder(arguments);
-  for (const OutputPath& output : outputs) refuse_result_folders(folder, output);
-  const ScenarioFiles files =
-      files_of_scenario(arguments.scenario.scenario, arguments.scenario.swaps);
-  refuse_kept_paths(outputs, files.inputs);
-  refuse_kept_paths(outputs, further_inputs(arguments));
-  refuse_kept_paths(outputs, kept_results(folder, files.results));
-  refuse_shared_paths(outputs);
+  for (const results::OutputPath& output : outputs) refuse_result_folders(folder, output);
+  const results::ScenarioFiles files =
+      results::files_of_scenario(arguments.scenario.scenario, arguments.scenario.swaps);
+  results::refuse_kept_paths(outputs, files.inputs);
+  results::refuse_kept_paths(outputs, further_inputs(arguments));
+  results::refuse_kept_paths(outputs, results::kept_results(folder, files.results));
+  results::refuse_shared_paths(outputs);
   return files.read;
 }
 
@@ -83,7 +85,7 @@ recorders::ResultFiles chosen_files(const RunArguments& arguments,
   recorders::ResultFiles files = loaded.scenario().annotation.results;
   if (loaded.coverage().empty()) files.coverage.clear();
   if (arguments.no_trace) files.trace.clear();
-  if (arguments.no_report || !has_reports()) files.report.clear();
+  if (arguments.no_report || !results::has_reports()) files.report.clear();
   if (arguments.open && files.report.empty()) {
     core::fail_input({}, "--open: this run writes no report",
                      "leave --open out, or let the run write its report");
@@ -133,7 +135,8 @@ struct EndOfUnits {
 /// The run with idle skipping has come to its end: tells of a unit that broke a promise, or else
 /// compares the run with the one without.
 void conclude_idle_check(const RunArguments& arguments, const scenario::LoadedScenario& loaded,
-                         const core::RunStatistics& statistics, const ResultsTarget& results) {
+                         const core::RunStatistics& statistics,
+                         const results::ResultsTarget& results) {
   if (arguments.full_run.empty()) return;
   if (arguments.promise_failure) core::fail_run({}, arguments.promise_failure->text);
   const std::string text = compare_with_full_run(loaded, statistics, results, arguments.full_run);
@@ -144,8 +147,8 @@ void conclude_idle_check(const RunArguments& arguments, const scenario::LoadedSc
 /// added.
 struct Records {
   TestReport tests;
-  std::optional<ResultsTarget> results{};  ///< once they are those of this run
-  std::optional<std::string> failure{};    ///< of the run, which is not printed yet
+  std::optional<results::ResultsTarget> results{};  ///< once they are those of this run
+  std::optional<std::string> failure{};             ///< of the run, which is not printed yet
 
   void add(const std::string& error);
 };
@@ -153,7 +156,7 @@ struct Records {
 /// The process ends, so nothing else prints the failure.
 void Records::add(const std::string& error) {
   if (failure) print_error(*failure);
-  if (results) add_error(*results, error);
+  if (results) results::add_error(*results, error);
   tests.write_late(error);
 }
 
@@ -173,7 +176,7 @@ class ResultsOfRun {
     if (resumed_ != nullptr) recorders::copy_unit_files(resumed_->results, target_.folder);
   }
 
-  ResultsTarget& target() { return target_; }
+  results::ResultsTarget& target() { return target_; }
 
   /// Copies what the run goes on with elsewhere.
   void begin() const {
@@ -196,9 +199,10 @@ class ResultsOfRun {
   }
 
  private:
-  static const std::filesystem::path& made(const ResultsTarget& target,
+  static const std::filesystem::path& made(const results::ResultsTarget& target,
                                            const scenario::LoadedScenario& loaded) {
-    refuse_results(target.folder, loaded.scenario().annotation.results, inputs_of(loaded));
+    results::refuse_results(target.folder, loaded.scenario().annotation.results,
+                            results::inputs_of(loaded));
     recorders::make_results_folder(target.folder);
     recorders::check_name_lengths(target.folder, target.files);
     return target.folder;
@@ -212,7 +216,7 @@ class ResultsOfRun {
     remove_checkpoints(target_.folder);
   }
 
-  ResultsTarget target_;
+  results::ResultsTarget target_;
   recorders::ResultFiles names_;  ///< also of those that are not chosen
   const Resumption* resumed_;     ///< null: the run begins at its start
   recorders::ResultsLock lock_;
@@ -253,10 +257,10 @@ void require_later_interventions(const core::RunOptions& options,
 recorders::Provenance provenance(const RunArguments& arguments,
                                  const scenario::LoadedScenario& loaded) {
   core::FileDigests digests;
-  recorders::Provenance made = provenance_of(loaded, digests);
+  recorders::Provenance made = results::provenance_of(loaded, command_line(), digests);
   if (!arguments.resumed) return made;
   const recorders::Provenance& before = arguments.resumed->from.provenance;
-  require_same(before, made, arguments.resumed->file);
+  results::require_same(before, made, arguments.resumed->file);
   require_time_in_run(loaded.options(), *arguments.resumed);
   require_later_interventions(loaded.options(), arguments.resumed->from);
   made.commands.insert(made.commands.begin(), before.commands.begin(), before.commands.end());
@@ -285,19 +289,13 @@ class UnitsOfRun {
     try {
       journals_.restore(resumption.from);
     } catch (const core::BadState& mistake) {
-      fail_checkpoint(resumption.file, mistake);
+      results::fail_checkpoint(resumption.file, mistake);
     }
   }
 
   checkpoint::Journals journals_;
   std::vector<std::unique_ptr<core::Unit>> instances_;
 };
-
-Recorders make_recorders(const RunArguments& arguments, const scenario::LoadedScenario& loaded,
-                         const ResultsTarget& target) {
-  if (!arguments.resumed) return Recorders(loaded.system(), target);
-  return Recorders(loaded.system(), target, *arguments.resumed);
-}
 
 /// A run and all that belongs to it, from the first file that is read to the last that is written.
 class ScenarioRun {
@@ -330,7 +328,6 @@ class ScenarioRun {
   UnitsOfRun units_;
   capture::Capture capture_;
   const RunDisplay display_;
-  Recorders recorders_;
   RecordedRun recorded_;
   BranchRuns branch_runs_;
 };
@@ -349,9 +346,8 @@ ScenarioRun::ScenarioRun(const RunArguments& arguments, Records& records)
       units_(arguments, loaded_, results_.target().folder, options_),
       capture_(begin()),
       display_{progress_style(arguments), arguments.quiet, arguments.open},
-      recorders_(make_recorders(arguments, loaded_, results_.target())),
-      recorded_({loaded_, options_, provenance_, results_.target(), display_, recorders_, capture_,
-                 records.tests, is_resumed(), &checkpoints_},
+      recorded_({loaded_, options_, provenance_, results_.target(), display_, capture_,
+                 records.tests, arguments.resumed.get(), &checkpoints_},
                 units_.take(capture_, options_)),
       branch_runs_({arguments, loaded_, results_.target(), recorded_,
                     [this](Time now) { return take(now); }}) {
@@ -406,7 +402,7 @@ void ScenarioRun::run(CrashGuard& guard) {
 void ScenarioRun::make_run() {
   try {
     if (is_resumed()) {
-      recorded_.resume(*arguments_.resumed);
+      recorded_.resume();
     } else {
       recorded_.run();
     }

@@ -1,32 +1,32 @@
-#include "master/cli/provenance.h"
+#include "master/results/provenance.h"
 
 #include <algorithm>
 #include <ctime>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "master/cli/command_line.h"
-#include "master/cli/output_paths.h"
+#include "master/results/output_paths.h"
 #include "master/util/error.h"
 #include "master/util/host_name.h"
 #include "master/util/input_file.h"
 
-namespace stride::cli {
+namespace stride::results {
 
 std::string utc_text(std::time_t time) {
   return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(time));
 }
 
 recorders::Provenance provenance_of(const scenario::LoadedScenario& loaded,
-                                    core::FileDigests& digests) {
+                                    recorders::Command command, core::FileDigests& digests) {
   recorders::Provenance made{.version = STRIDE_VERSION,
                              .date = utc_text(std::time(nullptr)),
                              .host = core::host_name(),
-                             .commands = {command_line()}};
+                             .commands = {std::move(command)}};
   const auto add = [&](const std::string& what, const std::filesystem::path& path) {
     recorders::Source source = recorders::make_source(what, path, digests);
     if (std::ranges::find(made.sources, source) == made.sources.end()) {
@@ -61,4 +61,4 @@ void fail_checkpoint(const std::filesystem::path& checkpoint, const core::BadSta
       "name another checkpoint, or let the run begin at its start");
 }
 
-}  // namespace stride::cli
+}  // namespace stride::results

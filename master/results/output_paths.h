@@ -1,6 +1,6 @@
 // What a command writes never replaces what it reads, nor another file that it writes.
-#ifndef STRIDE_MASTER_CLI_OUTPUT_PATHS_H
-#define STRIDE_MASTER_CLI_OUTPUT_PATHS_H
+#ifndef STRIDE_MASTER_RESULTS_OUTPUT_PATHS_H
+#define STRIDE_MASTER_RESULTS_OUTPUT_PATHS_H
 
 #include <filesystem>
 #include <initializer_list>
@@ -13,7 +13,7 @@
 #include "master/scenario/loaded_scenario.h"
 #include "master/ssp/files.h"
 
-namespace stride::cli {
+namespace stride::results {
 
 /// A file that the command line names to be written.
 struct OutputPath {
@@ -68,10 +68,6 @@ void refuse_shared_paths(std::span<const OutputPath> outputs);
 void refuse_folders(const OutputPath& output, const std::filesystem::path& root,
                     std::initializer_list<const char*> names, const char* owner);
 
-/// Throws core::Error (Input) if an output is in a folder of `results`: that of the files of units,
-/// where a unit could put a link, which would be followed, and those of checkpoints and branches.
-void refuse_result_folders(const std::filesystem::path& results, const OutputPath& output);
-
-}  // namespace stride::cli
+}  // namespace stride::results
 
 #endif

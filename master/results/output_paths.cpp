@@ -1,4 +1,4 @@
-#include "master/cli/output_paths.h"
+#include "master/results/output_paths.h"
 
 #include <set>
 #include <span>
@@ -7,9 +7,6 @@
 
 #include <fmt/format.h>
 
-#include "master/cli/branches.h"
-#include "master/cli/checkpoints.h"
-#include "master/recorders/unit_folders.h"
 #include "master/scenario/annotation.h"
 #include "master/scenario/unit_path.h"
 #include "master/ssp/ssp.h"
@@ -18,7 +15,7 @@
 #include "master/util/input_file.h"
 #include "master/util/xml/document.h"
 
-namespace stride::cli {
+namespace stride::results {
 namespace {
 
 namespace fs = std::filesystem;
@@ -181,13 +178,4 @@ void refuse_folders(const OutputPath& output, const fs::path& root,
   }
 }
 
-void refuse_result_folders(const fs::path& results, const OutputPath& output) {
-  if (recorders::is_in_unit_folders(results, output.file)) {
-    core::fail_input(
-        {}, fmt::format("{}: the file is in the folder of the files of units", output.option),
-        "choose a file elsewhere; units write to that folder");
-  }
-  refuse_folders(output, results, {kCheckpointsFolder, kBranchesFolder}, "the results");
-}
-
-}  // namespace stride::cli
+}  // namespace stride::results

@@ -1,6 +1,6 @@
 // What a run is made from, for whoever repeats it or goes on with it.
-#ifndef STRIDE_MASTER_CLI_PROVENANCE_H
-#define STRIDE_MASTER_CLI_PROVENANCE_H
+#ifndef STRIDE_MASTER_RESULTS_PROVENANCE_H
+#define STRIDE_MASTER_RESULTS_PROVENANCE_H
 
 #include <ctime>
 #include <filesystem>
@@ -11,15 +11,15 @@
 #include "master/util/file_digests.h"
 #include "master/util/state_archive.h"
 
-namespace stride::cli {
+namespace stride::results {
 
 /// "2026-11-25T23:59:59Z"
 std::string utc_text(std::time_t time);
 
-/// Of a run that this command line has loaded, and which begins now. Reads the files whose digests
-/// are not known yet. Throws core::Error (Input).
+/// Of a run that begins now. `command`: that has loaded it. Reads the files whose digests are not
+/// known yet. Throws core::Error (Input).
 recorders::Provenance provenance_of(const scenario::LoadedScenario& loaded,
-                                    core::FileDigests& digests);
+                                    recorders::Command command, core::FileDigests& digests);
 
 /// Throws core::Error (Input), at the checkpoint, that names all that differs.
 void require_same(const recorders::Provenance& before, const recorders::Provenance& now,
@@ -29,6 +29,6 @@ void require_same(const recorders::Provenance& before, const recorders::Provenan
 [[noreturn]] void fail_checkpoint(const std::filesystem::path& checkpoint,
                                   const core::BadState& mistake);
 
-}  // namespace stride::cli
+}  // namespace stride::results
 
 #endif

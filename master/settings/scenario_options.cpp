@@ -1,4 +1,4 @@
-#include "master/cli/scenario_options.h"
+#include "master/settings/scenario_options.h"
 
 #include <stdexcept>
 #include <string>
@@ -9,12 +9,15 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <spdlog/spdlog.h>
 
-#include "master/cli/output.h"
 #include "master/ssp/parameters.h"
+#include "master/util/message_text.h"
 
-namespace stride::cli {
+namespace stride::settings {
 namespace {
+
+constexpr int kMostThreads = 1024;
 
 /// "jacobi|gauss-seidel"
 template <class Choices>
@@ -101,7 +104,7 @@ void add_parameters(scenario::ScenarioRequest& request, const std::vector<std::s
       value.is_required = true;
       request.parameters.push_back(std::move(value));
     }
-    print_warnings(warnings);
+    for (const std::string& warning : warnings) spdlog::warn("{}", core::message_text(warning));
   }
 }
 
@@ -178,4 +181,26 @@ void add_scenario_options(CLI::App& command, scenario::ScenarioRequest& request)
       ->allow_extra_args(false);
 }
 
-}  // namespace stride::cli
+void add_observation_options(CLI::App& command, scenario::ScenarioRequest& request) {
+  command
+      .add_option("--coverage", request.coverage,
+                  "Count which values and messages a component is given, as the scenario may ask "
+                  "itself; may be given several times")
+      ->type_name("COMPONENT")
+      ->allow_extra_args(false);
+  // a flag, so that what follows a blank is the scenario; the value of a flag without one is
+  // "true", kUnspecifiedFilmInterval
+  command.add_flag("--film", request.film,
+                   "Pictures of the MuJoCo worlds in units/COMPONENT/film/, every 0.1 s of "
+                   "simulated time, or as in --film=SECONDS");
+}
+
+void add_thread_option(CLI::App& command, std::size_t& threads) {
+  command
+      .add_option("--threads", threads,
+                  "Step units on up to N threads where that is faster; the results are the same")
+      ->type_name("N")
+      ->check(CLI::Range(1, kMostThreads));
+}
+
+}  // namespace stride::settings

@@ -1,4 +1,4 @@
-#include "master/cli/report_page.h"
+#include "master/cli/browser.h"
 
 #include <cstdlib>
 #include <sstream>
@@ -9,8 +9,6 @@
 #include <spawn.h>
 #include <unistd.h>
 
-#include "master/report/page.h"
-#include "master/report/report.h"
 #include "master/util/error.h"
 
 namespace stride::cli {
@@ -52,16 +50,6 @@ bool start(std::vector<std::string> command) {
 }
 
 }  // namespace
-
-bool has_reports() { return !report::page().empty(); }
-
-std::vector<std::string> write_report(const std::filesystem::path& folder,
-                                      const recorders::ResultFiles& files,
-                                      const std::filesystem::path& report) {
-  const report::Results results = report::read_results(folder, files);
-  report::write_report(report, results, STRIDE_VERSION);
-  return results.notes;
-}
 
 void open_in_browser(const std::filesystem::path& file) {
   const std::string path = std::filesystem::absolute(file).string();

@@ -1,6 +1,6 @@
-// The report of a results folder, for `run` and for `report`.
-#ifndef STRIDE_MASTER_CLI_REPORT_PAGE_H
-#define STRIDE_MASTER_CLI_REPORT_PAGE_H
+// The report of a results folder.
+#ifndef STRIDE_MASTER_RESULTS_REPORT_PAGE_H
+#define STRIDE_MASTER_RESULTS_REPORT_PAGE_H
 
 #include <filesystem>
 #include <string>
@@ -8,7 +8,7 @@
 
 #include "master/recorders/results_folder.h"
 
-namespace stride::cli {
+namespace stride::results {
 
 /// Whether this build can make reports.
 bool has_reports();
@@ -19,10 +19,6 @@ std::vector<std::string> write_report(const std::filesystem::path& folder,
                                       const recorders::ResultFiles& files,
                                       const std::filesystem::path& report);
 
-/// Starts the first existing program of $BROWSER, or else xdg-open, with the file, and does not
-/// wait for it. Throws core::Error (Run) with a hint.
-void open_in_browser(const std::filesystem::path& file);
-
-}  // namespace stride::cli
+}  // namespace stride::results
 
 #endif

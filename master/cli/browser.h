@@ -1,0 +1,14 @@
+#ifndef STRIDE_MASTER_CLI_BROWSER_H
+#define STRIDE_MASTER_CLI_BROWSER_H
+
+#include <filesystem>
+
+namespace stride::cli {
+
+/// Starts the first existing program of $BROWSER, or else xdg-open, with the file, and does not
+/// wait for it. Throws core::Error (Run) with a hint.
+void open_in_browser(const std::filesystem::path& file);
+
+}  // namespace stride::cli
+
+#endif
