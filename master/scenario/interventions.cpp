@@ -186,6 +186,14 @@ const char* participle(InterventionKind kind) {
   return disturbs_messages(kind) ? "disturbed" : "forced";
 }
 
+void require_changeable(const core::System& system, InterventionKind kind, core::VariableId id,
+                        const core::Context& context) {
+  const auto [reason, hint] = refusal(system, kind, id);
+  if (reason.empty()) return;
+  core::fail_input(context, fmt::format("it cannot be {}, since it {}", participle(kind), reason),
+                   hint);
+}
+
 std::size_t parse_count(std::string_view text, const char* of_what) {
   std::size_t count = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), count);
@@ -250,11 +258,7 @@ Intervention resolve(const core::System& system, const InterventionDeclaration& 
       find_variable(system, declared.variable, declared.where, "a variable of a component",
                     [](const auto&, const auto&) { return true; });
   const core::Context context = context_of(system, id, declared.where);
-  if (const auto [reason, hint] = refusal(system, declared.kind, id); !reason.empty()) {
-    core::fail_input(context,
-                     fmt::format("it cannot be {}, since it {}", participle(declared.kind), reason),
-                     hint);
-  }
+  require_changeable(system, declared.kind, id, context);
   check_times(declared, context, times);
   Intervention intervention{declared.kind, id, declared.from, declared.until};
   try {
@@ -345,6 +349,10 @@ InterventionDeclaration parse_corrupt(const std::string& text) {
   declared.seed = *number;
   declared.value->resize(seed);
   return declared;
+}
+
+void require_settable(const core::System& system, core::VariableId id) {
+  require_changeable(system, InterventionKind::Set, id, context_of(system, id, {}));
 }
 
 std::vector<core::Intervention> resolve_interventions(

@@ -48,6 +48,9 @@ struct RunTimes {
   Time stop{};
 };
 
+/// Throws core::Error (Input) if it cannot be set in the middle of a run.
+void require_settable(const core::System& system, core::VariableId id);
+
 /// In the order of their instants. Throws core::Error (Input) for unknown names, for variables that
 /// cannot be changed so or at all, for values that are none of theirs, for instants outside of the
 /// run, and for two interventions that contradict each other.

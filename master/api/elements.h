@@ -1,0 +1,42 @@
+// Values in the C types of the library's interface.
+#ifndef STRIDE_MASTER_API_ELEMENTS_H
+#define STRIDE_MASTER_API_ELEMENTS_H
+
+#include <cstddef>
+#include <vector>
+
+#include <stride/master.h>
+
+#include "master/model/description.h"
+#include "master/model/values.h"
+
+namespace stride::api {
+
+inline stride_type type_of(core::ValueType type) { return static_cast<stride_type>(type); }
+inline stride_causality causality_of(core::Causality causality) {
+  return static_cast<stride_causality>(causality);
+}
+
+/// The elements of the variable. Throws core::Error (Input) where a String is NULL, or a Boolean
+/// neither 0 nor 1.
+core::ValueBlock read_elements(const core::Variable& variable, const void* elements);
+
+/// A value in its C types, which it keeps.
+class CElements {
+ public:
+  CElements() = default;
+  explicit CElements(core::ValueBlock value);
+
+  const void* data() const;
+  /// Copies the elements; pointers in them are to what is kept here.
+  void copy_to(void* elements) const;
+
+ private:
+  std::vector<core::ValueBlock> value_;  ///< one, or none
+  std::vector<const char*> strings_;
+  std::vector<stride_bytes> bytes_;
+};
+
+}  // namespace stride::api
+
+#endif
