@@ -1,0 +1,51 @@
+"""Keyword arguments as the options of `stride run`."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Mapping
+from typing import Any, Optional
+
+Setting = tuple[str, Optional[str]]
+
+
+def _text(value: Any) -> str:
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, (bytes, bytearray)):
+        return bytes(value).hex()
+    if isinstance(value, (str, os.PathLike)):
+        return os.fspath(value)
+    if isinstance(value, Iterable):
+        return " ".join(_text(element) for element in value)
+    if isinstance(value, float):
+        return repr(value)
+    item = getattr(value, "item", None)  # a number of numpy
+    return _text(item()) if item is not None else str(value)
+
+
+def settings(options: Mapping[str, Any]) -> list[Setting]:
+    """Name and value of each option: `max_skip=1` is ("max-skip", "1"), `isolate=True` is ("isolate", None).
+
+    A mapping is repeated for each of its items, `set={"a.x": 1}` as ("set", "a.x=1"), other iterables for each
+    element. What is None or False is left out.
+    """
+    found: list[Setting] = []
+    for keyword, value in options.items():
+        name = keyword.rstrip("_").replace("_", "-")
+        if value is None or value is False:
+            continue
+        if value is True:
+            found.append((name, None))
+        elif isinstance(value, Mapping):
+            found.extend((name, f"{key}={_text(item)}") for key, item in value.items())
+        elif isinstance(value, (str, os.PathLike)) or not isinstance(value, Iterable):
+            found.append((name, _text(value)))
+        else:
+            found.extend((name, _text(item)) for item in value)
+    return found
+
+
+def words(options: Mapping[str, Any]) -> list[str]:
+    """As words of a command line."""
+    return [f"--{name}" if value is None else f"--{name}={value}" for name, value in settings(options)]

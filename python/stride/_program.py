@@ -1,0 +1,205 @@
+"""What the program does, each time in a process of its own: runs and campaigns."""
+
+from __future__ import annotations
+
+import csv
+import logging
+import os
+import signal
+import subprocess
+from pathlib import Path
+from typing import Any, Optional, Union
+
+import numpy as np
+
+from ._errors import Error, InputError, RunError, parse_error
+from ._library import prefix
+from ._options import words
+from .results import Run, temporary_folder
+
+__all__ = ["Campaign", "campaign", "program", "run"]
+
+PathLike = Union[str, "os.PathLike[str]"]
+
+_ERROR = "stride: error: "
+_WARNING = "stride: warning: "
+
+
+def program(name: str = "stride") -> Path:
+    """The file of the program `stride`, or of another one that comes with it: `stride-robot`.
+
+    Raises FileNotFoundError where this package is not one that was installed from a wheel, and the environment
+    variable STRIDE_PREFIX does not say where stride is installed.
+    """
+    file = prefix() / "bin" / name
+    if not file.is_file():
+        raise FileNotFoundError(
+            f"there is no program {file}: install the package from a wheel, or set STRIDE_PREFIX to where stride is"
+            " installed"
+        )
+    return file
+
+
+def _call(arguments: list[str], folder: Optional[PathLike] = None) -> tuple[int, str, str]:
+    """Runs the program. Returns its exit code, and what it printed: results and messages.
+
+    Ctrl-C ends it in order.
+    """
+    process = subprocess.Popen(
+        [str(program()), *arguments],
+        cwd=folder,
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        errors="replace",
+        start_new_session=True,  # so that an interruption reaches it once, from here
+    )
+    try:
+        output, messages = process.communicate()
+    except BaseException:
+        process.send_signal(signal.SIGINT)
+        process.communicate()
+        raise
+    return process.returncode, output, messages
+
+
+def _failure(messages: str, kind: type[Error]) -> Error:
+    """The error among the messages."""
+    before, found, error = messages.partition(_ERROR)
+    return parse_error((error if found else before).strip() or "the program has ended without a word", kind)
+
+
+def _warn(messages: str) -> None:
+    for warning in messages.partition(_ERROR)[0].split(_WARNING)[1:]:
+        logging.getLogger("stride").warning("%s", warning.strip())
+
+
+def run(scenario: PathLike, *, out: Optional[PathLike] = None, **options: Any) -> Run:
+    """Runs a scenario to its end, in a process of its own.
+
+    >>> run = stride.run("nfc_approach", set={"reader.power": 0.5}, swap={"sensor": "new.fmu"})
+    >>> run.signals["sensor.capacitor.voltage"].max()
+
+    Args:
+        scenario: A system file (.ssd), a package (.ssp), an FMU (.fmu), or the name of a scenario that comes with
+            stride, such as "nfc_approach".
+        out: The folder of the results; None: a temporary one, which is removed with the Run that is returned.
+        options: Those of `stride run`, with "_" for "-"; a mapping or a list repeats the option: `stop=3`,
+            `set={"sensor.gain": 2}`, `swap={"sensor": "new.fmu"}`, `isolate=True`, `film=0.1`,
+            `signals=["sensor.*"]`. See `stride run --help`.
+
+    Returns:
+        What has happened. A bad verdict of a unit or a check is none of an exception: see `Run.passed`, `Run.check`.
+
+    Raises:
+        InputError: The scenario or an option is wrong.
+        RunError: The run has failed on the way; its attribute `run` is what has happened up to there.
+    """
+    return run_words([os.fspath(scenario)], out=out, **options)
+
+
+def run_words(
+    arguments: list[str], *, out: Optional[PathLike] = None, folder: Optional[PathLike] = None, **options: Any
+) -> Run:
+    """Likewise, of the words behind `stride run`, in this working folder."""
+    keeper = temporary_folder() if out is None else None
+    results = Path(keeper.name if keeper else os.fspath(out)).absolute()
+    code, output, messages = _call(
+        ["run", *arguments, f"--out={results}", "--progress=none", *words(options)], folder
+    )
+    if code == 2:
+        raise _failure(messages, InputError)
+    _warn(messages)
+    if not (results / "run.json").is_file():
+        raise _failure(messages, RunError)
+    result = Run(results, output, keeper)
+    if code == 0 or (code == 1 and result.error is None and result.info["outcome"] != "interrupted"):
+        return result
+    failure = _failure(messages, RunError)
+    failure.run = result
+    raise failure
+
+
+class Campaign:
+    """The cases of a campaign that have been run.
+
+    Attributes:
+        folder: With the table and the page.
+        columns: The names of the table's columns: "case", the parameters, "outcome", and so on.
+        rows: A list of the cases, each a dict of the columns' texts.
+        summary: What the program has printed.
+    """
+
+    def __init__(self, folder: Union[str, Path], summary: str = "") -> None:
+        """Reads cases.csv in this folder. Raises InputError if there is none."""
+        self.folder = Path(folder)
+        self.summary = summary
+        table = self.folder / "cases.csv"
+        if not table.is_file():
+            raise InputError(f"{self.folder} has no table of cases", file=str(table))
+        with table.open(newline="", encoding="utf-8") as lines:
+            reader = csv.DictReader(lines)
+            self.rows = list(reader)
+            self.columns = list(reader.fieldnames or [])
+
+    def __len__(self) -> int:
+        return len(self.rows)
+
+    def __getitem__(self, column: str) -> np.ndarray:
+        """A column: numbers, where all that is there are numbers (NaN: there is none), and texts otherwise."""
+        if column not in self.columns:
+            raise KeyError(f"no column '{column}'; there are: {', '.join(self.columns)}")
+        texts = [row[column] for row in self.rows]
+        try:
+            return np.array([float(text) if text else np.nan for text in texts])
+        except ValueError:
+            return np.array(texts, dtype=object)
+
+    @property
+    def passed(self) -> bool:
+        """Whether there are cases, and all of them passed."""
+        return bool(self.rows) and all(row["outcome"] == "passed" for row in self.rows)
+
+    def to_pandas(self) -> Any:
+        """The table as a pandas DataFrame whose index is the case."""
+        import pandas
+
+        table = pandas.DataFrame({column: self[column] for column in self.columns})
+        table["case"] = table["case"].astype(int)
+        return table.set_index("case")
+
+    def report(self) -> Path:
+        """The page of the campaign."""
+        return self.folder / "campaign.html"
+
+    def __repr__(self) -> str:
+        passed = sum(row["outcome"] == "passed" for row in self.rows)
+        return f"<stride.Campaign: {passed} of {len(self)} cases passed, in {self.folder}>"
+
+
+def campaign(file: PathLike, *, out: Optional[PathLike] = None, **options: Any) -> Campaign:
+    """Runs the cases of a campaign that have no record yet, and returns the table of all.
+
+    >>> table = stride.campaign("two_filters.xosc", jobs=2)
+    >>> table["aggregate:end"].min()
+
+    Args:
+        file: The campaign (.xosc).
+        out: Its folder; None: campaigns/ and its name, in the working folder.
+        options: Those of `stride campaign run`.
+
+    Raises:
+        InputError: The campaign, its scenario or an option is wrong.
+        RunError: The campaign could not be run. Cases that fail are none of an exception.
+    """
+    folder = Path("campaigns", Path(file).stem) if out is None else Path(out)
+    code, output, messages = _call(
+        ["campaign", "run", os.fspath(file), f"--out={folder}", "--progress=none", *words(options)]
+    )
+    if code == 2:
+        raise _failure(messages, InputError)
+    _warn(messages)
+    if code not in (0, 1) or not (folder / "cases.csv").is_file():
+        raise _failure(messages, RunError)
+    return Campaign(folder, output)

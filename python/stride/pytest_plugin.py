@@ -1,0 +1,309 @@
+"""stride in pytest: scenarios and their checks as tests, runs that tests share, cases of campaigns.
+
+    def test_it_answers(stride_run):
+        run = stride_run("nfc_approach.ssd", set={"reader.power": 0.4})
+        assert run.signals["sensor.led"].any()
+
+    @pytest.mark.stride_campaign("variations.xosc")
+    def test_each_case(stride_case):
+        stride_case.run().check()
+
+`pytest scenario.ssd` runs a scenario and is a test for each of its checks; the ini option `stride_scenarios` lists
+patterns of those that are found in folders, too.
+"""
+
+from __future__ import annotations
+
+import csv
+import fnmatch
+import shlex
+import subprocess
+import tempfile
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, Callable, Optional
+from xml.parsers import expat
+
+import pytest
+
+from ._errors import Error, InputError, RunError
+from ._program import program, run, run_words
+from .results import Run
+
+_CHECKS = "urn:org.stride:scenario:1 Checks"
+
+RunFunction = Callable[..., Run]
+_runs = pytest.StashKey[list[Run]]()
+
+
+def pytest_addoption(parser: pytest.Parser) -> None:
+    parser.addini(
+        "stride_scenarios",
+        "patterns of scenarios (.ssd) that are tests wherever they are found, beside those named on the command line",
+        type="args",
+        default=[],
+    )
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    config.addinivalue_line(
+        "markers",
+        "stride_campaign(file): the test is called for each case of this campaign (.xosc), with the fixture stride_case",
+    )
+
+
+# ---- Runs ----
+
+
+class _Runs:
+    """Runs each scenario once for each set of options."""
+
+    def __init__(self, folder: Path) -> None:
+        self._folder = folder
+        self._made: dict[Any, Run] = {}
+        self._count = 0
+
+    def new_folder(self, name: str) -> Path:
+        self._count += 1
+        return self._folder / f"{self._count:03}-{name}"
+
+    def run(self, scenario: Any, **options: Any) -> Run:
+        key = (str(Path(scenario).resolve()), repr(sorted(options.items())))
+        if key not in self._made:
+            self._made[key] = run(scenario, out=self.new_folder(Path(scenario).stem), **options)
+        return self._made[key]
+
+
+@pytest.fixture(scope="session")
+def _stride_runs(tmp_path_factory: pytest.TempPathFactory) -> _Runs:
+    return _Runs(tmp_path_factory.mktemp("stride"))
+
+
+@pytest.fixture
+def stride_run(_stride_runs: _Runs, request: pytest.FixtureRequest) -> RunFunction:
+    """`stride.run`, which runs a scenario with the same options once in the session, for all tests.
+
+    The report is named where a test fails. Files of results stay where pytest keeps temporary folders.
+    """
+
+    def made(scenario: Any, **options: Any) -> Run:
+        with _noting(request.node) as noted:
+            return noted(_stride_runs.run(scenario, **options))
+
+    return made
+
+
+class _noting:
+    """Keeps which runs a test has looked at, also one that has failed."""
+
+    def __init__(self, node: pytest.Item) -> None:
+        self._runs = node.stash.setdefault(_runs, [])
+
+    def __enter__(self) -> Callable[[Run], Run]:
+        return self._note
+
+    def __exit__(self, _kind: Any, error: Optional[BaseException], _trace: Any) -> None:
+        if isinstance(error, RunError) and error.run is not None:
+            self._note(error.run)
+
+    def _note(self, made: Run) -> Run:
+        self._runs.append(made)
+        return made
+
+
+@pytest.hookimpl(hookwrapper=True)
+def pytest_runtest_makereport(item: pytest.Item) -> Iterator[None]:
+    outcome = yield
+    report = outcome.get_result()
+    if report.when != "call" or not report.failed:
+        return
+    for made in item.stash.get(_runs, []):
+        try:
+            place = str(made.report())
+        except InputError:
+            place = str(made.folder)
+        report.sections.append(("stride", f"{place}\n{made.summary}"))
+        html = item.config.pluginmanager.getplugin("html")
+        if html is not None:  # pytest-html shows it beside the test
+            report.extras = [*getattr(report, "extras", []), html.extras.url(place, name="stride report")]
+
+
+# ---- Scenarios as tests ----
+
+
+def pytest_collect_file(file_path: Path, parent: pytest.Collector) -> Optional[pytest.Collector]:
+    if file_path.suffix != ".ssd":
+        return None
+    is_named = parent.session.isinitpath(file_path)
+    patterns = parent.config.getini("stride_scenarios")
+    if not is_named and not any(fnmatch.fnmatch(file_path.name, pattern) for pattern in patterns):
+        return None
+    return ScenarioFile.from_parent(parent, path=file_path)
+
+
+class ScenarioFile(pytest.File):
+    """A scenario: a test that it runs to its end, one for the verdicts of units, and one for each check."""
+
+    def collect(self) -> Iterable[pytest.Item]:
+        yield RunItem.from_parent(self, name="run")
+        for line, name in _checks(self.path):
+            yield CheckItem.from_parent(self, name=name, line=line)
+
+
+def _checks(scenario: Path) -> list[tuple[int, str]]:
+    """The line and the name of each check; one without a name is called by what it checks."""
+    found: list[tuple[int, str]] = []
+    names: list[str] = []
+    parser = expat.ParserCreate(namespace_separator=" ")
+
+    def start(name: str, attributes: dict[str, str]) -> None:
+        if names and names[-1] == _CHECKS:
+            kind = name.rpartition(" ")[2]
+            fallback = f"{kind} {attributes.get('signal', '')} (line {parser.CurrentLineNumber})"
+            found.append((parser.CurrentLineNumber, attributes.get("name") or fallback))
+        names.append(name)
+
+    parser.StartElementHandler = start
+    parser.EndElementHandler = lambda _name: names.pop()
+    try:
+        parser.Parse(scenario.read_bytes(), True)
+    except expat.ExpatError:
+        return []  # the run says what is wrong
+    return found
+
+
+class _Verdict(Exception):
+    """A verdict that is a bad one."""
+
+
+class RunItem(pytest.Item):
+    """The scenario runs to its end, and its units judge it well."""
+
+    def runtest(self) -> None:
+        made = _run_of(self)
+        checks = {check["name"] for check in made.info["checks"]}
+        bad = [each for each in made.verdicts if each.passed is False and each.name not in checks]
+        if bad:
+            raise _Verdict("\n".join(f"{each.name}: {each.text}" for each in bad))
+
+    def repr_failure(self, excinfo: Any, style: Any = None) -> str:
+        return _text_of(excinfo, super().repr_failure)
+
+    def reportinfo(self) -> tuple[Path, Optional[int], str]:
+        return self.path, None, f"{self.path.name}: run"
+
+
+class CheckItem(pytest.Item):
+    """A check of the scenario, which begins in this line of it."""
+
+    def __init__(self, *, line: int, **further: Any) -> None:
+        super().__init__(**further)
+        self._line = line
+
+    def runtest(self) -> None:
+        verdicts = [check for check in _run_of(self).info["checks"] if check["line"] == self._line]
+        bad = [check for check in verdicts if check["passed"] is False]
+        if bad:
+            raise _Verdict("\n".join(f"{check['name']}: {check['text']}" for check in bad))
+        if not all(check["passed"] for check in verdicts) or not verdicts:
+            pytest.skip("; ".join(check["text"] for check in verdicts) or "it was not made")
+
+    def repr_failure(self, excinfo: Any, style: Any = None) -> str:
+        return _text_of(excinfo, super().repr_failure)
+
+    def reportinfo(self) -> tuple[Path, Optional[int], str]:
+        return self.path, self._line - 1, f"{self.path.name}: {self.name}"
+
+
+_session_runs = pytest.StashKey[_Runs]()
+
+
+def _run_of(item: pytest.Item) -> Run:
+    """Of the item's scenario; all its items have the same one, and what it has failed with."""
+    stash = item.config.stash
+    if _session_runs not in stash:
+        factory = item.config._tmp_path_factory  # type: ignore[attr-defined] - what its fixture returns
+        stash[_session_runs] = _Runs(factory.mktemp("stride-scenarios"))
+    with _noting(item) as noted:
+        return noted(stash[_session_runs].run(item.path))
+
+
+def _text_of(excinfo: Any, otherwise: Callable[[Any], Any]) -> Any:
+    if isinstance(excinfo.value, (Error, _Verdict)):
+        return str(excinfo.value)
+    return otherwise(excinfo)
+
+
+# ---- Campaigns ----
+
+
+@dataclass(frozen=True)
+class Case:
+    """A case of a campaign.
+
+    Attributes:
+        campaign: The file.
+        number: As `stride campaign run --case` takes it.
+        parameters: Their values, as texts.
+    """
+
+    campaign: Path
+    number: int
+    parameters: dict[str, str]
+    _runs: Optional[_Runs] = field(default=None, repr=False, compare=False)
+    _node: Any = field(default=None, repr=False, compare=False)
+
+    def run(self, **options: Any) -> Run:
+        """Runs it, and what `stride.run` takes besides."""
+        command = _plan(self.campaign, f"--case={self.number}")
+        folder = self._runs.new_folder(f"case-{self.number:06}") if self._runs else None
+        with _noting(self._node) as noted:
+            return noted(run_words(shlex.split(command)[2:], out=folder, folder=self.campaign.parent, **options))
+
+
+def _plan(campaign: Path, *options: str) -> str:
+    done = subprocess.run(
+        [str(program()), "campaign", "plan", campaign.name, *options],
+        cwd=campaign.parent,
+        capture_output=True,
+        text=True,
+    )
+    if done.returncode != 0:
+        raise InputError(done.stderr.partition("error: ")[2].strip() or done.stderr)
+    return done.stdout
+
+
+def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
+    if "stride_case" not in metafunc.fixturenames:
+        return
+    marker = metafunc.definition.get_closest_marker("stride_campaign")
+    if marker is None or len(marker.args) != 1:
+        raise pytest.UsageError(
+            f"{metafunc.function.__name__} has the fixture stride_case: name its campaign,"
+            ' @pytest.mark.stride_campaign("FILE.xosc")'
+        )
+    file = Path(metafunc.definition.path).parent / marker.args[0]
+    try:
+        cases = _cases(file)
+    except InputError as error:
+        raise pytest.UsageError(str(error)) from None
+    metafunc.parametrize("stride_case", cases, ids=[f"case {case.number}" for case in cases], indirect=True)
+
+
+def _cases(file: Path) -> list[Case]:
+    with tempfile.TemporaryDirectory(prefix="stride-") as folder:
+        _plan(file, f"--out={folder}")
+        with (Path(folder) / "plan.csv").open(newline="", encoding="utf-8") as lines:
+            rows = list(csv.DictReader(lines))
+    others = ("case", "seed", "hash")
+    return [
+        Case(file, int(row["case"]), {key: value for key, value in row.items() if key not in others}) for row in rows
+    ]
+
+
+@pytest.fixture
+def stride_case(request: pytest.FixtureRequest, _stride_runs: _Runs) -> Case:
+    """A case of the campaign that `@pytest.mark.stride_campaign` names; the test is called for each."""
+    case: Case = request.param
+    return Case(case.campaign, case.number, case.parameters, _stride_runs, request.node)

@@ -1,0 +1,115 @@
+"""The plugin for pytest, in a pytest of its own."""
+
+import importlib.metadata
+
+import pytest
+from conftest import CHECKS, scenario
+from run_test import _CAMPAIGN
+
+
+@pytest.fixture
+def project(pytester):
+    """A project with a scenario of which one of two checks fails, unless first.u is set."""
+    pytester.makefile(".ssd", test=scenario("first=minimal second=minimal", "first.y>second.u", CHECKS))
+    return pytester
+
+
+def run(project, *arguments):
+    """The plugin is found by its entry point where the package is installed."""
+    entries = importlib.metadata.entry_points(group="pytest11")
+    is_installed = any(entry.value == "stride.pytest_plugin" for entry in entries)
+    return project.runpytest(*([] if is_installed else ["-p", "stride.pytest_plugin"]), *arguments)
+
+
+def test_checks_of_a_scenario_are_tests(project):
+    result = run(project, "test.ssd", "-v")
+    result.assert_outcomes(passed=2, failed=1)
+    result.stdout.fnmatch_lines(
+        [
+            "*test.ssd::run PASSED*",
+            "*test.ssd::it does not overshoot PASSED*",
+            "*test.ssd::Eventually second.y (line *) FAILED*",
+            "*second.y eventually >= 0.2*",
+            "*stride*",
+            "*report.html*",
+        ]
+    )
+
+
+def test_scenarios_are_found_where_the_project_wants_it(project):
+    run(project).assert_outcomes()
+    project.makeini("[pytest]\nstride_scenarios = *.ssd")
+    run(project).assert_outcomes(passed=2, failed=1)
+
+
+def test_a_scenario_that_is_wrong_fails_in_each_of_its_tests(project):
+    project.makefile(".ssd", test=scenario("first=minimal second=nowhere", "first.y>second.u", CHECKS))
+    result = run(project, "test.ssd")
+    result.assert_outcomes(failed=3)
+    result.stdout.fnmatch_lines(["*nowhere.fmu*"])
+
+
+def test_one_run_is_shared_by_tests(project):
+    project.makepyfile(
+        """
+        seen = []
+
+        def test_one(stride_run):
+            run = stride_run("test.ssd", set={"first.u": 1})
+            seen.append(run)
+            assert run.passed
+
+        def test_two(stride_run):
+            assert stride_run("test.ssd", set={"first.u": 1}) is seen[0]
+            assert stride_run("test.ssd", set={"first.u": 2}) is not seen[0]
+        """
+    )
+    run(project, "-k", "test_").assert_outcomes(passed=2)
+
+
+def test_a_failing_test_names_the_report(project):
+    project.makepyfile(
+        """
+        def test_it(stride_run):
+            stride_run("test.ssd").check()
+        """
+    )
+    result = run(project)
+    result.assert_outcomes(failed=1)
+    result.stdout.fnmatch_lines(["*AssertionError: the run has failed*", "*- stride -*", "*/001-test/report.html"])
+
+
+def test_cases_of_a_campaign(project):
+    project.makefile(".xosc", inputs=_CAMPAIGN)
+    project.makepyfile(
+        """
+        import pytest
+
+        @pytest.mark.stride_campaign("inputs.xosc")
+        def test_case(stride_case):
+            run = stride_case.run()
+            assert run.signals["first.y"][-1] == pytest.approx(float(stride_case.parameters["first.u"]) * 0.6321, abs=1e-3)
+            run.check()
+        """
+    )
+    result = run(project, "-v")
+    result.assert_outcomes(passed=2, failed=1)
+    result.stdout.fnmatch_lines(["*test_case?case 0? FAILED*", "*test_case?case 2? PASSED*"])
+
+
+def test_a_campaign_that_is_missing(project):
+    project.makepyfile(
+        """
+        import pytest
+
+        @pytest.mark.stride_campaign("nowhere.xosc")
+        def test_case(stride_case):
+            pass
+
+        def test_none(stride_case):
+            pass
+        """
+    )
+    result = run(project)
+    result.stdout.fnmatch_lines(["*nowhere.xosc*"])
+    assert result.ret != 0

@@ -1,0 +1,191 @@
+"""stride.run, what it returns, and stride.campaign."""
+
+import signal
+import subprocess
+import sys
+import time
+
+import numpy as np
+import pytest
+import stride
+from conftest import CHECKS, processes_below, scenario
+
+
+def test_a_run(folder):
+    run = stride.run("test.ssd", set={"first.u": 1})
+    assert run.passed and run.check() is run
+    assert run.time[-1] == run.reached == 1
+    assert run.signals["first.y"][-1] == pytest.approx(1 - np.exp(-1))
+    assert run.signals["first.y"].dtype == np.float64
+    assert [verdict.name for verdict in run.verdicts][0] == "it does not overshoot"
+    assert run.verdicts[0].margin == 0
+    assert "first.y" in run.summary
+    assert "passed" in repr(run)
+    folder_of_it = run.folder
+    del run
+    assert not folder_of_it.exists()
+
+
+def test_a_check_that_fails_is_no_exception(folder):
+    run = stride.run("test.ssd", out="out")
+    assert not run.passed
+    assert [verdict.passed for verdict in run.verdicts] == [True, False]
+    with pytest.raises(AssertionError, match="second.y eventually"):
+        run.check()
+    assert run.folder == folder / "out"
+
+
+def test_signals_of_each_type(types):
+    run = stride.run("types.ssd", signals=["types.*.echo"], set={"types.string": "a, \"b\"", "types.binary": b"\x01\xff"})
+    assert run.signals["types.string.echo"][-1] == 'a, "b"'
+    assert run.signals["types.binary.echo"][-1] == b"\x01\xff"
+    assert run.signals["types.boolean.echo"].dtype == bool
+    assert run.signals["types.uint64.echo"].dtype == np.uint64
+    assert run.signals["types.colour.echo"][-1] in (1, "red")
+    assert run.units["types.float64.echo"] in ("m", "")
+    with pytest.raises(KeyError, match="no signal 'x' was recorded"):
+        run.signals["x"]
+
+
+def test_pandas(folder):
+    pandas = pytest.importorskip("pandas")
+    table = stride.run("test.ssd", set={"first.u": 1}).to_pandas()
+    assert isinstance(table, pandas.DataFrame)
+    assert table["first.y"].iloc[-1] == pytest.approx(1 - np.exp(-1))
+    assert table.index.name == "time"
+
+
+def test_messages(folder):
+    (folder / "ticking.ssd").write_text(
+        scenario(
+            "ticker=ticker listener=listener",
+            "ticker.tick.clock>listener.message.clock ticker.tick.number>listener.message.number"
+            " ticker.tick.picoseconds>listener.message.picoseconds",
+        )
+    )
+    run = stride.run("ticking.ssd", set={"ticker.period": 0.2})
+    sent = [message for message in run.events if message.variable == "ticker.tick.number" and not message.received]
+    assert [message.value for message in sent] == ["1", "2", "3"]
+    assert sent[0].time == pytest.approx(0.2 * 2**0.5)
+
+
+def test_the_report(folder):
+    run = stride.run("test.ssd")
+    try:
+        page = run.report()
+    except stride.InputError:
+        pytest.skip("this build makes no reports")
+    assert page.read_text().lstrip().lower().startswith("<!doctype html")
+    assert "<iframe" in run._repr_html_()
+
+
+@pytest.mark.parametrize(
+    ("scenario_name", "options", "message"),
+    [
+        ("nowhere.ssd", {}, "nowhere.ssd"),
+        ("test.ssd", {"set": {"first.v": 1}}, "first.v"),
+        ("test.ssd", {"sett": 1}, "sett"),
+        ("test.ssd", {"swap": {"first": "nowhere.fmu"}}, "nowhere.fmu"),
+    ],
+)
+def test_mistakes(folder, scenario_name, options, message):
+    with pytest.raises(stride.InputError, match=message):
+        stride.run(scenario_name, **options)
+
+
+def test_an_error_has_its_parts(folder):
+    (folder / "test.ssd").write_text(scenario("first=minimal second=minimal", "first.y>second.uu", CHECKS))
+    with pytest.raises(stride.InputError) as caught:
+        stride.run("test.ssd")
+    error = caught.value
+    assert error.file.endswith("test.ssd") and error.line > 1
+    assert error.component == "second"
+    assert error.hint
+
+
+def test_a_run_that_fails_has_what_was_recorded(folder):
+    (folder / "failing.ssd").write_text(scenario("thrower=thrower filter=minimal"))
+    with pytest.raises(stride.RunError, match="the fuse has blown") as caught:
+        stride.run("failing.ssd", set={"thrower.throw_at": 0.5})
+    error = caught.value
+    assert error.component == "thrower"
+    assert error.run.reached == pytest.approx(0.375)
+    assert len(error.run.signals["filter.y"]) == 4
+    assert not error.run.passed
+
+
+def test_a_unit_that_crashes_does_not_take_python_with_it(folder):
+    (folder / "failing.ssd").write_text(scenario("faulty=faulty"))
+    with pytest.raises(stride.RunError, match="SIGSEGV"):
+        stride.run("failing.ssd", set={"faulty.fault": "segfault", "faulty.call": "step"})
+
+
+_ENDLESS = """
+import stride
+print("begun", flush=True)
+stride.run("test.ssd", stop=9e6, step=1e-3, out="out")
+"""
+
+
+def test_ctrl_c_ends_it_in_order(folder):
+    process = subprocess.Popen(
+        [sys.executable, "-c", _ENDLESS], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+    )
+    assert process.stdout.readline() == "begun\n"
+    while not (folder / "out" / "signals.csv").exists():
+        time.sleep(0.05)
+    time.sleep(0.3)
+    process.send_signal(signal.SIGINT)
+    _, messages = process.communicate(timeout=60)
+    assert "KeyboardInterrupt" in messages
+    assert processes_below() == set()
+    assert stride.Run("out").info["outcome"] == "interrupted"
+
+
+_CAMPAIGN = """<?xml version="1.0" encoding="UTF-8"?>
+<OpenSCENARIO>
+  <FileHeader revMajor="1" revMinor="1" date="2026-01-01T00:00:00" author="a test" description="inputs"/>
+  <ParameterValueDistribution>
+    <ScenarioFile filepath="test.ssd"/>
+    <Deterministic>
+      <DeterministicSingleParameterDistribution parameterName="first.u">
+        <DistributionSet><Element value="0"/><Element value="1"/><Element value="1.5"/></DistributionSet>
+      </DeterministicSingleParameterDistribution>
+    </Deterministic>
+  </ParameterValueDistribution>
+  <stride:Campaign xmlns:stride="urn:org.stride:campaign:1">
+    <stride:Aggregate name="end" signal="second.y" function="final"/>
+  </stride:Campaign>
+</OpenSCENARIO>
+"""
+
+
+@pytest.fixture
+def campaign(folder):
+    (folder / "inputs.xosc").write_text(_CAMPAIGN)
+    return folder / "inputs.xosc"
+
+
+def test_a_campaign(campaign):
+    table = stride.campaign(campaign, jobs=1)
+    assert len(table) == 3
+    assert list(table["first.u"]) == [0, 1, 1.5]
+    assert list(table["outcome"]) == ["failed", "passed", "passed"]
+    assert table["aggregate:end"][2] == pytest.approx(1.5 * table["aggregate:end"][1])
+    assert not table.passed
+    assert "2 of 3 cases passed" in repr(table)
+    assert list(stride.campaign(campaign)["outcome"]) == list(table["outcome"])
+
+
+def test_a_campaign_in_pandas(campaign):
+    pytest.importorskip("pandas")
+    table = stride.campaign(campaign).to_pandas()
+    assert table.loc[1, "outcome"] == "passed"
+
+
+def test_a_campaign_that_is_wrong(campaign):
+    campaign.write_text(_CAMPAIGN.replace("first.u", "first.v"))
+    with pytest.raises(stride.InputError, match="has no such variable"):
+        stride.campaign(campaign)
+    with pytest.raises(stride.InputError, match="nowhere.xosc"):
+        stride.campaign("nowhere.xosc")

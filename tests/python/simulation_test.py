@@ -1,0 +1,335 @@
+"""stride.Simulation: a run, step by step."""
+
+import gc
+import math
+import multiprocessing
+import os
+import signal
+import subprocess
+import sys
+import threading
+import time
+
+import numpy as np
+import pytest
+import stride
+from conftest import processes_below, scenario
+
+
+def test_it_is_advanced_and_looked_at(folder):
+    with stride.Simulation("test.ssd", set={"first.u": 1, "second.time_constant": 0.5}) as sim:
+        assert (sim.time, sim.start_time, sim.stop_time) == (0, 0, 1)
+        assert sim.step(until=0.5) == 0.5
+        assert sim.step(0.25) == 0.75
+        assert sim["second.u"] == sim["first.y"] == pytest.approx(1 - math.exp(-0.75))
+        assert not sim.is_over
+        assert sim.run() == 1
+        assert sim.is_over
+        assert [verdict.passed for verdict in sim.end()] == [True, True]
+        assert sim.end_reason == "completed"
+        assert sim.has_ended
+
+
+def test_what_is_set_counts_at_once_and_in_the_next_step(folder):
+    with stride.Simulation("test.ssd") as sim:
+        sim.step(until=0.3)
+        sim["first.u"] = 2
+        assert sim["first.u"] == 2
+        sim.step(until=0.8)
+        assert sim["first.y"] == pytest.approx(2 * (1 - math.exp(-0.5)))
+        assert sim.time_ps == 800_000_000_000
+
+
+def test_results_are_those_of_a_run(folder):
+    with stride.Simulation("test.ssd", set={"first.u": 1}, results="stepped") as sim:
+        sim.step(until=0.5)
+        sim.run()
+    whole = stride.run("test.ssd", set={"first.u": 1}, out="whole")
+    stepped = stride.Run("stepped")
+    assert (stepped.folder / "signals.csv").read_bytes() == (whole.folder / "signals.csv").read_bytes()
+    assert stepped.verdicts == whole.verdicts
+
+
+@pytest.mark.parametrize(
+    ("name", "value"),
+    [
+        ("float64", 0.1),
+        ("float32", 0.5),
+        ("int8", -128),
+        ("uint64", 2**64 - 1),
+        ("int64", -(2**63)),
+        ("boolean", True),
+        ("colour", 4),
+        ("string", "größer 🛰"),
+        ("string", ""),
+        ("binary", b"\x00\xff"),
+        ("binary", b""),
+        ("float64", np.float32(0.25)),
+    ],
+)
+def test_values_come_back(types, name, value):
+    with stride.Simulation("types.ssd") as sim:
+        sim[f"types.{name}"] = value
+        sim.step(0.25)
+        assert sim[f"types.{name}.echo"] == value
+        assert type(sim[f"types.{name}.echo"]) in (bool, int, float, str, bytes)
+
+
+def test_arrays_keep_their_shape(types):
+    with stride.Simulation("types.ssd") as sim:
+        assert sim["types.matrix"].tolist() == [[1, 2, 3], [4, 5, 6]]
+        sim["types.matrix"] = np.array([[6, 5, 4], [3, 2, 1]])
+        sim.step(0.25)
+        assert sim["types.matrix.echo"].tolist() == [[6, 5, 4], [3, 2, 1]]
+        words = sim["types.words"]
+        sim["types.words"] = np.full(words.shape, "ö", dtype=object)
+        sim["types.blobs"] = np.full(sim["types.blobs"].shape, b"\x01", dtype=object)
+        sim.step(0.25)
+        assert (sim["types.words.echo"] == "ö").all()
+        assert (sim["types.blobs.echo"] == b"\x01").all()
+
+
+def test_variables_are_described(types):
+    with stride.Simulation("types.ssd") as sim:
+        matrix = sim.variables["types.matrix"]
+        assert (matrix.type, matrix.causality, matrix.shape) == ("Float64", "input", (2, 3))
+        frame = sim.variables["types.receive.frame"]
+        assert frame.is_message and frame.clocks == ("types.receive.clock",)
+        assert sim.variables["types.gained"].unit == "m"
+        assert "types.gain" in sim and "types.nothing" not in sim
+        assert "types.float32" in list(sim)
+
+
+def test_messages_are_sent_and_received(types):
+    with stride.Simulation("types.ssd") as sim:
+        sim.step(0.25)
+        sim.send("types.receive.frame", b"\x07\x08")
+        sim.step(0.25)
+        sim.send("types.receive.clock", **{"receive.frame": b"\x09"})
+        sim.step(0.25)
+        received = [(m.time, m.variable, m.value) for m in sim.messages() if m.received]
+        assert received == [(0.25, "types.receive.frame", b"\x07\x08"), (0.5, "types.receive.frame", b"\x09")]
+        assert sim.messages() == []
+
+
+def test_interventions(folder):
+    with stride.Simulation("test.ssd") as sim:
+        sim.step(until=0.25)
+        sim.intervene("force", "second.u=3@0.5..0.75")
+        sim.step(until=0.625)
+        assert sim["second.u"] == 3
+        sim.run()
+        assert sim["second.u"] == 0
+
+
+def test_a_checkpoint_goes_on(folder):
+    with stride.Simulation("test.ssd", set={"first.u": 1}, can_save=True) as sim:
+        sim.step(until=0.5)
+        sim.save("half.zip")
+        sim.run()
+        end = sim["second.y"]
+    with stride.Simulation("test.ssd", set={"first.u": 1}, checkpoint="half.zip") as sim:
+        assert sim.time == 0.5
+        sim.run()
+        assert sim["second.y"] == end
+
+
+# ---- Mistakes ----
+
+
+def test_errors_say_what_and_where(folder):
+    with stride.Simulation("test.ssd") as sim:
+        with pytest.raises(stride.InputError, match="is fed by 'first.y'") as caught:
+            sim["second.u"] = 1
+        assert (caught.value.component, caught.value.variable) == ("second", "u")
+        assert "force" in caught.value.hint
+        with pytest.raises(stride.InputError, match="did you mean 'second.y'"):
+            sim["second.yy"]
+        with pytest.raises(stride.InputError, match="later than"):
+            sim.step(until=-1)
+        with pytest.raises(stride.InputError, match="would go back"):
+            sim.step(-1)
+        with pytest.raises(stride.InputError, match="a number"):
+            sim.step("soon")
+        with pytest.raises(stride.InputError, match="a number"):
+            sim.step(until=math.nan)
+        with pytest.raises(stride.MisuseError, match="and not both"):
+            sim.step()
+        with pytest.raises(stride.MisuseError, match="can_save"):
+            sim.save("x.zip")
+        with pytest.raises(stride.InputError, match="is a text, not 7"):
+            sim[7]
+    with pytest.raises(stride.MisuseError, match="is closed"):
+        sim.step(1)
+    sim.close()
+    assert repr(sim) == "<stride.Simulation, closed>"
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        ({"sett": {"first.u": 1}}, "there is no setting 'sett'"),
+        ({"set": {"first.v": 1}}, "first.v"),
+        ({"stop": "soon"}, "soon"),
+        ({"swap": {"first": "nowhere.fmu"}}, "nowhere.fmu"),
+        ({"checkpoint": "nowhere.zip"}, "nowhere.zip"),
+    ],
+)
+def test_wrong_options(folder, options, message):
+    with pytest.raises(stride.InputError, match=message):
+        stride.Simulation("test.ssd", **options)
+
+
+@pytest.mark.parametrize(
+    ("name", "value", "message"),
+    [
+        ("int8", 128, "Int8"),
+        ("int8", 0.5, "Int8"),
+        ("uint8", -1, "UInt8"),
+        ("int32", True, "Int32"),
+        ("boolean", 2, "Boolean"),
+        ("float64", "1", "Float64"),
+        ("float64", [1.0], "Float64"),
+        ("float64", None, "Float64"),
+        ("float64", math.nan, "NaN"),
+        ("matrix", [1.0, 2.0], "shape"),
+        ("string", b"x", "text"),
+        ("string", "a\0b", "NUL"),
+        ("binary", "x", "bytes"),
+        ("colour", 3, "3 is none of the items"),
+        ("receive.clock", 1, "clock"),
+        ("receive.frame", b"x", "is a message"),
+        ("float64.echo", 1, "computed by the unit"),
+    ],
+)
+def test_values_that_are_none_of_a_variable(types, name, value, message):
+    with stride.Simulation("types.ssd") as sim:
+        with pytest.raises(stride.InputError, match=message):
+            sim[f"types.{name}"] = value
+
+
+def test_messages_that_nobody_receives(types):
+    with stride.Simulation("types.ssd") as sim:
+        for name, value in [("types.float64", 1.0), ("types.send.frame", b"x"), ("types.receive.clock", 3)]:
+            with pytest.raises(stride.InputError):
+                sim.send(name, value)
+
+
+def test_a_unit_that_fails(folder):
+    (folder / "failing.ssd").write_text(scenario("thrower=thrower"))
+    with stride.Simulation("failing.ssd", set={"thrower.throw_at": 0.5}) as sim:
+        with pytest.raises(stride.RunError, match="the fuse has blown") as caught:
+            sim.run()
+        assert caught.value.component == "thrower"
+        assert caught.value.time == pytest.approx(0.375)
+        assert sim.end_reason == "failed"
+        with pytest.raises(stride.MisuseError, match="has failed"):
+            sim.step(0.1)
+
+
+def test_a_unit_that_crashes_in_a_process_of_its_own(folder):
+    (folder / "failing.ssd").write_text(scenario("faulty=faulty"))
+    crash = {"faulty.fault": "segfault", "faulty.call": "step"}
+    with stride.Simulation("failing.ssd", isolate=True, set=crash) as sim:
+        with pytest.raises(stride.RunError, match="SIGSEGV"):
+            sim.run()
+
+
+# ---- Living together ----
+
+
+def _open_files():
+    return len(os.listdir("/proc/self/fd"))
+
+
+def _memory():
+    with open("/proc/self/statm") as numbers:
+        return int(numbers.read().split()[1]) * os.sysconf("SC_PAGESIZE")
+
+
+@pytest.mark.parametrize("isolate", [False, True])
+def test_a_hundred_simulations_leave_nothing(folder, isolate):
+    def simulate():
+        with stride.Simulation("test.ssd", isolate=isolate, results="out") as sim:
+            sim.step(until=0.5)
+            return sim["first.y"]
+
+    for _ in range(20):
+        simulate()
+    gc.collect()
+    files, memory = _open_files(), _memory()
+    for _ in range(80):
+        simulate()
+    gc.collect()
+    assert _open_files() == files
+    assert _memory() - memory < 8 << 20
+    assert processes_below() == set()
+
+
+def test_one_that_is_forgotten_is_closed(folder):
+    files = _open_files()
+    sim = stride.Simulation("test.ssd", isolate=True)
+    assert processes_below()
+    del sim
+    gc.collect()
+    assert processes_below() == set()
+    assert _open_files() == files
+
+
+def test_two_at_once_and_in_threads(folder):
+    one = stride.Simulation("test.ssd", set={"first.u": 1})
+    other = stride.Simulation("test.ssd", set={"first.u": 2})
+    for until in (0.25, 0.5):
+        one.step(until=until)
+        other.step(until=until)
+    threads = [threading.Thread(target=sim.run) for sim in (one, other)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert other["second.y"] == pytest.approx(2 * one["second.y"])
+    one.close()
+    other.close()
+
+
+def _in_fork(sim, answer):
+    try:
+        sim.step(0.1)
+    except stride.MisuseError as error:
+        answer.put(str(error))
+
+
+def test_a_fork_is_refused(folder):
+    context = multiprocessing.get_context("fork")
+    answer = context.Queue()
+    with stride.Simulation("test.ssd") as sim:
+        child = context.Process(target=_in_fork, args=(sim, answer))
+        child.start()
+        assert "fork" in answer.get(timeout=30)
+        child.join()
+        sim.run()
+
+
+_ENDLESS = """
+import stride, sys
+with stride.Simulation("test.ssd", stop=9e6, step=1e-3, results="out") as sim:
+    print("begun", flush=True)
+    try:
+        sim.run()
+    except KeyboardInterrupt:
+        print(sim.end_reason, sim.time > 0, flush=True)
+        raise
+"""
+
+
+def test_ctrl_c_ends_it_in_order(folder):
+    process = subprocess.Popen(
+        [sys.executable, "-c", _ENDLESS], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+    )
+    assert process.stdout.readline() == "begun\n"
+    time.sleep(0.5)
+    process.send_signal(signal.SIGINT)
+    out, err = process.communicate(timeout=60)
+    assert out == "interrupted True\n"
+    assert "KeyboardInterrupt" in err
+    assert stride.Run("out").info["outcome"] == "interrupted"
