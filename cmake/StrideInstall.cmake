@@ -4,6 +4,9 @@ include(CMakePackageConfigHelpers)
 set(package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/stride")
 
 install(TARGETS stride_cli EXPORT stride RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+install(TARGETS stride_api EXPORT stride LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
+configure_file(cmake/stride.pc.in "${PROJECT_BINARY_DIR}/stride.pc" @ONLY)
+install(FILES "${PROJECT_BINARY_DIR}/stride.pc" DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 # lib, whatever the libraries' folder is called here: the program looks in ../lib/stride beside itself
 install(TARGETS stride_optimisers LIBRARY DESTINATION lib/stride)
 if(TARGET stride_robot)

@@ -5,8 +5,8 @@
 
 namespace stride::core {
 
-/// The folder above that of this program: of a build, or where stride is installed. Empty if it is
-/// not known.
+/// The folder above that of the program, or of the library, that this code is in: of a build, or
+/// where stride is installed. Empty if it is not known.
 std::filesystem::path program_root();
 
 }  // namespace stride::core
