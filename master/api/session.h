@@ -46,7 +46,6 @@ class Session {
   void end();
   void interrupt() { interrupted_ = 1; }
 
-  bool has_ended() const { return has_ended_; }
   bool is_over() const;
   Time now() const { return simulation_.statistics().reached; }
   const core::RunOptions& options() const { return options_; }

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from typing import Optional
+from typing import Any, Optional, TypeVar
 
 __all__ = ["Error", "InputError", "MisuseError", "RunError"]
 
@@ -54,12 +54,14 @@ class RunError(Error):
         run: The `Run` up to the failure, where `stride.run` has raised this; otherwise None.
     """
 
-    run = None
+    run: Any = None
 
 
 class MisuseError(Error):
     """A call at a time at which it makes no sense, such as a step of a simulation that is closed."""
 
+
+AnyError = TypeVar("AnyError", bound=Error)
 
 # "FILE:LINE: unit 'U', variable 'V', at T s: MESSAGE", each part if it is known, and a hint on a line of its own
 _ERROR = re.compile(
@@ -72,7 +74,7 @@ _ERROR = re.compile(
 )
 
 
-def parse_error(message: str, kind: type[Error]) -> Error:
+def parse_error(message: str, kind: type[AnyError]) -> AnyError:
     """The error whose text the program has printed."""
     match = _ERROR.fullmatch(message)
     parts = match.groupdict() if match else {}

@@ -8,7 +8,7 @@ import os
 import signal
 import subprocess
 from pathlib import Path
-from typing import Any, Optional, Union
+from typing import Any, Optional, TypeVar, Union
 
 import numpy as np
 
@@ -19,6 +19,7 @@ from .results import Run, temporary_folder
 
 __all__ = ["Campaign", "campaign", "program", "run"]
 
+AnyError = TypeVar("AnyError", bound=Error)
 PathLike = Union[str, "os.PathLike[str]"]
 
 _ERROR = "stride: error: "
@@ -64,7 +65,7 @@ def _call(arguments: list[str], folder: Optional[PathLike] = None) -> tuple[int,
     return process.returncode, output, messages
 
 
-def _failure(messages: str, kind: type[Error]) -> Error:
+def _failure(messages: str, kind: type[AnyError]) -> AnyError:
     """The error among the messages."""
     before, found, error = messages.partition(_ERROR)
     return parse_error((error if found else before).strip() or "the program has ended without a word", kind)
@@ -103,11 +104,12 @@ def run_words(
     arguments: list[str], *, out: Optional[PathLike] = None, folder: Optional[PathLike] = None, **options: Any
 ) -> Run:
     """Likewise, of the words behind `stride run`, in this working folder."""
-    keeper = temporary_folder() if out is None else None
-    results = Path(keeper.name if keeper else os.fspath(out)).absolute()
-    code, output, messages = _call(
-        ["run", *arguments, f"--out={results}", "--progress=none", *words(options)], folder
-    )
+    keeper = None
+    if out is None:
+        keeper = temporary_folder()
+        out = keeper.name
+    results = Path(out).absolute()
+    code, output, messages = _call(["run", *arguments, f"--out={results}", "--progress=none", *words(options)], folder)
     if code == 2:
         raise _failure(messages, InputError)
     _warn(messages)

@@ -19,7 +19,7 @@ import fnmatch
 import shlex
 import subprocess
 import tempfile
-from collections.abc import Iterable, Iterator
+from collections.abc import Generator, Iterable
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Callable, Optional
@@ -113,7 +113,7 @@ class _noting:
 
 
 @pytest.hookimpl(hookwrapper=True)
-def pytest_runtest_makereport(item: pytest.Item) -> Iterator[None]:
+def pytest_runtest_makereport(item: pytest.Item) -> Generator[None, Any, None]:
     outcome = yield
     report = outcome.get_result()
     if report.when != "call" or not report.failed:
@@ -187,7 +187,7 @@ class RunItem(pytest.Item):
         if bad:
             raise _Verdict("\n".join(f"{each.name}: {each.text}" for each in bad))
 
-    def repr_failure(self, excinfo: Any, style: Any = None) -> str:
+    def repr_failure(self, excinfo: Any, style: Any = None) -> Any:
         return _text_of(excinfo, super().repr_failure)
 
     def reportinfo(self) -> tuple[Path, Optional[int], str]:
@@ -209,7 +209,7 @@ class CheckItem(pytest.Item):
         if not all(check["passed"] for check in verdicts) or not verdicts:
             pytest.skip("; ".join(check["text"] for check in verdicts) or "it was not made")
 
-    def repr_failure(self, excinfo: Any, style: Any = None) -> str:
+    def repr_failure(self, excinfo: Any, style: Any = None) -> Any:
         return _text_of(excinfo, super().repr_failure)
 
     def reportinfo(self) -> tuple[Path, Optional[int], str]:
@@ -223,7 +223,7 @@ def _run_of(item: pytest.Item) -> Run:
     """Of the item's scenario; all its items have the same one, and what it has failed with."""
     stash = item.config.stash
     if _session_runs not in stash:
-        factory = item.config._tmp_path_factory  # type: ignore[attr-defined] - what its fixture returns
+        factory = getattr(item.config, "_tmp_path_factory")  # noqa: B009 - what pytest's fixture returns
         stash[_session_runs] = _Runs(factory.mktemp("stride-scenarios"))
     with _noting(item) as noted:
         return noted(stash[_session_runs].run(item.path))

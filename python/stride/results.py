@@ -35,11 +35,11 @@ class Signals(Mapping[str, np.ndarray]):
         self._made: dict[str, np.ndarray] = {}
 
     @functools.cached_property
-    def _columns(self) -> dict[str, list[str]]:
+    def _columns(self) -> dict[str, Any]:
         with self._file.open(newline="", encoding="utf-8") as lines:
             rows = csv.reader(lines)
             header = next(rows)
-            columns = list(zip(*rows)) or [()] * len(header)
+            columns: list[Any] = list(zip(*rows)) or [()] * len(header)
         names = ["time"] + list(self._types)
         if len(names) != len(header):
             raise InputError(f"{self._file} has {len(header)} columns where run.json knows {len(names)}")
@@ -170,7 +170,7 @@ class Run:
     @property
     def reached(self) -> float:
         """The simulated time at its end [s]."""
-        return self.info["reached"]
+        return float(self.info["reached"])
 
     def check(self) -> Run:
         """Raises AssertionError that lists each bad verdict; returns the run if there is none."""
@@ -194,7 +194,7 @@ class Run:
         name = self.info["files"].get("report")
         if not name or not (self.folder / name).is_file():
             raise InputError(f"there is no report in {self.folder}", hint=f"stride report {self.folder}")
-        return self.folder / name
+        return Path(self.folder, name)
 
     def show(self) -> None:
         """Opens the report in a browser."""

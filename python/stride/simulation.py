@@ -10,7 +10,6 @@ import signal
 import threading
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any, Optional, Union
 
 import numpy as np
@@ -23,10 +22,7 @@ __all__ = ["Message", "Simulation", "Variable", "Verdict"]
 
 PathLike = Union[str, "os.PathLike[str]"]
 
-_DTYPES = [
-    np.dtype(name)
-    for name in "float32 float64 int8 uint8 int16 uint16 int32 uint32 int64 uint64 bool".split()
-]
+_DTYPES = [np.dtype(name) for name in "float32 float64 int8 uint8 int16 uint16 int32 uint32 int64 uint64 bool".split()]
 _STRING, _BINARY, _ENUMERATION, _CLOCK = range(11, 15)
 _TYPES = (
     "Float32 Float64 Int8 UInt8 Int16 UInt16 Int32 UInt32 Int64 UInt64 Boolean String Binary Enumeration Clock"
@@ -36,9 +32,11 @@ _CAUSALITIES = "parameter calculatedParameter structuralParameter input output l
 _log = logging.getLogger("stride")
 
 
-@c.Log
-def _write_log(_user: Any, level: int, message: bytes) -> None:
+def _log_message(_user: Any, level: int, message: bytes) -> None:
     _log.log((logging.INFO, logging.WARNING, logging.ERROR)[level], "%s", c.text(message))
+
+
+_write_log = c.Log(_log_message)  # kept as long as the library may call it
 
 
 def _library() -> Any:
@@ -158,7 +156,7 @@ class Simulation:
         self._library = _library()
         pairs = settings(options)
         array = (c.Setting * len(pairs))(
-            *[(name.encode(), None if value is None else value.encode()) for name, value in pairs]
+            *[c.Setting(name.encode(), None if value is None else value.encode()) for name, value in pairs]
         )
         self._interruption = _Interruptible()
         self._progress = c.Progress(self._tell)  # kept as long as the library may call it
@@ -227,7 +225,7 @@ class Simulation:
     @property
     def time_ps(self) -> int:
         """Likewise, in picoseconds, exactly."""
-        return self._library.stride_now(self._open())
+        return int(self._library.stride_now(self._open()))
 
     @property
     def start_time(self) -> float:
@@ -518,7 +516,7 @@ def _elements(variable: Variable, value: Any) -> tuple[Any, int]:
             if any("\0" in element for element in flat):
                 raise fail("a text without NUL")
             return (ctypes.c_char_p * count)(*[element.encode() for element in flat]), count
-        space = (c.Bytes * count)()
+        space: Any = (c.Bytes * count)()
         space.kept = [ctypes.create_string_buffer(bytes(element), len(element) or 1) for element in flat]
         for entry, buffer, element in zip(space, space.kept, flat):
             entry.data = ctypes.cast(buffer, ctypes.c_void_p)

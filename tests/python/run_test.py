@@ -36,7 +36,7 @@ def test_a_check_that_fails_is_no_exception(folder):
 
 
 def test_signals_of_each_type(types):
-    run = stride.run("types.ssd", signals=["types.*.echo"], set={"types.string": "a, \"b\"", "types.binary": b"\x01\xff"})
+    run = stride.run("types.ssd", signals=["types.*.echo"], set={"types.string": 'a, "b"', "types.binary": b"\x01\xff"})
     assert run.signals["types.string.echo"][-1] == 'a, "b"'
     assert run.signals["types.binary.echo"][-1] == b"\x01\xff"
     assert run.signals["types.boolean.echo"].dtype == bool
