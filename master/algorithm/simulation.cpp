@@ -102,11 +102,13 @@ class Simulation::Run {
     });
   }
 
-  void make_event(std::vector<Intervention> interventions, std::span<const SentMessage> messages) {
+  void make_event(ChangesAtInstant changes) {
     make_part([&] {
-      interventions_.add(std::move(interventions), time_);
-      for (const SentMessage& message : messages) event_handler_.send(message);
-      handle_events();
+      if (!changes.interventions.empty()) {
+        interventions_.add(std::move(changes.interventions), time_);
+      }
+      for (const SentMessage& message : changes.messages) event_handler_.send(message);
+      handle_events(changes.sets);
       notify_observers();
     });
   }
@@ -490,9 +492,10 @@ class Simulation::Run {
     return std::min(interventions_.next(event_handler_.next_event(target)), context_.until);
   }
 
-  void handle_events() {
+  void handle_events(std::span<const Intervention> sets = {}) {
     event_handler_.begin_instant(time_);
     interventions_.make(time_);
+    interventions_.make_sets(sets, time_);
     event_handler_.handle_events();
     if (inputs_) inputs_->accept(time_, event_handler_.had_event());
   }
@@ -607,10 +610,7 @@ void Simulation::begin(StateArchive& state, const std::function<void()>& started
 
 void Simulation::advance(Time until) { run_->advance(until); }
 
-void Simulation::make_event(std::vector<Intervention> interventions,
-                            std::span<const SentMessage> messages) {
-  run_->make_event(std::move(interventions), messages);
-}
+void Simulation::make_event(ChangesAtInstant changes) { run_->make_event(std::move(changes)); }
 
 ValueBlock Simulation::value(VariableId id) { return run_->value(id); }
 

@@ -24,6 +24,13 @@ namespace stride::core {
 
 class StateArchive;
 
+/// What a caller changes between two steps.
+struct ChangesAtInstant {
+  std::vector<Intervention> sets{};           ///< of the kind Set, at this instant
+  std::vector<SentMessage> messages{};        ///< at most one to each clock
+  std::vector<Intervention> interventions{};  ///< that begin now or later
+};
+
 /// Runs a system once. The pseudocode is in docs/stepping.md.
 class Simulation {
  public:
@@ -77,10 +84,9 @@ class Simulation {
   /// From a communication point to the one at `until`, at the stop time, or where a unit ends the
   /// simulation or it is interrupted. A step ends at `until` as it does at an event.
   void advance(Time until);
-  /// Between the parts: what begins now, at the instant that has been reached, and further
-  /// messages, at most one to each clock. Units handle that as an event at this instant, which is
-  /// then observed again. The interventions begin now or later.
-  void make_event(std::vector<Intervention> interventions, std::span<const SentMessage> messages);
+  /// Between the parts: what a caller changes at the instant that has been reached. Units handle it
+  /// as an event at this instant, which is then observed again.
+  void make_event(ChangesAtInstant changes);
   /// Between the parts: the present value of any variable. A suspended unit catches up if its
   /// variable is neither connected nor observed.
   ValueBlock value(VariableId id);

@@ -240,10 +240,8 @@ void Session::conclude(std::optional<std::string> error) {
 
 /// An event at this instant, if there is anything to be changed.
 void Session::make_changes() {
-  if (changes_.empty() && sent_.empty()) return;
-  const auto changes = std::exchange(changes_, {});
-  const auto sent = std::exchange(sent_, {});
-  make_part([&] { simulation_.make_event(changes, sent); });
+  if (changes_.sets.empty() && changes_.messages.empty() && changes_.interventions.empty()) return;
+  make_part([&] { simulation_.make_event(std::exchange(changes_, {})); });
 }
 
 core::ValueBlock Session::get(core::VariableId id) {
@@ -286,10 +284,8 @@ void Session::set(core::VariableId id, core::ValueBlock value) {
   if (now() >= options_.stop) {
     core::fail_input(context_of(system(), id), "the run is at its end, so a value has no effect");
   }
-  std::erase_if(changes_, [&](const core::Intervention& change) {
-    return change.id == id && change.kind == core::Intervention::Kind::Set && change.from == now();
-  });
-  changes_.push_back({.id = id, .from = now(), .value = std::move(value)});
+  std::erase_if(changes_.sets, [&](const core::Intervention& set) { return set.id == id; });
+  changes_.sets.push_back({.id = id, .from = now(), .value = std::move(value)});
 }
 
 void Session::require_message(const core::SentMessage& message) const {
@@ -323,9 +319,10 @@ void Session::send(core::SentMessage message) {
                      "the run is at its end, so a message is not received");
   }
   const bool ticks_already = std::ranges::any_of(
-      sent_, [&](const core::SentMessage& other) { return other.clock == message.clock; });
+      changes_.messages,
+      [&](const core::SentMessage& other) { return other.clock == message.clock; });
   if (ticks_already) make_changes();
-  sent_.push_back(std::move(message));
+  changes_.messages.push_back(std::move(message));
 }
 
 void Session::intervene(const std::string& option, const std::string& text) {
@@ -340,7 +337,7 @@ void Session::intervene(const std::string& option, const std::string& text) {
   all.push_back(declared);
   loaded_.interventions_of_branch(all, options_.start);  // they may contradict each other
   for (core::Intervention& change : loaded_.interventions_of_branch({&declared, 1}, now())) {
-    changes_.push_back(std::move(change));
+    changes_.interventions.push_back(std::move(change));
   }
   interventions_.push_back(declared);
 }

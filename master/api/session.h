@@ -104,8 +104,7 @@ class Session {
   std::vector<core::VariableId> ids_;
   std::vector<std::size_t> firsts_;  ///< of each component, and of the system's outputs, in `ids_`
   std::map<std::string, std::size_t, std::less<>> indices_;  ///< by name
-  std::vector<core::Intervention> changes_;                  ///< at this instant, and not made yet
-  std::vector<core::SentMessage> sent_;                      ///< likewise
+  core::ChangesAtInstant changes_;                           ///< that are not made yet
   std::vector<scenario::InterventionDeclaration> interventions_;
   bool has_failed_ = false;
   bool has_ended_ = false;

@@ -55,6 +55,10 @@ void Interventions::make_all(Time time) {
   exchange_.route(time);
 }
 
+void Interventions::make_sets(std::span<const Intervention> sets, Time time) {
+  for (const Intervention& intervention : sets) set(intervention, time);
+}
+
 void Interventions::begin(const Intervention& intervention, Time time) {
   if (intervention.kind == Intervention::Kind::Set) return set(intervention, time);
   if (!disturbs_messages(intervention.kind)) return force(intervention, time);

@@ -29,6 +29,9 @@ class Interventions {
   /// At a communication point whose interventions are made: further ones, which begin at `earliest`
   /// or later. Throws std::logic_error for others.
   void add(std::vector<Intervention> interventions, Time earliest);
+  /// Between EventHandler::begin_instant() and handle_events(): variables that are set now, and of
+  /// which nothing is to be remembered. Their values must outlive handle_events().
+  void make_sets(std::span<const Intervention> sets, Time time);
   /// In a run that goes on at `now`: what has begun by then, and has not ended, is in force. What
   /// is forced is in the exchange.
   void go_on(Time now);

@@ -111,9 +111,9 @@ TEST_CASE("what is set between the parts counts from there on, and is observed")
     return EventResult{};
   };
   Simulation& simulation = f.begun();
-  simulation.make_event({set_now(2, at(0))}, {});
+  simulation.make_event({.sets = {set_now(2, at(0))}});
   simulation.advance(at(0.5));
-  simulation.make_event({set_now(4, at(0.5))}, {});
+  simulation.make_event({.sets = {set_now(4, at(0.5))}});
   simulation.advance(at(1));
   simulation.end();
   CHECK(unit.number(kSumOfPart) == Approx(0.5 * 2 + 0.5 * 4));
@@ -131,7 +131,7 @@ TEST_CASE("an intervention that is made between the parts may begin and end late
   Intervention force{.kind = Intervention::Kind::Force, .id = kRateId, .from = at(0.25)};
   force.until = at(0.75);
   force.value = value_block(4);
-  simulation.make_event({force}, {});
+  simulation.make_event({.interventions = {force}});
   simulation.advance(at(1));
   simulation.end();
   CHECK(unit.number(kSumOfPart) == Approx(0.5 * 4));
@@ -145,7 +145,7 @@ TEST_CASE("the value of any variable can be read between the parts") {
   const bool is_connected = GENERATE(false, true);
   if (is_connected) f.wire("unit", "y", "sink", "u");
   Simulation& simulation = f.begun();
-  simulation.make_event({set_now(2, at(0))}, {});
+  simulation.make_event({.sets = {set_now(2, at(0))}});
   simulation.advance(at(0.5));
   CHECK(value_of(simulation, kRateId) == 2);
   CHECK(value_of(simulation, kSumId) == Approx(1));
@@ -178,7 +178,7 @@ TEST_CASE("a message that is sent between the parts is received and observed at 
   simulation.advance(at(0.35));
   SentMessage message{.clock = {0, 0}, .values = {{{0, 1}, ValueBlock(ValueType::Binary, 1)}}};
   message.values[0].block.binaries()[0] = Binary(3);
-  simulation.make_event({}, {&message, 1});
+  simulation.make_event({.messages = {message}});
   simulation.advance(at(1));
   simulation.end();
   CHECK(received == std::vector<std::string>{"3 bytes"});
@@ -210,6 +210,6 @@ TEST_CASE("the parts of a run have an order") {
   simulation.begin();
   CHECK_THROWS_AS(simulation.begin(), std::logic_error);
   CHECK_THROWS_AS(simulation.run(), std::logic_error);
-  CHECK_THROWS_AS(simulation.make_event({set_now(1, at(-1))}, {}), std::logic_error);
+  CHECK_THROWS_AS(simulation.make_event({.interventions = {set_now(1, at(-1))}}), std::logic_error);
   CHECK_THROWS_AS(simulation.end(), std::logic_error);
 }
