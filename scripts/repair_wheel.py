@@ -9,6 +9,7 @@ archive gets the libraries that its own need, for an FMU has to bring along what
 (docs/decisions/0047-a-wheel-is-the-installed-tree.md).
 """
 
+import hashlib
 import json
 import re
 import shutil
@@ -21,6 +22,7 @@ from pathlib import Path
 
 UNITS = "stride/_prefix/lib/stride/units"
 LIBRARIES = "stride_cosim.libs"  # where auditwheel puts them
+ELF = b"\x7fELF"  # how programs and libraries begin
 
 
 def run(*command: object) -> str:
@@ -41,18 +43,24 @@ def is_elf(file: Path) -> bool:
     if not file.is_file():
         return False
     with file.open("rb") as content:
-        return content.read(4) == b"\x7fELF"
+        return content.read(len(ELF)) == ELF
 
 
-def unpacked(fmu: Path) -> Path:
-    return fmu.with_suffix(".unpacked")
+def elf_files(folder: Path) -> list[Path]:
+    return sorted(filter(is_elf, folder.rglob("*")))
 
 
-def unpack_unit(fmu: Path) -> None:
-    """Beside it, what of it can be code: with resources, since these may hold a program and libraries of its own."""
+def unpack_code(fmu: Path) -> str:
+    """Beside it, the programs and libraries that it has, some of them maybe in its resources. Returns the name of the
+    folder, which units with the same code have in common."""
     with zipfile.ZipFile(fmu) as archive:
-        names = [name for name in archive.namelist() if name.startswith(("binaries/x86_64-linux/", "resources/"))]
-        archive.extractall(unpacked(fmu), names)
+        code = {name: archive.read(name) for name in sorted(archive.namelist())}
+    code = {name: content for name, content in code.items() if content.startswith(ELF)}
+    name = hashlib.sha256(repr(code).encode()).hexdigest() + ".unpacked"
+    for file, content in code.items():
+        (fmu.parent / name / file).parent.mkdir(parents=True, exist_ok=True)
+        (fmu.parent / name / file).write_bytes(content)
+    return name
 
 
 def pack(tree: Path, folder: Path) -> Path:
@@ -81,34 +89,34 @@ def closure(files: list[Path], libraries: Path) -> list[Path]:
     return [found[name] for name in sorted(found)]
 
 
-def bundle_libraries(fmu: Path, libraries: Path) -> None:
-    """Packs the unit again; beside its programs and libraries is what they need."""
-    folder = unpacked(fmu)
-    files = sorted(filter(is_elf, folder.rglob("*")))
+def complete_code(folder: Path, libraries: Path) -> None:
+    """Puts what the programs and libraries in it need beside them."""
+    files = elf_files(folder)
     for place in {file.parent for file in files}:
         for library in closure([file for file in files if file.parent == place], libraries):
             shutil.copy2(library, place)
-    new = {str(file.relative_to(folder)): file for file in sorted(filter(is_elf, folder.rglob("*")))}
-    for file in new.values():
+    for file in elf_files(folder):
         run("patchelf", "--force-rpath", "--set-rpath", "$ORIGIN", file)
+
+
+def replace_code(fmu: Path, folder: Path) -> None:
+    code = {str(file.relative_to(folder)): file.read_bytes() for file in elf_files(folder)}
     whole = fmu.with_suffix(".whole")
     with zipfile.ZipFile(fmu) as old, zipfile.ZipFile(whole, "w", zipfile.ZIP_DEFLATED) as archive:
         for entry in old.infolist():
-            replaced = new.pop(entry.filename, None)
             entry.compress_type = zipfile.ZIP_DEFLATED
-            archive.writestr(entry, replaced.read_bytes() if replaced else old.read(entry))
-        for name, library in new.items():
+            archive.writestr(entry, code.pop(entry.filename, None) or old.read(entry))
+        for name, content in code.items():
             entry = zipfile.ZipInfo(name)  # with the same date in each
             entry.external_attr = (stat.S_IFREG | 0o755) << 16
-            archive.writestr(entry, library.read_bytes(), zipfile.ZIP_DEFLATED)
+            archive.writestr(entry, content, zipfile.ZIP_DEFLATED)
     whole.replace(fmu)
-    shutil.rmtree(folder)
 
 
 def remove_unneeded(tree: Path) -> None:
     """Libraries that only units need, which have them now."""
     libraries = tree / LIBRARIES
-    users = [file for file in tree.rglob("*") if file.parent != libraries and is_elf(file)]
+    users = [file for file in elf_files(tree) if file.parent != libraries]
     needed = closure(users, libraries)
     for library in libraries.iterdir():
         if library not in needed:
@@ -133,14 +141,17 @@ def add_licences(tree: Path) -> None:
 
 
 def main(wheel: Path, target: Path) -> None:
-    with tempfile.TemporaryDirectory() as folder:
-        work = Path(folder)
+    with tempfile.TemporaryDirectory() as temporary:
+        work = Path(temporary)
         tree = unpack(wheel, work / "built")
-        for fmu in (tree / UNITS).glob("*.fmu"):
-            unpack_unit(fmu)
+        folders = {fmu.name: unpack_code(fmu) for fmu in (tree / UNITS).glob("*.fmu")}
         tree = unpack(add_libraries(pack(tree, work / "open"), work / "whole"), work / "tree")
-        for fmu in (tree / UNITS).glob("*.fmu"):
-            bundle_libraries(fmu, tree / LIBRARIES)
+        for folder in set(folders.values()):
+            complete_code(tree / UNITS / folder, tree / LIBRARIES)
+        for fmu, folder in folders.items():
+            replace_code(tree / UNITS / fmu, tree / UNITS / folder)
+        for folder in set(folders.values()):
+            shutil.rmtree(tree / UNITS / folder)
         remove_unneeded(tree)
         add_licences(tree)
         print(pack(tree, target))
