@@ -8,6 +8,23 @@ foreach(folder IN ITEMS man bash-completion fish zsh)
 endforeach()
 file(REMOVE_RECURSE "${CMAKE_INSTALL_PREFIX}/share/doc")
 
+# A wheel has no links. The library keeps the name by which programs need it.
+file(GLOB library "${CMAKE_INSTALL_PREFIX}/lib*/libstride.so.*.*")
+string(REGEX REPLACE "([.]so[.][0-9]+)[.].*" "\\1" needed "${library}")
+cmake_path(GET library FILENAME whole_name)
+cmake_path(GET needed FILENAME needed_name)
+file(GLOB links "${CMAKE_INSTALL_PREFIX}/lib*/libstride.so*")
+list(REMOVE_ITEM links "${library}")
+file(REMOVE ${links})
+file(RENAME "${library}" "${needed}")
+file(REMOVE_RECURSE "${CMAKE_INSTALL_PREFIX}/lib/pkgconfig")  # its -lstride is such a link
+file(GLOB exports "${CMAKE_INSTALL_PREFIX}/lib*/cmake/stride/strideTargets-*.cmake")
+foreach(export IN LISTS exports)
+  file(READ "${export}" text)
+  string(REPLACE "${whole_name}" "${needed_name}" text "${text}")
+  file(WRITE "${export}" "${text}")
+endforeach()
+
 # The kit for units in SystemC has to be linked with the SystemC that they are compiled with, which no wheel can know.
 file(GLOB systemc
   "${CMAKE_INSTALL_PREFIX}/lib*/libstride_systemc*"

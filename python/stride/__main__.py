@@ -5,7 +5,7 @@ import signal
 import sys
 from typing import NoReturn
 
-from stride import program
+from ._installed import program
 
 
 def _become(name: str) -> NoReturn:

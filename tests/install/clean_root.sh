@@ -6,9 +6,9 @@
 set -euo pipefail
 
 libraries=/usr/lib/x86_64-linux-gnu
-# the C library, those of GCC, and what Python is linked with: zlib and expat are in the policy of manylinux, too
+# the C library, those of GCC, zlib and expat are in the policy of manylinux; libffi is a part of Python, for its ctypes
 permitted=(libc.so.6 libm.so.6 libmvec.so.1 libdl.so.2 libpthread.so.0 librt.so.1 libutil.so.1 libresolv.so.2
-  libstdc++.so.6 libgcc_s.so.1 libz.so.1 libexpat.so.1)
+  libstdc++.so.6 libgcc_s.so.1 libz.so.1 libexpat.so.1 libffi.so.8)
 
 if [ "$1" != --inside ]; then
   as_root=()

@@ -23,10 +23,12 @@ wheel=$(echo "$work"/*.whl)
 [[ ${wheel##*/} =~ ^stride_cosim-[0-9.]+-py3-none-manylinux_2_[0-9]+_x86_64\.whl$ ]] ||
   fail "${wheel##*/}: the name should say which systems it is for"
 clean /usr/bin/python3 -c 'import sys; sys.exit(0)' || skip "there can be no clean root file system"
+"$wheels/tools/bin/pip" download --quiet --disable-pip-version-check --only-binary :all: --dest "$work" "$wheel" ||
+  skip "PyPI cannot be reached"
 
 step "Install"
 clean /usr/bin/python3 -m venv "$work/venv"
-clean "$work/venv/bin/pip" install --quiet --no-index "$wheel"
+clean "$work/venv/bin/pip" install --quiet --no-index --find-links "$work" stride-cosim
 stride=$work/venv/bin/stride
 prefix=$(clean "$work/venv/bin/python" -c 'import stride; print(stride.program().parents[1])')
 [ -x "$prefix/bin/stride" ] || fail "there is no program below $prefix"
@@ -46,6 +48,18 @@ clean "$stride" run nfc_aproach 2> "$work/error" || code=$?
 [ $code -eq 2 ] || fail "an unknown scenario gives exit code $code"
 grep -q "did you mean 'nfc_approach'?" "$work/error" || { cat "$work/error"; fail "another hint"; }
 clean "$work/venv/bin/stride-robot" --help > /dev/null
+
+step "In the process of Python, and beside it"
+clean "$work/venv/bin/python" - << 'END' || fail "the package does not work"
+import stride
+
+run = stride.run("nfc_approach", stop=0.5, no_checks=True)
+with stride.Simulation("nfc_approach", stop=0.5) as simulation:
+    simulation.run()
+    assert simulation["channel.distance"] == run.signals["channel.distance"][-1], run.signals["channel.distance"]
+END
+clean "$work/venv/bin/python" -c 'import stride.__main__, sys; sys.exit("numpy" in sys.modules)' ||
+  fail "the command waits for numpy"
 
 step "Where nobody reads what it prints it ends as it does without Python before it"
 closed='import os, subprocess, sys
