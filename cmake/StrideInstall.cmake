@@ -53,7 +53,8 @@ foreach(fmu IN LISTS fmus)
     install(FILES "${fmu}" DESTINATION lib/stride/units)
   endif()
 endforeach()
-install(DIRECTORY scenarios/ DESTINATION ${CMAKE_INSTALL_DATADIR}/stride/scenarios USE_SOURCE_PERMISSIONS
+# likewise: by their names it looks for them in ../share/stride/scenarios
+install(DIRECTORY scenarios/ DESTINATION share/stride/scenarios USE_SOURCE_PERMISSIONS
   PATTERN CMakeLists.txt EXCLUDE
   PATTERN golden EXCLUDE)
 install(FILES LICENSE README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR})

@@ -11,7 +11,9 @@
 #include "master/cli/crash_guard.h"
 #include "master/results/output_paths.h"
 #include "master/scenario/loaded_scenario.h"
+#include "master/scenario/scenario_path.h"
 #include "master/scenario/unit_path.h"
+#include "master/settings/scenario_options.h"
 #include "master/util/archive/zip.h"
 #include "master/util/replacement.h"
 
@@ -32,9 +34,15 @@ void write_package(const CompleteArguments& arguments, const ssp::Files::Archive
   archive::write_zip(arguments.output.empty() ? package.path : arguments.output, contents);
 }
 
-/// The scenario itself may be replaced, and nothing else that it consists of.
+/// The scenario itself may be replaced, unless it comes with stride, and nothing else that it
+/// consists of.
 void check_output_path_of(const CompleteArguments& arguments) {
-  if (arguments.output.empty()) return;
+  if (arguments.output.empty()) {
+    if (arguments.scenario.parent_path().parent_path() != scenario::scenario_folder()) return;
+    core::fail_input({.where = {arguments.scenario.string(), 0}},
+                     "this scenario comes with stride, and is not changed",
+                     "name the file to be written with --output");
+  }
   const results::OutputPath output{"--output " + arguments.output.string(), arguments.output};
   std::vector<results::KeptPath> kept = results::files_of_scenario(arguments.scenario).inputs;
   std::erase_if(kept,
@@ -79,14 +87,11 @@ void add_complete(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
       "complete", "Add the connectors that a scenario leaves out, as other SSP tools need them");
   const auto arguments = std::make_shared<CompleteArguments>();
-  command
-      ->add_option("FILE", arguments->scenario,
-                   "The scenario: an SSP system file (.ssd) or package (.ssp)")
-      ->required()
-      ->type_name("");
+  settings::add_scenario_argument(*command, arguments->scenario,
+                                  "An SSP system file (.ssd) or package (.ssp)");
   command
       ->add_option("--output,--out,-o", arguments->output,
-                   "Write there instead of into FILE itself")
+                   "Write there instead of into the scenario itself")
       ->type_name("FILE");
   command->callback([arguments] { complete(*arguments); });
 }

@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,7 @@
 #include "master/scenario/file_units.h"
 #include "master/scenario/fmu_archives.h"
 #include "master/scenario/scenario.h"
+#include "master/scenario/scenario_path.h"
 #include "master/scenario/unit_path.h"
 #include "master/ssp/package.h"
 #include "master/util/archive/zip.h"
@@ -72,7 +74,7 @@ void add_pack(CLI::App& app) {
       ->add_option(
           "FILE", request->library,
           "The unit's shared library (.so) or .fmu, captured stimuli (.csv), the declaration of a "
-          "program (.xml), or a scenario (.ssd)")
+          "program (.xml), or a scenario (.ssd, or the name of one that comes with stride)")
       ->required()
       ->type_name("");
   command->add_option("--output,--out,-o", request->output, "The .fmu or .ssp to write")
@@ -88,7 +90,8 @@ void add_pack(CLI::App& app) {
       ->allow_extra_args(false);
   command->callback([request] {
     const CrashGuard guard;
-    request->library = scenario::find_unit(request->library, {});
+    const std::optional<fs::path> named = scenario::named_scenario(request->library);
+    request->library = named ? *named : scenario::find_unit(request->library, {});
     check_output_path(*request);
     if (is_scenario(request->library)) return pack_scenario(*request);
     if (scenario::is_stimuli(request->library)) return scenario::pack_stimuli(*request);

@@ -12,7 +12,9 @@
 #include "master/cli/reference/command_tree.h"
 #include "master/cli/reference/writers.h"
 #include "master/scenario/scenario.h"
+#include "master/scenario/scenario_path.h"
 #include "master/scenario/unit_path.h"
+#include "master/settings/scenario_options.h"
 #include "master/util/output_file.h"
 
 namespace stride::cli {
@@ -42,6 +44,10 @@ void print_components(const std::filesystem::path& file) {
   }
 }
 
+void print_scenarios() {
+  for (const std::string& name : scenario::scenario_names()) print_text("{}\n", name);
+}
+
 }  // namespace
 
 /// Hidden from the help: for building and installing the program.
@@ -58,8 +64,11 @@ void add_reference(CLI::App& app) {
   man->callback([&app, path] { write_pages(app, *path); });
   CLI::App* components =
       group->add_subcommand("components", "List the components of a scenario, for completion");
-  components->add_option("FILE", *path, "The scenario")->required()->type_name("");
+  settings::add_scenario_argument(*components, *path,
+                                  "An SSP system file (.ssd) or package (.ssp)");
   components->callback([path] { print_components(*path); });
+  group->add_subcommand("scenarios", "List the scenarios that come with stride, for completion")
+      ->callback(print_scenarios);
 }
 
 }  // namespace stride::cli

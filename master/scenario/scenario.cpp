@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "master/scenario/scenario_path.h"
 #include "master/ssp/flatten.h"
 #include "master/ssp/ssp.h"
 #include "master/ssp/system_reader.h"
@@ -69,6 +70,7 @@ std::string stem(const std::filesystem::path& path) {
 }
 
 Scenario read_scenario(const std::filesystem::path& path, const ReadOptions& options) {
+  refuse_unknown_name(path);
   Scenario scenario;
   scenario.path = path;
   scenario.files = options.files ? options.files : std::make_shared<ssp::Files>(options.find_unit);

@@ -11,6 +11,7 @@
 #include <fmt/ranges.h>
 #include <spdlog/spdlog.h>
 
+#include "master/scenario/scenario_path.h"
 #include "master/ssp/parameters.h"
 #include "master/util/message_text.h"
 
@@ -133,13 +134,22 @@ void add_intervention_options(CLI::App& command, scenario::ScenarioRequest& requ
       "out, how many first bytes are left alone, and the seed that chooses the bits");
 }
 
-void add_scenario_options(CLI::App& command, scenario::ScenarioRequest& request) {
+void add_scenario_argument(CLI::App& command, std::filesystem::path& scenario,
+                           const std::string& kinds) {
   command
-      .add_option(
-          "FILE", request.scenario,
-          "The scenario: an SSP system file (.ssd) or package (.ssp), or an FMU (.fmu) alone")
+      .add_option_function<std::string>(
+          "SCENARIO",
+          [&scenario](const std::string& text) {
+            scenario = scenario::named_scenario(text).value_or(text);
+          },
+          fmt::format("{}, or the name of a scenario that comes with stride", kinds))
       ->required()
       ->type_name("");
+}
+
+void add_scenario_options(CLI::App& command, scenario::ScenarioRequest& request) {
+  add_scenario_argument(command, request.scenario,
+                        "An SSP system file (.ssd) or package (.ssp), an FMU (.fmu) alone");
   command.add_option("--stop", request.stop, "Simulated time at which to end")
       ->type_name("SECONDS");
   add_step_options(command, request.step);

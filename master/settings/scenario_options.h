@@ -3,6 +3,8 @@
 #define STRIDE_MASTER_SETTINGS_SCENARIO_OPTIONS_H
 
 #include <cstddef>
+#include <filesystem>
+#include <string>
 
 #include "master/scenario/loaded_scenario.h"
 
@@ -12,7 +14,13 @@ class App;
 
 namespace stride::settings {
 
-/// The file, and the options that every command on a scenario has. `request` must outlive the
+/// The scenario that a command works on, of these kinds of files: "An SSP system file (.ssd)". A
+/// name becomes the file that it stands for (scenario::named_scenario). `scenario` must outlive the
+/// command line.
+void add_scenario_argument(CLI::App& command, std::filesystem::path& scenario,
+                           const std::string& kinds);
+
+/// The scenario, and the options that every command on a scenario has. `request` must outlive the
 /// command line.
 void add_scenario_options(CLI::App& command, scenario::ScenarioRequest& request);
 

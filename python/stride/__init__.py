@@ -13,10 +13,15 @@
 The program is on the PATH of the environment as `stride`; `python -m stride` is the same.
 """
 
-from ._errors import Error, InputError, MisuseError, RunError
-from ._program import Campaign, campaign, program, run
-from .results import Run, Signals
-from .simulation import Message, Simulation, Variable, Verdict
+import importlib
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from ._errors import Error, InputError, MisuseError, RunError
+    from ._installed import program
+    from ._program import Campaign, campaign, run
+    from .results import Run, Signals
+    from .simulation import Message, Simulation, Variable, Verdict
 
 __all__ = [
     "Campaign",
@@ -34,3 +39,24 @@ __all__ = [
     "program",
     "run",
 ]
+
+# imported when they are used, so that the command `stride` does not wait for numpy
+_MODULES = {
+    "_errors": ("Error", "InputError", "MisuseError", "RunError"),
+    "_installed": ("program",),
+    "_program": ("Campaign", "campaign", "run"),
+    "results": ("Run", "Signals"),
+    "simulation": ("Message", "Simulation", "Variable", "Verdict"),
+}
+
+
+def __getattr__(name: str) -> Any:
+    for module, names in _MODULES.items():
+        if name in names:
+            globals()[name] = getattr(importlib.import_module(f".{module}", __name__), name)
+            return globals()[name]
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+
+
+def __dir__() -> list[str]:
+    return __all__

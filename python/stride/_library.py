@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import ctypes
 import functools
-import os
 from ctypes import POINTER, c_char_p, c_double, c_int, c_int64, c_size_t, c_uint32, c_void_p
 from pathlib import Path
 from typing import Any, Optional
 
 from ._errors import Error, InputError, MisuseError, RunError
+from ._installed import prefix
 
 UNKNOWN_TIME = -(2**63)
 END_OF_TIME = 2**63 - 1
@@ -133,12 +133,6 @@ _FUNCTIONS = {
     "stride_verdict_count": (c_size_t, [c_void_p]),
     "stride_get_verdict": (c_int, [c_void_p, c_size_t, POINTER(Verdict)]),
 }
-
-
-def prefix() -> Path:
-    """Where stride is installed: the environment variable STRIDE_PREFIX, or else what is in this package."""
-    given = os.environ.get("STRIDE_PREFIX")
-    return Path(given) if given else Path(__file__).resolve().parent / "_prefix"
 
 
 def _find() -> Path:

@@ -13,32 +13,17 @@ from typing import Any, Optional, TypeVar, Union
 import numpy as np
 
 from ._errors import Error, InputError, RunError, parse_error
-from ._library import prefix
+from ._installed import program
 from ._options import words
 from .results import Run, temporary_folder
 
-__all__ = ["Campaign", "campaign", "program", "run"]
+__all__ = ["Campaign", "campaign", "run"]
 
 AnyError = TypeVar("AnyError", bound=Error)
 PathLike = Union[str, "os.PathLike[str]"]
 
 _ERROR = "stride: error: "
 _WARNING = "stride: warning: "
-
-
-def program(name: str = "stride") -> Path:
-    """The file of the program `stride`, or of another one that comes with it: `stride-robot`.
-
-    Raises FileNotFoundError where this package is not one that was installed from a wheel, and the environment
-    variable STRIDE_PREFIX does not say where stride is installed.
-    """
-    file = prefix() / "bin" / name
-    if not file.is_file():
-        raise FileNotFoundError(
-            f"there is no program {file}: install the package from a wheel, or set STRIDE_PREFIX to where stride is"
-            " installed"
-        )
-    return file
 
 
 def _call(arguments: list[str], folder: Optional[PathLike] = None) -> tuple[int, str, str]:

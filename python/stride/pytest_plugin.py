@@ -28,7 +28,8 @@ from xml.parsers import expat
 import pytest
 
 from ._errors import Error, InputError, RunError
-from ._program import program, run, run_words
+from ._installed import program
+from ._program import run, run_words
 from .results import Run
 
 _CHECKS = "urn:org.stride:scenario:1 Checks"

@@ -40,7 +40,7 @@ TEST_CASE("an unknown command is answered with the nearest one") {
 
 TEST_CASE("a mistake in a command's arguments names the argument and points to the help") {
   CHECK_THAT(input_error_of(run_program({"run"})),
-             Contains("FILE is required") && Contains("stride run --help"));
+             Contains("SCENARIO is required") && Contains("stride run --help"));
   CHECK_THAT(input_error_of(run_program({"check", "test.ssd", "--frobnicate"})),
              Contains("--frobnicate") && Contains("stride check --help"));
   CHECK_THAT(input_error_of(run_program({"run", "test.ssd", "--stopp=3"})),

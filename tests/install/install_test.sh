@@ -76,6 +76,10 @@ awk -F, '
   $1 == "1" { there = ($2 + 1) ^ 2 < 1e-18; follows = ($3 + 0.1258) ^ 2 < 1e-5 }
   END { exit !(half_way && there && follows) }' "$work/out/signals.csv" || fail "other numbers in signals.csv"
 
+step "A scenario by its name"
+(cd "$work" && "$stride" run nfc_far --stop 0.5 --no-checks --quiet) || [ $? -eq 1 ]
+grep -q '"outcome": "completed"' "$work/results/nfc_far/run.json" || fail "nfc_far was not completed"
+
 step "The installed scenarios run with the installed units"
 for scenario in "$work"/stride/share/stride/scenarios/*/*.ssd; do
   [ -e "${scenario%/*}/make_world.sh" ] && continue  # its world has to be fetched first

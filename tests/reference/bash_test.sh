@@ -54,6 +54,10 @@ offers "" run --stop ''
 offers "scenario.ssd" run sce
 offers "folder" run fo
 offers "with blank.ssd" run wi
+offers "nfc_approach nfc_approach.ssd" run nfc_app
+offers "" inspect nfc_app
+offers "nfc_far" check nfc_fa
+offers "channel= environment= reader= sensor= world=" run nfc_far --swap ''
 offers "unit.fmu" run un
 offers "" complete un
 offers "notes.txt" run --capture sensor = no

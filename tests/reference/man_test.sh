@@ -16,6 +16,6 @@ expected=$(printf 'stride-%s.1\n' $commands; echo stride.1)
 # a date would make each build another one
 if mandoc -T lint -W warning "$work"/*.1 | grep -v 'missing date'; then exit 1; fi
 text=$(mandoc -T utf8 "$work/stride-run.1" | col -b)
-for words in 'stride run [OPTION]... FILE' '--policy fixed|event-driven|error-controlled' '--isolate[=COMPONENT]'; do
+for words in 'stride run [OPTION]... SCENARIO' '--policy fixed|event-driven|error-controlled' '--isolate[=COMPONENT]'; do
   grep -qF -e "$words" <<< "$text" || { echo "$text"; echo "'$words' is missing"; exit 1; }
 done

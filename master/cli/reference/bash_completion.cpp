@@ -33,10 +33,17 @@ _stride_files() { # EXTENSION...; any file if there is none
   done
 }
 
+_stride_scenarios() { # EXTENSION...; also those that come with stride
+  _stride_files "$@"
+  _stride_words $("${words[0]}" reference scenarios 2> /dev/null)
+}
+
 _stride_components() { # what follows each name
-  local word scenario=
-  for word in "${words[@]}"; do
+  local word scenario= known=
+  printf -v known ' %s ' $("${words[0]}" reference scenarios 2> /dev/null)
+  for word in "${words[@]:1}"; do
     case $word in *.ssd | *.ssp) scenario=$word ;; esac
+    [[ -n $word && $known == *" $word "* ]] && scenario=$word
   done
   [ -n "$scenario" ] || return 0
   [ -z "$1" ] || compopt -o nospace 2> /dev/null
@@ -87,6 +94,8 @@ std::string bash_completer(const Value& value) {
   switch (value.kind) {
     case Kind::Choice:
       return fmt::format("_stride_words {}", fmt::join(value.choices, " "));
+    case Kind::Scenario:
+      return fmt::format("_stride_scenarios {}", fmt::join(value.extensions, " "));
     case Kind::File:
       return fmt::format("_stride_files {}", fmt::join(value.extensions, " "));
     case Kind::Folder:

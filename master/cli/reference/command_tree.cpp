@@ -52,6 +52,7 @@ Value value_of(const std::string& placeholder, const std::string& description) {
   if (placeholder == "COMPONENT") return {Kind::Component, {}, {}};
   if (placeholder.starts_with("COMPONENT.")) return {Kind::ComponentVariable, {}, {}};
   if (placeholder.find("FOLDER") != std::string::npos) return {Kind::Folder, {}, {}};
+  if (placeholder == "SCENARIO") return {Kind::Scenario, {}, extensions(placeholder, description)};
   if (!is_file) return {};
   const bool is_of_component = placeholder.starts_with("COMPONENT=");
   return {

@@ -15,8 +15,9 @@ namespace stride::cli::reference {
 struct Value {
   enum class Kind {
     Anything,
-    Choice,  ///< one of `choices`
-    File,    ///< with one of `extensions`, if there are any
+    Choice,    ///< one of `choices`
+    Scenario,  ///< a file as below, or the name of one that comes with stride
+    File,      ///< with one of `extensions`, if there are any
     Folder,
     Component,          ///< of the scenario
     ComponentVariable,  ///< "sensor.led=…"

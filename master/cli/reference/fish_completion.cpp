@@ -19,10 +19,21 @@ function __stride_at # COMMAND...: whether the words of the line begin with thes
     test "$found" = "$argv"
 end
 
+function __stride_scenario_names # of those that come with stride
+    set -l words (commandline -opc)
+    $words[1] reference scenarios 2>/dev/null
+end
+
 function __stride_components # what follows each name
     set -l words (commandline -opc) (commandline -ct)
-    set -l scenario (string match -r '.*\.ss[dp]$' -- $words)
-    test -n "$scenario"; and $words[1] reference components $scenario[-1] 2>/dev/null | string replace -r '$' "$argv"
+    set -l known (__stride_scenario_names)
+    set -l scenario
+    for word in $words
+        if string match -q -r '\.ss[dp]$' -- $word; or contains -- $word $known
+            set scenario $word
+        end
+    end
+    test -n "$scenario"; and $words[1] reference components $scenario 2>/dev/null | string replace -r '$' "$argv"
 end
 
 function __stride_files # EXTENSION...
@@ -74,6 +85,9 @@ std::string offer(const Value& value) {
   switch (value.kind) {
     case Kind::Choice:
       return fmt::format(" -a '{}'", fmt::join(value.choices, " "));
+    case Kind::Scenario:
+      return fmt::format(" -a '(__stride_files {}) (__stride_scenario_names)'",
+                         fmt::join(value.extensions, " "));
     case Kind::File:
       if (value.extensions.empty()) return kAnyFile;
       return fmt::format(" -a '(__stride_files {})'", fmt::join(value.extensions, " "));

@@ -9,8 +9,17 @@ namespace {
 constexpr const char* kZshHead = R"sh(#compdef stride
 # zsh completion for stride, made by `stride reference zsh`
 
+_stride_scenarios() { # pattern of the files; also those that come with stride
+  local -a known=(${(f)"$($_stride_program reference scenarios 2> /dev/null)"})
+  local result=1
+  compadd -a known && result=0
+  _files -g "$1" && result=0
+  return result
+}
+
 _stride_components() { # what follows each name
-  local scenario=${${(M)words:#*.ss[dp]}[-1]}
+  local -a known=(${(f)"$($_stride_program reference scenarios 2> /dev/null)"})
+  local scenario=${${(M)words:#*.ss[dp]}[-1]:-${${words:*known}[-1]}}
   [[ -n $scenario ]] || return 1
   local -a names=(${(f)"$($_stride_program reference components ${(Q)scenario} 2> /dev/null)"})
   compadd ${1:+-S} ${1:+$1} -a names
@@ -52,6 +61,8 @@ std::string zsh_completer(const Value& value) {
   switch (value.kind) {
     case Kind::Choice:
       return fmt::format("({})", fmt::join(value.choices, " "));
+    case Kind::Scenario:
+      return fmt::format(" _stride_scenarios \"{}\"", glob(value));
     case Kind::File:
       return fmt::format("_files -g \"{}\"", glob(value));
     case Kind::Folder:

@@ -33,6 +33,9 @@ TEST_CASE("what a value can be is read from its placeholder and its description"
   const Value file = told("--output", "FILE", "The .fmu (or .ssp, as in a.b.c) to write").value;
   CHECK(file.kind == Kind::File);
   CHECK(file.extensions == Words{"fmu", "ssp"});
+  const Value scenario = told("--of", "SCENARIO", "A system file (.ssd), or a name").value;
+  CHECK(scenario.kind == Kind::Scenario);
+  CHECK(scenario.extensions == Words{"ssd"});
   CHECK(told("--json", "FILE", "Where they go").value.extensions.empty());
   const Value check = told("--check", "CHECK").value;
   CHECK(std::ranges::count(check.choices, "serialization") == 1);
