@@ -48,23 +48,29 @@ RemoteUnit::~RemoteUnit() {
 
 void RemoteUnit::instantiate() {
   connection_->greet();
-  told_here(*connection_, {.where = options_.where, .unit = name_}, [&] {
-    if (!spec_.sent.empty()) send_file();
-    call(
-        "the instantiation",
-        [&](wire::Request::Builder request) { fill(request.initInstantiate()); },
-        [&](wire::Result::Reader result) {
-          if (!result.isInstance()) throw BadMessage("an answer of another kind");
-          capabilities_ = take_capabilities(result.getInstance());
-          take_protections(result.getInstance(), statistics_);
-        });
-  });
+  if (!spec_.sent.empty()) send_file();
+  call(
+      "the instantiation", [&](wire::Request::Builder request) { fill(request.initInstantiate()); },
+      [&](wire::Result::Reader result) {
+        if (!result.isInstance()) throw BadMessage("an answer of another kind");
+        capabilities_ = take_capabilities(result.getInstance(), declared_capabilities());
+        take_protections(result.getInstance(), statistics_);
+      });
   has_unit_ = true;
   for (const core::CapabilityId id :
        {core::CapabilityId::UnitDiagnostics, core::CapabilityId::HostDiagnostics,
         core::CapabilityId::ConcurrentSteps}) {
     capabilities_.set(static_cast<std::size_t>(id));
   }
+}
+
+isolation::CapabilitySet RemoteUnit::declared_capabilities() const {
+  isolation::CapabilitySet declared;
+  for (std::size_t i = 0; i < declared.size(); ++i) {
+    declared.set(i, importer::declares(*description_, static_cast<core::CapabilityId>(i)));
+  }
+  if (host_.takes_snapshots) declared.set(static_cast<std::size_t>(core::StateSaving::kId));
+  return declared;
 }
 
 void RemoteUnit::fill(wire::Instantiate::Builder to) const {
@@ -99,7 +105,7 @@ void RemoteUnit::fill(wire::Instantiate::Builder to) const {
 }
 
 void RemoteUnit::send_file() {
-  const core::Descriptor file = core::open_input(spec_.sent, spec_.sent.string());
+  const core::Descriptor file = core::open_input(spec_.sent, options_.where);
   std::string bytes(kSentPiece, '\0');
   bool is_first = true;
   for (std::size_t size = kSentPiece; size == kSentPiece; is_first = false) {
@@ -213,7 +219,7 @@ wire::Result::Reader RemoteUnit::take_reply(wire::Reply::Reader reply, bool& is_
       note_time(reply.getDone());
       return reply.getDone();
     case wire::Reply::FAILED:
-      throw_error(reply.getFailed());
+      throw_error(reply.getFailed(), {.where = options_.where, .unit = name_}, spec_.place.machine);
     case wire::Reply::CALLBACK_FAILED:
       input_update_.rethrow_failure();
       throw BadMessage("inputs have failed that nobody has asked for");

@@ -115,6 +115,7 @@ class RemoteUnit final : public core::Unit, public isolation::ProxyCapabilities 
   void log(wire::LogMessage::Reader message) const;
   void log(importer::Status status, const std::string& category, const std::string& text) const;
   void note_time(wire::Result::Reader result);
+  isolation::CapabilitySet declared_capabilities() const;
   void fill(wire::Instantiate::Builder to) const;
   void send_file();
   std::uint32_t plan_number(const core::StepValues& values);

@@ -259,7 +259,7 @@ TEST_CASE("a link that is lost in the run ends it with the results up to there")
   CHECK(leftovers.after_a_while().empty());
 }
 
-TEST_CASE("what a unit does there is the error that it is in a host here") {
+TEST_CASE("what a unit does there is the error that it is in a host here, with the machine") {
   const Leftovers leftovers;
   const auto error_of_fault = [](const std::string& fault, const std::string& hosting) {
     const Workspace workspace(
@@ -271,10 +271,14 @@ TEST_CASE("what a unit does there is the error that it is in a host here") {
     CHECK(workspace.left_behind().empty());
     return outcome.err;
   };
+  const std::string machine = serve_command().substr(5);
   for (const std::string fault : {"segfault", "exit", "kill"}) {
     INFO(fault);
-    CHECK(error_of_fault(fault, host("faulty")) ==
-          error_of_fault(fault, "<stride:Host components=\"faulty\"/>\n"));
+    std::string here = error_of_fault(fault, "<stride:Host components=\"faulty\"/>\n");
+    const std::string context = "unit 'faulty', at 0.499 s: ";
+    REQUIRE_THAT(here, Contains(context));
+    here.insert(here.find(context) + context.size(), machine + ": ");
+    CHECK(error_of_fault(fault, host("faulty")) == here);
   }
   CHECK_THAT(error_of_fault("loop", host("faulty", "timeout=\"0.5\"")),
              Contains("it took longer than 0.5 s in fmi3DoStep"));
