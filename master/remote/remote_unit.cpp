@@ -33,7 +33,9 @@ RemoteUnit::RemoteUnit(RemoteSpec spec, std::shared_ptr<importer::Fmu> fmu, std:
   ConnectionOptions connection = connection_options(spec_, options_.where);
   connection.context.unit = name_;
   connection.interrupted = options_.interrupted;
-  connection.note = [this](const std::string& line) { log(importer::Status::Ok, "stride", line); };
+  connection.note = [this](const std::string& line) {
+    log_from_there(importer::Status::Ok, "stride", line);
+  };
   connection_.emplace(std::move(connection));
 }
 
@@ -182,7 +184,7 @@ void RemoteUnit::fetch_files() {
       const wire::Result::Reader result = take_reply(reply, is_result);
       if (!is_result) continue;
       const std::string left_out = result.isText() ? to_string(result.getText()) : "";
-      if (!left_out.empty()) log(importer::Status::Warning, "stride", left_out);
+      if (!left_out.empty()) log_from_there(importer::Status::Warning, "stride", left_out);
       return;
     }
   });
@@ -227,7 +229,7 @@ wire::Result::Reader RemoteUnit::take_reply(wire::Reply::Reader reply, bool& is_
       update_inputs(reply.getInputsNeeded());
       return {};
     case wire::Reply::LOG:
-      log(reply.getLog());
+      log_from_there(reply.getLog());
       return {};
     default:
       throw BadMessage("an answer that nobody has asked for");
@@ -259,18 +261,22 @@ void RemoteUnit::note_time(wire::Result::Reader result) {
   step_time_ = std::min<std::chrono::nanoseconds>(worked + least_lost_, now - sent_at_);
 }
 
-void RemoteUnit::log(wire::LogMessage::Reader message) const {
+void RemoteUnit::log_from_there(wire::LogMessage::Reader message) const {
   const auto status = std::min<std::uint8_t>(message.getStatus(),
                                              static_cast<std::uint8_t>(importer::Status::Pending));
-  log(static_cast<importer::Status>(status), to_string(message.getCategory()),
-      to_string(message.getText()));
+  log_from_there(static_cast<importer::Status>(status), to_string(message.getCategory()),
+                 to_string(message.getText()));
+}
+
+void RemoteUnit::log_from_there(importer::Status status, const std::string& category,
+                                const std::string& text) const {
+  log(status, category, fmt::format("({}) {}", spec_.place.machine, text));
 }
 
 void RemoteUnit::log(importer::Status status, const std::string& category,
                      const std::string& text) const {
   try {
-    if (!options_.log) return;
-    options_.log(name_, status, category, fmt::format("({}) {}", spec_.place.machine, text));
+    if (options_.log) options_.log(name_, status, category, text);
   } catch (...) {  // as in the unit's own process, where nothing may cross its C code
   }
 }

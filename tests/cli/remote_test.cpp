@@ -36,6 +36,14 @@ nlohmann::json host_entry(const Workspace& workspace, std::size_t unit) {
                                                                                   nlohmann::json());
 }
 
+std::size_t count_of(const std::string& part, const std::string& text) {
+  std::size_t count = 0;
+  for (std::size_t at = 0; (at = text.find(part, at)) != std::string::npos; at += part.size()) {
+    ++count;
+  }
+  return count;
+}
+
 /// The error of a run that cannot begin; nothing stays.
 std::string error_of_start(const std::string& annotation, int code = 2) {
   const Leftovers leftovers;
@@ -147,6 +155,16 @@ TEST_CASE("a machine without stride is an error with what it says") {
                          Contains("it said: oh dear"));
 }
 
+TEST_CASE("an error has the command of its machine once") {
+  const Workspace workspace(two_filters());
+  const std::string missing = "/no/stride serve";
+  CHECK(count_of(missing, workspace.run({"--quiet", "--at", "second=exec:" + missing}).err) == 1);
+  const std::string other = stride_program().string() + " serve --only judge.fmu";
+  const Outcome refused = workspace.run({"--quiet", "--at", "second=exec:" + other});
+  CHECK_THAT(refused.err, Contains("--at second: " + other + ": 'minimal.fmu' is not offered"));
+  CHECK(count_of(other, refused.err) == 1);
+}
+
 TEST_CASE("what is printed before the greeting does no harm, and what comes between does") {
   const Workspace workspace(with_annotation(
       two_filters(),
@@ -255,6 +273,7 @@ TEST_CASE("a link that is lost in the run ends it with the results up to there")
   CHECK(outcome.exit_code == 1);
   CHECK_THAT(outcome.err, Contains("unit 'second', at ") && Contains("the link to ") &&
                               Contains("has ended in "));
+  CHECK(count_of("sleep 1.5; kill -9", outcome.err) == 1);
   CHECK(workspace.signals().size() > 100);
   CHECK(leftovers.after_a_while().empty());
 }
