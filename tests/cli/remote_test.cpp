@@ -1,8 +1,10 @@
 // Units on other machines, as a user meets them: `exec:` with the program of this build in place of
 // another machine.
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <memory>
+#include <random>
 #include <thread>
 
 #include <nlohmann/json.hpp>
@@ -115,6 +117,36 @@ TEST_CASE("a file is sent where that is allowed") {
   CHECK(workspace.left_behind().empty());
   CHECK_THAT(error_of_start(host("second", "send=\"true\"")),
              Contains("no files are accepted there"));
+}
+
+TEST_CASE("a file that is sent is no larger than the limit there, packed or unpacked") {
+  const Scratch scratch;
+  const auto error_with = [&](const std::string& content, const std::string& limit) {
+    const fs::path fmu = make_zip(
+        scratch / "large.fmu",
+        {{"modelDescription.xml", description_text("large")}, {"resources/content", content}});
+    const Workspace workspace(
+        Parts{component("unit", fmu.string()), "",
+              host("unit", "send=\"true\"", serve_command(" --accept-files" + limit))});
+    const Outcome outcome = workspace.run({"--quiet"});
+    CHECK(outcome.exit_code == 2);
+    CHECK_THAT(outcome.err, Contains(workspace.at("<ssd:Component") + "unit 'unit': "));
+    CHECK(workspace.left_behind().empty());
+    return outcome.err;
+  };
+  const std::string zeros(2'000'000, '\0');
+  std::string noise(2'000'000, '\0');
+  std::mt19937 random(1);
+  std::ranges::generate(noise, [&] { return static_cast<char>(random()); });
+  const std::string hint = "hint: have it served with a larger --file-limit";
+  CHECK_THAT(error_with(zeros, " --file-limit 1"),
+             Contains("'large.fmu' unpacks to more than 1048576 bytes") && Contains(hint));
+  CHECK_THAT(error_with(noise, " --file-limit 1"),
+             Contains("'large.fmu' has more than 1048576 bytes") && Contains(hint));
+  for (const std::string limit : {" --file-limit 2", ""}) {
+    CHECK_THAT(error_with(noise, limit), !Contains(hint));  // it has no library
+  }
+  CHECK_THAT(run_program({"serve", "--file-limit", "1"}).err, Contains("--accept-files"));
 }
 
 TEST_CASE("attributes that contradict each other are refused with their line") {
