@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <csignal>
+#include <fstream>
 #include <memory>
 #include <random>
 #include <thread>
@@ -147,6 +148,39 @@ TEST_CASE("a file that is sent is no larger than the limit there, packed or unpa
     CHECK_THAT(error_with(noise, limit), !Contains(hint));  // it has no library
   }
   CHECK_THAT(run_program({"serve", "--file-limit", "1"}).err, Contains("--accept-files"));
+}
+
+TEST_CASE("run.json and checkpoints know a unit that stays elsewhere by its description") {
+  const Scratch machine;
+  const fs::path unit = machine / "filter";
+  fs::copy(stride::importer::UnpackedFmu(unit_folder() / "minimal.fmu").folder(), unit,
+           fs::copy_options::recursive);
+  const Workspace workspace(
+      with_annotation(two_filters(), host("second", "fmu=\"" + unit.string() + "\"")));
+  const auto known = [&] {
+    nlohmann::json found;
+    const auto run = nlohmann::json::parse(workspace.result("run.json"));
+    for (const auto& source : run["provenance"]["sources"]) {
+      if (source["what"] == "the description of a unit on another machine") found.push_back(source);
+    }
+    REQUIRE(found.size() == 1);
+    return found[0];
+  };
+  const Arguments options{"--set", "first.u=1", "--stop", "0.3", "--quiet", "--checkpoint", "0.2"};
+  REQUIRE(workspace.run(options).exit_code == 0);
+  const nlohmann::json before = known();
+  CHECK(before["path"] == serve_command().substr(5) + ":" + unit.string());
+  REQUIRE(workspace.stride({"resume", "out", "--quiet"}).exit_code == 0);
+  CHECK(known() == before);
+
+  std::ofstream(unit / "modelDescription.xml", std::ios::app) << "<!-- another one -->\n";
+  const Outcome resumed = workspace.stride({"resume", "out", "--quiet"});
+  CHECK(resumed.exit_code == 2);
+  CHECK_THAT(resumed.err, Contains("the description of a unit on another machine, ") &&
+                              Contains("is not what it was"));
+  REQUIRE(workspace.run(options).exit_code == 0);
+  CHECK(known()["path"] == before["path"]);
+  CHECK(known()["sha256"] != before["sha256"]);
 }
 
 TEST_CASE("attributes that contradict each other are refused with their line") {
