@@ -80,6 +80,28 @@ TEST_CASE("a machine that stays lost ends a campaign, and is no outcome of a cas
   CHECK(space.table("out") == space.table("whole"));
 }
 
+TEST_CASE("who reads the records of a campaign needs no machine") {
+  const FarCampaign space;
+  REQUIRE(space.campaign("out").exit_code == 0);
+  const std::string table = space.table("out");
+  space.kill_links(1, 1000);
+  for (const std::string command : {"status", "report"}) {
+    for (const Arguments& of : {Arguments{"out"}, Arguments{"c.xosc", "--out", "out"}}) {
+      Arguments arguments{"campaign", command};
+      arguments.insert(arguments.end(), of.begin(), of.end());
+      const Outcome outcome = space.stride(arguments);
+      CHECK(outcome.err == "");
+      CHECK(outcome.exit_code == 0);
+    }
+  }
+  CHECK_THAT(space.stride({"campaign", "status", "out"}).out,
+             Contains("4 of 4 cases done, 4 passed"));
+  CHECK(space.links() == 0);
+  CHECK(space.table("out") == table);
+  CHECK(space.campaign("out").exit_code == 0);
+  CHECK(space.links() == 1);  // what runs looks whether the unit is the same
+}
+
 TEST_CASE("a case that loses its machine once is run once more") {
   const FarCampaign space;
   REQUIRE(space.campaign("whole").exit_code == 0);
