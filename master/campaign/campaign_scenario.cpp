@@ -125,8 +125,10 @@ bool is_same_place(const core::Location& a, const core::Location& b) {
 
 }  // namespace
 
-CampaignScenario::CampaignScenario(const Campaign& campaign, const std::string& version)
-    : loaded_(load(campaign, {}, units_)) {
+CampaignScenario::CampaignScenario(const Campaign& campaign, const std::string& version,
+                                   scenario::UnitStore units)
+    : units_(std::make_shared<scenario::UnitStore>(std::move(units))),
+      loaded_(load(campaign, {}, units_)) {
   for (const core::Component& component : loaded_.system().components()) {
     names_.add(component.name, component.description);
   }

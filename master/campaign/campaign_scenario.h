@@ -22,8 +22,9 @@ class CampaignScenario {
   /// Loads the scenario with its units, of which none is instantiated, and the alternatives of
   /// swaps. Throws core::Error (Input) for what they and the names of the campaign have wrong:
   /// unknown components, variables and signals, parameters that name the same variable, and
-  /// parameters without effect. `version` is that of stride.
-  CampaignScenario(const Campaign& campaign, const std::string& version);
+  /// parameters without effect. `version` is that of stride; `units` need not be loaded.
+  CampaignScenario(const Campaign& campaign, const std::string& version,
+                   scenario::UnitStore units = {});
 
   /// A start value that a column gives; a connector of the system may lead to several.
   struct StartTarget {
@@ -68,7 +69,7 @@ class CampaignScenario {
   void load_alternatives(const Campaign& campaign);
   void take_fingerprints(const Campaign& campaign);
 
-  std::shared_ptr<scenario::UnitStore> units_ = std::make_shared<scenario::UnitStore>();
+  std::shared_ptr<scenario::UnitStore> units_;
   scenario::LoadedScenario loaded_;
   core::NameIndex names_;
   std::vector<StartTarget> targets_;

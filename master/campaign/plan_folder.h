@@ -12,6 +12,8 @@ namespace stride::campaign {
 
 inline constexpr const char* kPlanTable = "plan.csv";
 inline constexpr const char* kPlanDescription = "campaign.json";
+/// Of units that stay on other machines; only if there are some.
+inline constexpr const char* kDescriptions = "descriptions.zip";
 inline constexpr const char* kParameterSets = "parameters";
 /// What a search is, in its folder: a campaign has another one.
 inline constexpr const char* kSearchDescription = "search.json";

@@ -23,8 +23,7 @@ std::map<std::string, std::string> scenario_digests(const scenario::Scenario& sc
 
 std::string unit_digest(const scenario::LoadedScenario& loaded, std::size_t component,
                         core::FileDigests& digests) {
-  const std::optional<scenario::Hosting>& hosting = loaded.hostings()[component];
-  if (hosting && hosting->remote && hosting->remote->sent.empty()) {
+  if (loaded.stays_elsewhere(component)) {
     return scenario::description_digest(*loaded.fmus()[component]);
   }
   const fs::path path = scenario::find_unit(loaded.scenario().sources[component], {});

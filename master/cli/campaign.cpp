@@ -128,9 +128,9 @@ void plan_campaign(const PlanArguments& arguments) {
     input.require_case(*arguments.only, "--case");
     return print_case(plan, *arguments.only);
   }
-  input.refuse_inputs({campaign::kPlanTable, campaign::kPlanDescription});
+  input.refuse_inputs({campaign::kPlanTable, campaign::kPlanDescription, campaign::kDescriptions});
   if (arguments.ssv) campaign::refuse_parameter_sets_of(plan);
-  campaign::write_plan(plan, input.folder());
+  input.write_plan();
   if (arguments.ssv) campaign::write_parameter_sets(plan, input.folder());
   print_plan(plan, input.folder(), arguments.ssv);
 }

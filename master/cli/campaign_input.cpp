@@ -17,6 +17,7 @@
 #include "master/campaign/plan_folder.h"
 #include "master/cli/output.h"
 #include "master/results/output_paths.h"
+#include "master/scenario/kept_descriptions.h"
 #include "master/util/error.h"
 #include "master/util/input_file.h"
 #include "master/util/message_text.h"
@@ -52,6 +53,11 @@ fs::path campaign_file(const CampaignArguments& arguments) {
 fs::path campaign_folder(const CampaignArguments& arguments) {
   if (core::is_folder(arguments.file)) return arguments.file;
   return arguments.out.empty() ? campaign::default_folder(arguments.file) : arguments.out;
+}
+
+scenario::UnitStore known_units(const fs::path& folder, Purpose purpose) {
+  if (purpose != Purpose::Read) return {};
+  return scenario::kept_descriptions(folder / campaign::kDescriptions);
 }
 
 class NoWarnings {
@@ -109,14 +115,15 @@ CLI::Option* add_cases_option(CLI::App& command, std::optional<campaign::CaseRan
       ->type_name("FIRST[-LAST]");
 }
 
-CampaignInput::CampaignInput(const CampaignArguments& arguments)
-    : CampaignInput(arguments, read_with_warnings(campaign_file(arguments))) {}
+CampaignInput::CampaignInput(const CampaignArguments& arguments, Purpose purpose)
+    : CampaignInput(arguments, purpose, read_with_warnings(campaign_file(arguments))) {}
 
-CampaignInput::CampaignInput(const CampaignArguments& arguments, campaign::Campaign read)
+CampaignInput::CampaignInput(const CampaignArguments& arguments, Purpose purpose,
+                             campaign::Campaign read)
     : file_(read.file),
       folder_(campaign_folder(arguments)),
       is_default_folder_(folder_ == campaign::default_folder(file_)),
-      scenario_(read, STRIDE_VERSION),
+      scenario_(read, STRIDE_VERSION, known_units(folder_, purpose)),
       plan_(std::move(read), scenario_.kinds(), scenario_.fingerprints()) {}
 
 std::string CampaignInput::word() const { return (is_default_folder_ ? file_ : folder_).string(); }
@@ -133,7 +140,7 @@ std::vector<results::KeptPath> CampaignInput::inputs() const {
 void CampaignInput::refuse_output(const results::OutputPath& output) const {
   using namespace campaign;
   std::vector<results::KeptPath> kept = inputs();
-  for (const char* name : {kPlanTable, kPlanDescription, kCaseTable, kCaseLines}) {
+  for (const char* name : {kPlanTable, kPlanDescription, kDescriptions, kCaseTable, kCaseLines}) {
     kept.push_back({folder_ / name, fmt::format("{} of the campaign", name)});
   }
   results::refuse_kept_paths({&output, 1}, kept);
@@ -162,12 +169,19 @@ void CampaignInput::make_plan() const {
   for (int attempt = 1; !campaign::has_plan(plan_, folder_); ++attempt) {
     if (attempt == 1) campaign::check_plan(plan_, scenario_);
     try {
-      return campaign::write_plan(plan_, folder_);
+      return write_plan();
     } catch (const core::Error&) {
       if (attempt == kAttempts || !core::is_folder(folder_)) throw;
     }
     std::this_thread::sleep_for(kPause);
   }
+}
+
+void CampaignInput::write_plan() const {
+  campaign::write_plan(plan_, folder_);
+  std::vector<const scenario::LoadedScenario*> scenarios{&scenario_.loaded()};
+  for (const auto& alternative : scenario_.alternatives()) scenarios.push_back(&alternative.loaded);
+  scenario::keep_descriptions(scenarios, folder_ / campaign::kDescriptions);
 }
 
 scenario::LoadedScenario CampaignInput::load_case(std::uint64_t index) const {

@@ -39,11 +39,17 @@ CLI::Option* add_case_option(CLI::App& command, std::optional<std::uint64_t>& in
 CLI::Option* add_cases_option(CLI::App& command, std::optional<campaign::CaseRange>& range,
                               const std::string& description);
 
+/// For which a command needs the units of a campaign.
+enum class Purpose {
+  Run,
+  Read,  ///< records of cases: descriptions of units elsewhere are those that the plan was made of
+};
+
 /// A campaign, its scenario with all units, and its plan, in a guarded process.
 class CampaignInput {
  public:
   /// Prints warnings. Throws core::Error (Input).
-  explicit CampaignInput(const CampaignArguments& arguments);
+  explicit CampaignInput(const CampaignArguments& arguments, Purpose purpose = Purpose::Run);
 
   const campaign::CampaignScenario& scenario() const { return scenario_; }
   const campaign::Plan& plan() const { return plan_; }
@@ -60,6 +66,8 @@ class CampaignInput {
   void require_plan() const;
   /// Checks and writes the plan, unless it is there. Throws core::Error (Input) if another one is.
   void make_plan() const;
+  /// Writes the plan, whatever is there, but not over another one: then it throws likewise.
+  void write_plan() const;
   /// The scenario of a case, without warnings: those of the campaign's have been printed. Throws
   /// core::Error (Input).
   scenario::LoadedScenario load_case(std::uint64_t index) const;
@@ -69,7 +77,7 @@ class CampaignInput {
   void require_case(std::uint64_t index, const char* option) const;
 
  private:
-  explicit CampaignInput(const CampaignArguments& arguments, campaign::Campaign read);
+  CampaignInput(const CampaignArguments& arguments, Purpose purpose, campaign::Campaign read);
 
   std::vector<results::KeptPath> inputs() const;
 

@@ -27,7 +27,7 @@ struct CampaignReportArguments {
 
 void make_campaign_report(const CampaignReportArguments& arguments) {
   const CrashGuard guard;
-  const CampaignInput input(arguments.campaign);
+  const CampaignInput input(arguments.campaign, Purpose::Read);
   input.require_plan();
   fs::path page = arguments.page;
   if (page.empty()) {

@@ -219,8 +219,8 @@ void run_campaign(const CampaignRunArguments& arguments) {
   if (arguments.only) input.require_case(*arguments.only, "--case");
   if (arguments.range) input.require_case(arguments.range->last, "--cases");
   using namespace campaign;
-  input.refuse_inputs({kPlanTable, kPlanDescription, kCaseTable, kCaseLines, kCampaignPage,
-                       coverage::kCoverageFile, kCases, kRunning});
+  input.refuse_inputs({kPlanTable, kPlanDescription, kDescriptions, kCaseTable, kCaseLines,
+                       kCampaignPage, coverage::kCoverageFile, kCases, kRunning});
   if (!arguments.junit.empty()) {
     input.refuse_output({"--junit " + arguments.junit.string(), arguments.junit});
   }
@@ -277,7 +277,7 @@ void add_campaign_status(CLI::App& group) {
   add_campaign_options(*command, *arguments);
   command->callback([arguments] {
     const CrashGuard guard;
-    print_status(CampaignInput(*arguments));
+    print_status(CampaignInput(*arguments, Purpose::Read));
   });
 }
 

@@ -25,6 +25,7 @@ namespace {
 struct ServeRequest {
   std::vector<std::string> only, folders;
   std::string unit_timeout, memory_limit;
+  std::string file_limit = "1024";  ///< [MiB]
   bool accepts_files = false;
   bool no_sandbox = false;
 };
@@ -68,7 +69,10 @@ void serve(const ServeRequest& request) {
   remote::ServeOptions options;
   options.only = request.only;
   options.find = [](const std::string& name) { return scenario::find_unit(name, {}); };
-  options.accepts_files = request.accepts_files;
+  if (request.accepts_files) {
+    options.file_limit =
+        parse_option("--file-limit", request.file_limit, scenario::parse_memory_limit);
+  }
   options.may_leave_sandbox = request.no_sandbox;
   if (!request.unit_timeout.empty()) {
     options.call_limit =
@@ -102,8 +106,13 @@ void add_serve(CLI::App& app) {
                    "several times")
       ->type_name("FOLDER")
       ->allow_extra_args(false);
-  command->add_flag("--accept-files", request->accepts_files,
-                    "Accept FMUs that are sent; they run in a sandbox");
+  CLI::Option* const accepts_files = command->add_flag(
+      "--accept-files", request->accepts_files, "Accept FMUs that are sent; they run in a sandbox");
+  command
+      ->add_option("--file-limit", request->file_limit,
+                   "Limit of an FMU that is sent, and of its files together; 1024 by default")
+      ->type_name("MIB")
+      ->needs(accepts_files);
   command
       ->add_option("--unit-timeout", request->unit_timeout,
                    "Time limit of a call of the unit; the run may set a lower one")

@@ -80,12 +80,12 @@ class Tenancy {
 }  // namespace
 
 std::shared_ptr<Fmu> Fmu::load(const fs::path& path, const core::Location& where,
-                               const fs::path& shown_as) {
+                               const fs::path& shown_as, const archive::UnpackLimits& limits) {
   const std::shared_ptr<Fmu> fmu(new Fmu(path, where, shown_as.empty() ? path : shown_as));
   if (path.extension() == ".so" && core::is_file(path)) {
     fmu->read_bare_library();
   } else {
-    fmu->read_folder();
+    fmu->read_folder(limits);
   }
   return fmu;
 }
@@ -93,8 +93,8 @@ std::shared_ptr<Fmu> Fmu::load(const fs::path& path, const core::Location& where
 Fmu::Fmu(fs::path path, core::Location where, fs::path shown_as)
     : path_(std::move(path)), shown_as_(std::move(shown_as)), where_(std::move(where)) {}
 
-void Fmu::read_folder() {
-  unpacked_.emplace(path_, where_, shown_as_);
+void Fmu::read_folder(const archive::UnpackLimits& limits) {
+  unpacked_.emplace(path_, where_, shown_as_, limits);
   resources_ = unpacked_->folder() / "resources";
   const fs::path inside = unpacked_->description().lexically_relative(unpacked_->root());
   auto description = std::make_shared<ModelDescription>(

@@ -34,7 +34,8 @@ class Fmu : public std::enable_shared_from_this<Fmu> {
   /// that names the unit, and `shown_as` its path in messages, if that is another one.
   static std::shared_ptr<Fmu> load(const std::filesystem::path& path,
                                    const core::Location& where = {},
-                                   const std::filesystem::path& shown_as = {});
+                                   const std::filesystem::path& shown_as = {},
+                                   const archive::UnpackLimits& limits = {});
 
   /// As it is shown in messages.
   const std::filesystem::path& path() const { return shown_as_; }
@@ -69,7 +70,7 @@ class Fmu : public std::enable_shared_from_this<Fmu> {
 
  private:
   Fmu(std::filesystem::path path, core::Location where, std::filesystem::path shown_as);
-  void read_folder();
+  void read_folder(const archive::UnpackLimits& limits);
   void read_bare_library();
   void load_library_for(const std::string& component, const LogSink& log);
   void warn_of_library(const std::string& name, const InstanceOptions& options);

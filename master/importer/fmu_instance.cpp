@@ -37,28 +37,8 @@ bool has_variable(const core::UnitDescription& unit, Predicate&& predicate) {
 
 }  // namespace
 
-FmuInstance::FmuInstance(const char* prefix, std::shared_ptr<const SharedLibrary> library,
-                         std::string name, UnitParts parts, InstanceOptions options)
-    : present_(name, options.where, options.call_note),
-      is_unusable_(library->is_unusable()),
-      name_(std::move(name)),
-      parts_(std::move(parts)),
-      options_(std::move(options)),
-      prefix_(prefix),
-      library_(std::move(library)) {
-  static const int registered = ::pthread_atfork(nullptr, nullptr, &FmuInstance::note_fork);
-  (void)registered;
-  begin_receiving();
-}
-
-FmuInstance::~FmuInstance() {
-  end_receiving();
-  if (notices_ != 0) --noticed_;
-}
-
-bool FmuInstance::declares(core::CapabilityId id) const {
+bool declares(const core::UnitDescription& unit, core::CapabilityId id) {
   using core::CapabilityId;
-  const core::UnitDescription& unit = *parts_.description;
   switch (id) {
     case CapabilityId::Resetting:
     case CapabilityId::UnitDiagnostics:
@@ -87,6 +67,25 @@ bool FmuInstance::declares(core::CapabilityId id) const {
       return false;
   }
   return false;
+}
+
+FmuInstance::FmuInstance(const char* prefix, std::shared_ptr<const SharedLibrary> library,
+                         std::string name, UnitParts parts, InstanceOptions options)
+    : present_(name, options.where, options.call_note),
+      is_unusable_(library->is_unusable()),
+      name_(std::move(name)),
+      parts_(std::move(parts)),
+      options_(std::move(options)),
+      prefix_(prefix),
+      library_(std::move(library)) {
+  static const int registered = ::pthread_atfork(nullptr, nullptr, &FmuInstance::note_fork);
+  (void)registered;
+  begin_receiving();
+}
+
+FmuInstance::~FmuInstance() {
+  end_receiving();
+  if (notices_ != 0) --noticed_;
 }
 
 // ---- Calls and failures ----

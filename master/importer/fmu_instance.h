@@ -72,6 +72,9 @@ struct UnitParts {
   std::shared_ptr<const void> fmu;  ///< kept alive as long as the instance
 };
 
+/// Whether the description promises the capability; of MessageText only the library knows.
+bool declares(const core::UnitDescription& unit, core::CapabilityId id);
+
 /// Calls functions of a unit, and turns what they answer into results and errors. A status Error or
 /// Fatal, and Discard of any function but those that may answer it, becomes a core::Error of the
 /// kind Run, with the name of the function, the simulated time and the unit's own messages; so does
@@ -115,8 +118,8 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics, public Call
               UnitParts parts, InstanceOptions options);
   ~FmuInstance() override;
 
-  /// Whether the description promises the capability; of MessageText only the library knows.
-  bool declares(core::CapabilityId id) const;
+  /// The same of its own description.
+  bool declares(core::CapabilityId id) const { return importer::declares(*parts_.description, id); }
   core::Capability* diagnostics() { return static_cast<core::UnitDiagnostics*>(this); }
 
   /// Calls function(instance, arguments...).

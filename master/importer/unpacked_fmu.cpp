@@ -31,9 +31,9 @@ constexpr const char* kDescription = "modelDescription.xml";
 }  // namespace
 
 UnpackedFmu::UnpackedFmu(const fs::path& path, const core::Location& where,
-                         const fs::path& shown_as)
+                         const fs::path& shown_as, const archive::UnpackLimits& limits)
     : archive_(path, "an FMU: a .fmu archive (zip), or the folder that such an archive unpacks to",
-               where, {}, shown_as.string()) {
+               where, limits, shown_as.string()) {
   const std::string shown = (shown_as.empty() ? path : shown_as).string();
   const std::vector<fs::path> found = archive::find_files(archive_.folder(), kDescription);
   if (found.size() != 1) fail_without_description(shown, archive_.folder(), found, where);

@@ -18,7 +18,8 @@ class UnpackedFmu {
   /// in another case, or in the only folder that has one, is taken with a warning(). `shown_as` is
   /// its path in messages, if that is another one.
   explicit UnpackedFmu(const std::filesystem::path& path, const core::Location& where = {},
-                       const std::filesystem::path& shown_as = {});
+                       const std::filesystem::path& shown_as = {},
+                       const archive::UnpackLimits& limits = {});
 
   /// Which has the description at its top.
   std::filesystem::path folder() const { return description_.parent_path(); }

@@ -14,7 +14,8 @@ namespace stride::recorders {
 
 /// A file, or a folder, that decides what a run does, by its content.
 struct Source {
-  std::string what;  ///< "the scenario", "unit 'sensor'"
+  std::string what;  ///< "the scenario", "a unit of the scenario"
+  /// Absolute; of what is on another machine that and its path there, "box:/models/sensor.fmu".
   std::filesystem::path path;
   std::string sha256;  ///< of a folder: of the names and contents of the files in it
   bool operator==(const Source&) const = default;

@@ -279,17 +279,28 @@ core::ClockInterval take_clock(wire::Result::Clock::Reader from) {
 
 namespace {
 
-constexpr std::pair<core::CapabilityId, wire::Capability> kSent[] = {
-    {core::CapabilityId::ConfigurationMode, wire::Capability::CONFIGURATION_MODE},
-    {core::CapabilityId::StateSaving, wire::Capability::STATE_SAVING},
-    {core::CapabilityId::StateSerialization, wire::Capability::STATE_SERIALIZATION},
-    {core::CapabilityId::Resetting, wire::Capability::RESETTING},
-    {core::CapabilityId::IdlePromises, wire::Capability::IDLE_PROMISES},
-    {core::CapabilityId::DirectionalDerivatives, wire::Capability::DIRECTIONAL_DERIVATIVES},
-    {core::CapabilityId::ClockIntervals, wire::Capability::CLOCK_INTERVALS},
-    {core::CapabilityId::InputsWithinStep, wire::Capability::INPUTS_WITHIN_STEP},
-    {core::CapabilityId::MessageText, wire::Capability::MESSAGE_TEXT},
-    {core::CapabilityId::UnitDiagnostics, wire::Capability::UNIT_DIAGNOSTICS}};
+struct SentCapability {
+  core::CapabilityId id;
+  wire::Capability sent;
+  const char* name;
+};
+
+constexpr SentCapability kSent[] = {
+    {core::CapabilityId::ConfigurationMode, wire::Capability::CONFIGURATION_MODE,
+     "the configuration mode"},
+    {core::CapabilityId::StateSaving, wire::Capability::STATE_SAVING, "the saving of its state"},
+    {core::CapabilityId::StateSerialization, wire::Capability::STATE_SERIALIZATION,
+     "the serialization of its state"},
+    {core::CapabilityId::Resetting, wire::Capability::RESETTING, "the reset"},
+    {core::CapabilityId::IdlePromises, wire::Capability::IDLE_PROMISES, "idle promises"},
+    {core::CapabilityId::DirectionalDerivatives, wire::Capability::DIRECTIONAL_DERIVATIVES,
+     "directional derivatives"},
+    {core::CapabilityId::ClockIntervals, wire::Capability::CLOCK_INTERVALS,
+     "the intervals of clocks"},
+    {core::CapabilityId::InputsWithinStep, wire::Capability::INPUTS_WITHIN_STEP,
+     "inputs within steps"},
+    {core::CapabilityId::MessageText, wire::Capability::MESSAGE_TEXT, "texts of messages"},
+    {core::CapabilityId::UnitDiagnostics, wire::Capability::UNIT_DIAGNOSTICS, "diagnostics"}};
 
 void put_lines(capnp::List<capnp::Text>::Builder to, const std::vector<std::string>& lines) {
   for (unsigned i = 0; i < to.size(); ++i) to.set(i, lines[i]);
@@ -305,20 +316,26 @@ std::vector<std::string> take_lines(capnp::List<capnp::Text>::Reader from) {
 
 void put_capabilities(wire::Instance::Builder to, const isolation::CapabilitySet& capabilities) {
   std::vector<wire::Capability> found;
-  for (const auto& [own, sent] : kSent) {
-    if (capabilities.test(static_cast<std::size_t>(own))) found.push_back(sent);
+  for (const SentCapability& known : kSent) {
+    if (capabilities.test(static_cast<std::size_t>(known.id))) found.push_back(known.sent);
   }
   auto list = to.initCapabilities(static_cast<unsigned>(found.size()));
   for (unsigned i = 0; i < list.size(); ++i) list.set(i, found[i]);
 }
 
 /// Those that are not known here are not used.
-isolation::CapabilitySet take_capabilities(wire::Instance::Reader from) {
+isolation::CapabilitySet take_capabilities(wire::Instance::Reader from,
+                                           const isolation::CapabilitySet& declared) {
   isolation::CapabilitySet capabilities;
   for (const wire::Capability capability : from.getCapabilities()) {
-    const auto known = std::ranges::find(kSent, capability,
-                                         &std::pair<core::CapabilityId, wire::Capability>::second);
-    if (known != std::end(kSent)) capabilities.set(static_cast<std::size_t>(known->first));
+    const auto known = std::ranges::find(kSent, capability, &SentCapability::sent);
+    if (known != std::end(kSent)) capabilities.set(static_cast<std::size_t>(known->id));
+  }
+  for (const SentCapability& known : kSent) {
+    const auto id = static_cast<std::size_t>(known.id);
+    if (!declared.test(id) || capabilities.test(id)) continue;
+    throw BadMessage(
+        fmt::format("the unit there lacks what its description promises: {}", known.name));
   }
   return capabilities;
 }
@@ -369,13 +386,17 @@ void put_error(wire::Error::Builder to, const std::exception& error, const core:
   to.setHint(own->hint());
 }
 
-void throw_error(wire::Error::Reader from) {
+void throw_error(wire::Error::Reader from, const core::Context& here, const std::string& machine) {
   const auto kind = from.getIsOfInput() ? core::Error::Kind::Input : core::Error::Kind::Run;
-  core::Context context{.where = {to_string(from.getFile()), from.getLine()},
-                        .unit = to_string(from.getUnit()),
+  core::Location there{to_string(from.getFile()), from.getLine()};
+  if (there.file == here.where.file && there.line == here.where.line) there = {};
+  core::Context context{.where = here.where,
+                        .unit = here.unit.empty() ? to_string(from.getUnit()) : here.unit,
                         .variable = to_string(from.getVariable()),
                         .time = take_time(from.getTime())};
-  const std::string message = to_string(from.getMessage()), hint = to_string(from.getHint());
+  const std::string message = fmt::format("{}: {}{}", machine, core::to_text({.where = there}),
+                                          to_string(from.getMessage()));
+  const std::string hint = to_string(from.getHint());
   if (from.getIsConsequent()) {
     throw core::ConsequentError(kind, std::move(context), message, hint);
   }

@@ -6,6 +6,7 @@
 #include <exception>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "master/algorithm/capabilities/clock_intervals.h"
@@ -70,7 +71,9 @@ void put_clock(wire::Result::Clock::Builder to, const core::ClockInterval& clock
 core::ClockInterval take_clock(wire::Result::Clock::Reader from);
 
 void put_capabilities(wire::Instance::Builder to, const isolation::CapabilitySet& capabilities);
-isolation::CapabilitySet take_capabilities(wire::Instance::Reader from);
+/// Not without those that are declared.
+isolation::CapabilitySet take_capabilities(wire::Instance::Reader from,
+                                           const isolation::CapabilitySet& declared);
 void put_protections(wire::Instance::Builder to, const core::HostStatistics& host);
 void take_protections(wire::Instance::Reader from, core::HostStatistics& host);
 
@@ -80,8 +83,11 @@ void take_statistics(wire::Statistics::Reader from, core::HostStatistics& host);
 
 /// With all its parts; what is no core::Error becomes one of this unit.
 void put_error(wire::Error::Builder to, const std::exception& error, const core::Context& context);
-/// Throws it.
-[[noreturn]] void throw_error(wire::Error::Reader from);
+/// Throws it, as the error of what was asked of a machine: with the place and the component that
+/// are known here, and with the machine's name before the message, which then also has the place
+/// that it has there.
+[[noreturn]] void throw_error(wire::Error::Reader from, const core::Context& here,
+                              const std::string& machine);
 
 }  // namespace stride::remote
 

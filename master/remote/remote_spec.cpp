@@ -13,11 +13,11 @@ namespace stride::remote {
 namespace {
 
 /// The messages of a connection that belong to no unit, handled as they come.
-wire::Result::Reader take_done(Connection& connection) {
+wire::Result::Reader take_done(Connection& connection, const core::Location& where) {
   for (;;) {
     const wire::Reply::Reader reply = connection.receive();
     if (reply.isDone()) return reply.getDone();
-    if (reply.isFailed()) throw_error(reply.getFailed());
+    if (reply.isFailed()) throw_error(reply.getFailed(), {.where = where}, connection.machine());
     if (!reply.isLog()) connection.fail_bad_message("an answer that nobody has asked for");
   }
 }
@@ -33,14 +33,6 @@ std::vector<importer::DescriptionFile> take_files(wire::Description::Reader desc
 
 }  // namespace
 
-void rethrow_here(const core::Error& error, const core::Context& here, const std::string& machine) {
-  core::Context context = error.context();
-  context.where = here.where;
-  if (context.unit.empty()) context.unit = here.unit;
-  throw core::Error(error.kind(), std::move(context),
-                    fmt::format("{}: {}", machine, error.message()), error.hint());
-}
-
 ConnectionOptions connection_options(const RemoteSpec& spec, const core::Location& where) {
   return {.place = spec.place,
           .context = {.where = where},
@@ -55,15 +47,13 @@ std::shared_ptr<importer::Fmu> describe(const RemoteSpec& spec, const core::Loca
   connection.greet();
   connection.ask("the description",
                  [&](wire::Request::Builder request) { request.setDescribe(spec.fmu); });
-  return told_here(connection, {.where = where}, [&] {
-    return checked(connection, [&] {
-      const wire::Result::Reader result = take_done(connection);
-      if (!result.isDescription()) throw BadMessage("an answer of another kind");
-      const auto description = result.getDescription();
-      return make_described_fmu(
-          take_files(description), where,
-          fmt::format("{}:{}", spec.place.machine, to_string(description.getPath())));
-    });
+  return checked(connection, [&] {
+    const wire::Result::Reader result = take_done(connection, where);
+    if (!result.isDescription()) throw BadMessage("an answer of another kind");
+    const auto description = result.getDescription();
+    return make_described_fmu(
+        take_files(description), where,
+        fmt::format("{}:{}", spec.place.machine, to_string(description.getPath())));
   });
 }
 
@@ -78,7 +68,7 @@ Trial try_connection(const RemoteSpec& spec, const core::Location& where) {
   while (times.size() < kTrials) {
     const auto sent = Clock::now();
     connection.ask("a round trip", [](wire::Request::Builder request) { request.setPing(); });
-    checked(connection, [&] { take_done(connection); });
+    checked(connection, [&] { take_done(connection, where); });
     times.push_back(Clock::now() - sent);
   }
   std::ranges::sort(times);

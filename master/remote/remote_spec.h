@@ -38,22 +38,6 @@ Trial try_connection(const RemoteSpec& spec, const core::Location& where);
 /// Of a connection to it, for a component at that place of the scenario.
 ConnectionOptions connection_options(const RemoteSpec& spec, const core::Location& where);
 
-[[noreturn]] void rethrow_here(const core::Error& error, const core::Context& here,
-                               const std::string& machine);
-
-/// Carries out what asks the machine. An error of it that has no place gets one here.
-template <class Action>
-decltype(auto) told_here(const Connection& connection, const core::Context& here, Action&& action) {
-  try {
-    return action();
-  } catch (const core::EnvironmentError&) {
-    throw;
-  } catch (const core::Error& error) {
-    if (connection.has_failed() || !error.context().where.file.empty()) throw;
-    rethrow_here(error, here, connection.machine());
-  }
-}
-
 /// As with_checked_messages(); a mistake in them is a failure of the connection.
 template <class Action>
 decltype(auto) checked(Connection& connection, Action&& action) {

@@ -33,7 +33,9 @@ RemoteUnit::RemoteUnit(RemoteSpec spec, std::shared_ptr<importer::Fmu> fmu, std:
   ConnectionOptions connection = connection_options(spec_, options_.where);
   connection.context.unit = name_;
   connection.interrupted = options_.interrupted;
-  connection.note = [this](const std::string& line) { log(importer::Status::Ok, "stride", line); };
+  connection.note = [this](const std::string& line) {
+    log_from_there(importer::Status::Ok, "stride", line);
+  };
   connection_.emplace(std::move(connection));
 }
 
@@ -48,23 +50,29 @@ RemoteUnit::~RemoteUnit() {
 
 void RemoteUnit::instantiate() {
   connection_->greet();
-  told_here(*connection_, {.where = options_.where, .unit = name_}, [&] {
-    if (!spec_.sent.empty()) send_file();
-    call(
-        "the instantiation",
-        [&](wire::Request::Builder request) { fill(request.initInstantiate()); },
-        [&](wire::Result::Reader result) {
-          if (!result.isInstance()) throw BadMessage("an answer of another kind");
-          capabilities_ = take_capabilities(result.getInstance());
-          take_protections(result.getInstance(), statistics_);
-        });
-  });
+  if (!spec_.sent.empty()) send_file();
+  call(
+      "the instantiation", [&](wire::Request::Builder request) { fill(request.initInstantiate()); },
+      [&](wire::Result::Reader result) {
+        if (!result.isInstance()) throw BadMessage("an answer of another kind");
+        capabilities_ = take_capabilities(result.getInstance(), declared_capabilities());
+        take_protections(result.getInstance(), statistics_);
+      });
   has_unit_ = true;
   for (const core::CapabilityId id :
        {core::CapabilityId::UnitDiagnostics, core::CapabilityId::HostDiagnostics,
         core::CapabilityId::ConcurrentSteps}) {
     capabilities_.set(static_cast<std::size_t>(id));
   }
+}
+
+isolation::CapabilitySet RemoteUnit::declared_capabilities() const {
+  isolation::CapabilitySet declared;
+  for (std::size_t i = 0; i < declared.size(); ++i) {
+    declared.set(i, importer::declares(*description_, static_cast<core::CapabilityId>(i)));
+  }
+  if (host_.takes_snapshots) declared.set(static_cast<std::size_t>(core::StateSaving::kId));
+  return declared;
 }
 
 void RemoteUnit::fill(wire::Instantiate::Builder to) const {
@@ -99,7 +107,7 @@ void RemoteUnit::fill(wire::Instantiate::Builder to) const {
 }
 
 void RemoteUnit::send_file() {
-  const core::Descriptor file = core::open_input(spec_.sent, spec_.sent.string());
+  const core::Descriptor file = core::open_input(spec_.sent, options_.where);
   std::string bytes(kSentPiece, '\0');
   bool is_first = true;
   for (std::size_t size = kSentPiece; size == kSentPiece; is_first = false) {
@@ -176,7 +184,7 @@ void RemoteUnit::fetch_files() {
       const wire::Result::Reader result = take_reply(reply, is_result);
       if (!is_result) continue;
       const std::string left_out = result.isText() ? to_string(result.getText()) : "";
-      if (!left_out.empty()) log(importer::Status::Warning, "stride", left_out);
+      if (!left_out.empty()) log_from_there(importer::Status::Warning, "stride", left_out);
       return;
     }
   });
@@ -213,7 +221,7 @@ wire::Result::Reader RemoteUnit::take_reply(wire::Reply::Reader reply, bool& is_
       note_time(reply.getDone());
       return reply.getDone();
     case wire::Reply::FAILED:
-      throw_error(reply.getFailed());
+      throw_error(reply.getFailed(), {.where = options_.where, .unit = name_}, spec_.place.machine);
     case wire::Reply::CALLBACK_FAILED:
       input_update_.rethrow_failure();
       throw BadMessage("inputs have failed that nobody has asked for");
@@ -221,7 +229,7 @@ wire::Result::Reader RemoteUnit::take_reply(wire::Reply::Reader reply, bool& is_
       update_inputs(reply.getInputsNeeded());
       return {};
     case wire::Reply::LOG:
-      log(reply.getLog());
+      log_from_there(reply.getLog());
       return {};
     default:
       throw BadMessage("an answer that nobody has asked for");
@@ -253,18 +261,22 @@ void RemoteUnit::note_time(wire::Result::Reader result) {
   step_time_ = std::min<std::chrono::nanoseconds>(worked + least_lost_, now - sent_at_);
 }
 
-void RemoteUnit::log(wire::LogMessage::Reader message) const {
+void RemoteUnit::log_from_there(wire::LogMessage::Reader message) const {
   const auto status = std::min<std::uint8_t>(message.getStatus(),
                                              static_cast<std::uint8_t>(importer::Status::Pending));
-  log(static_cast<importer::Status>(status), to_string(message.getCategory()),
-      to_string(message.getText()));
+  log_from_there(static_cast<importer::Status>(status), to_string(message.getCategory()),
+                 to_string(message.getText()));
+}
+
+void RemoteUnit::log_from_there(importer::Status status, const std::string& category,
+                                const std::string& text) const {
+  log(status, category, fmt::format("({}) {}", spec_.place.machine, text));
 }
 
 void RemoteUnit::log(importer::Status status, const std::string& category,
                      const std::string& text) const {
   try {
-    if (!options_.log) return;
-    options_.log(name_, status, category, fmt::format("({}) {}", spec_.place.machine, text));
+    if (options_.log) options_.log(name_, status, category, text);
   } catch (...) {  // as in the unit's own process, where nothing may cross its C code
   }
 }

@@ -112,9 +112,12 @@ class RemoteUnit final : public core::Unit, public isolation::ProxyCapabilities 
   wire::Result::Reader await_result();
   wire::Result::Reader take_reply(wire::Reply::Reader reply, bool& is_result);
   void update_inputs(double seconds_into_step);
-  void log(wire::LogMessage::Reader message) const;
+  void log_from_there(wire::LogMessage::Reader message) const;
+  void log_from_there(importer::Status status, const std::string& category,
+                      const std::string& text) const;
   void log(importer::Status status, const std::string& category, const std::string& text) const;
   void note_time(wire::Result::Reader result);
+  isolation::CapabilitySet declared_capabilities() const;
   void fill(wire::Instantiate::Builder to) const;
   void send_file();
   std::uint32_t plan_number(const core::StepValues& values);

@@ -15,7 +15,8 @@ namespace stride::remote {
 struct ServeOptions {
   std::vector<std::string> only{};  ///< the FMUs that are offered; empty: all that are found
   UnitOffer::Find find{};
-  bool accepts_files = false;
+  /// Of an FMU that is sent, and of its files together [byte]; none is accepted without.
+  std::optional<std::uint64_t> file_limit{};
   /// Limits for all units; the master may set lower ones.
   std::optional<std::chrono::milliseconds> call_limit{};
   std::optional<std::uint64_t> memory_limit{};  ///< [byte]

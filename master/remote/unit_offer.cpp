@@ -17,6 +17,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* kLimitHint = "have it served with a larger --file-limit";
+
 bool is_plain_name(const std::string& name) {
   return !name.empty() && name != "." && name != ".." &&
          name.find_first_of(std::string_view("/\0", 2)) == std::string::npos && name.size() < 200;
@@ -24,8 +26,9 @@ bool is_plain_name(const std::string& name) {
 
 }  // namespace
 
-UnitOffer::UnitOffer(std::vector<std::string> only, bool accepts_files, Find find)
-    : accepts_files_(accepts_files), find_(std::move(find)) {
+UnitOffer::UnitOffer(std::vector<std::string> only, std::optional<std::uint64_t> file_limit,
+                     Find find)
+    : file_limit_(file_limit), find_(std::move(find)) {
   for (std::string& name : only) {
     fs::path found = find_(name);
     only_.push_back({std::move(name), std::move(found)});
@@ -52,14 +55,16 @@ std::shared_ptr<importer::Fmu> UnitOffer::fmu(const std::string& name) {
   const fs::path wanted = sent_ ? sent_->path : path(name);
   if (!fmu_ || loaded_ != wanted) {
     fmu_.reset();
-    fmu_ = importer::Fmu::load(wanted, {}, sent_ ? sent_->path.filename() : wanted);
+    fmu_ = sent_ ? importer::Fmu::load(wanted, {}, wanted.filename(),
+                                       {.bytes = *file_limit_, .hint = kLimitHint})
+                 : importer::Fmu::load(wanted);
     loaded_ = wanted;
   }
   return fmu_;
 }
 
 void UnitOffer::take_piece(const std::string& name, std::string_view bytes, bool is_first) {
-  if (!accepts_files_) {
+  if (!file_limit_) {
     core::fail_input({}, "no files are accepted there",
                      "name an FMU of that machine (fmu=\"…\"), or have it served with "
                      "--accept-files");
@@ -72,8 +77,10 @@ void UnitOffer::take_piece(const std::string& name, std::string_view bytes, bool
     sent_->path = sent_->folder.path() / name;
   }
   sent_->size += bytes.size();
-  if (sent_->size > kMostSent) {
-    core::fail_input({}, fmt::format("more than {} MiB were sent", kMostSent >> 20));
+  if (sent_->size > *file_limit_) {
+    sent_.reset();
+    core::fail_input({}, fmt::format("'{}' has more than {} bytes", name, *file_limit_),
+                     kLimitHint);
   }
   errno = 0;
   const core::FileStream file(std::fopen(sent_->path.c_str(), is_first ? "wxb" : "ab"),

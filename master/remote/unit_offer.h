@@ -2,6 +2,7 @@
 #ifndef STRIDE_MASTER_REMOTE_UNIT_OFFER_H
 #define STRIDE_MASTER_REMOTE_UNIT_OFFER_H
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -20,20 +21,19 @@ class UnitOffer {
  public:
   /// The path of the FMU with this path or name. Throws core::Error (Input).
   using Find = std::function<std::filesystem::path(const std::string& name)>;
-  /// Of a file that is sent [byte].
-  static constexpr std::uintmax_t kMostSent = std::uintmax_t{2} << 30;
 
-  /// `only`: those that are offered, by path or name; empty for all. Throws core::Error (Input) for
-  /// one that is not there.
-  UnitOffer(std::vector<std::string> only, bool accepts_files, Find find);
+  /// `only`: those that are offered, by path or name; empty for all. `file_limit`: of an FMU that
+  /// is sent, and of its files together [byte]; none is accepted without. Throws core::Error
+  /// (Input) for one that is not there.
+  UnitOffer(std::vector<std::string> only, std::optional<std::uint64_t> file_limit, Find find);
 
   /// The FMU, loaded once. An empty name is that of the only one. What was sent takes precedence.
   /// Throws core::Error (Input).
   std::shared_ptr<importer::Fmu> fmu(const std::string& name);
   /// Whether other FMUs than these are not to be seen, nor where they are.
   bool is_pinned() const { return !only_.empty(); }
-  /// A piece of an FMU. Throws core::Error: Input if none is accepted, Run where it cannot be
-  /// written.
+  /// A piece of an FMU. Throws core::Error: Input if none is accepted, or none of this size, Run
+  /// where it cannot be written.
   void take_piece(const std::string& name, std::string_view bytes, bool is_first);
 
  private:
@@ -44,13 +44,13 @@ class UnitOffer {
   struct Sent {
     archive::TemporaryFolder folder;
     std::filesystem::path path;
-    std::uintmax_t size = 0;
+    std::uint64_t size = 0;
   };
 
   std::filesystem::path path(const std::string& name) const;
 
   std::vector<Offered> only_;
-  bool accepts_files_;
+  std::optional<std::uint64_t> file_limit_;
   Find find_;
   std::unique_ptr<Sent> sent_;
   std::shared_ptr<importer::Fmu> fmu_;

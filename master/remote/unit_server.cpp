@@ -16,7 +16,7 @@ namespace stride::remote {
 UnitServer::UnitServer(ServerChannel& channel, const ServeOptions& options)
     : channel_(channel),
       options_(options),
-      offer_(options.only, options.accepts_files, options.find) {}
+      offer_(options.only, options.file_limit, options.find) {}
 
 void UnitServer::run() {
   for (;;) {

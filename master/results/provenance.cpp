@@ -11,6 +11,7 @@
 #include <fmt/ranges.h>
 
 #include "master/results/output_paths.h"
+#include "master/scenario/remote_units.h"
 #include "master/util/error.h"
 #include "master/util/host_name.h"
 #include "master/util/input_file.h"
@@ -27,11 +28,13 @@ recorders::Provenance provenance_of(const scenario::LoadedScenario& loaded,
                              .date = utc_text(std::time(nullptr)),
                              .host = core::host_name(),
                              .commands = {std::move(command)}};
-  const auto add = [&](const std::string& what, const std::filesystem::path& path) {
-    recorders::Source source = recorders::make_source(what, path, digests);
+  const auto add_source = [&](recorders::Source source) {
     if (std::ranges::find(made.sources, source) == made.sources.end()) {
       made.sources.push_back(std::move(source));
     }
+  };
+  const auto add = [&](const std::string& what, const std::filesystem::path& path) {
+    add_source(recorders::make_source(what, path, digests));
   };
   for (const KeptPath& input : inputs_of(loaded)) {
     if (core::path_exists(input.path)) add(input.what, input.path);  // else a unit in a package
@@ -41,6 +44,12 @@ recorders::Provenance provenance_of(const scenario::LoadedScenario& loaded,
     if (is_library && core::is_folder(fmu->resources())) {
       add("the resources of " + fmu->path().filename().string(), fmu->resources());
     }
+  }
+  for (std::size_t i = 0; i < loaded.fmus().size(); ++i) {
+    if (!loaded.stays_elsewhere(i)) continue;
+    const importer::Fmu& fmu = *loaded.fmus()[i];
+    add_source({"the description of a unit on another machine", fmu.path(),
+                scenario::description_digest(fmu)});
   }
   return made;
 }

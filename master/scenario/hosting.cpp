@@ -15,18 +15,19 @@ namespace {
 
 /// "COMPONENT=PLACE"
 HostRule place_rule(const std::string& text) {
-  const core::Location where{"--at " + text, 0};
   const std::size_t sign = text.find('=');
   if (sign == 0 || sign == std::string::npos) {
     core::fail_input({}, fmt::format("--at {}: expected COMPONENT=PLACE", text));
   }
+  // errors name the machine, whose command can be long
+  const core::Location where{"--at " + text.substr(0, sign), 0};
   try {
     RemoteSettings remote{.place = remote::parse_place(text.substr(sign + 1)), .where = where};
     HostSettings settings{.process = true, .where = where};
     settings.remote = std::move(remote);
     return {{text.substr(0, sign), where}, settings};
   } catch (const std::invalid_argument& mistake) {
-    core::fail_input({}, fmt::format("--at {}: {}", text, mistake.what()));
+    core::fail_input({.where = where}, mistake.what());
   }
 }
 

@@ -184,6 +184,11 @@ std::vector<std::string> LoadedScenario::component_names() const {
   return names;
 }
 
+bool LoadedScenario::stays_elsewhere(std::size_t component) const {
+  const std::optional<Hosting>& hosting = hostings_[component];
+  return hosting && hosting->remote && hosting->remote->sent.empty();
+}
+
 void LoadedScenario::swap(const std::string& text) {
   const auto [name, file] = component_file("--swap", text, "component=FILE.fmu");
   const std::vector<std::string> names = component_names();

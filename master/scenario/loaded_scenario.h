@@ -74,6 +74,9 @@ class LoadedScenario {
   const std::vector<std::shared_ptr<importer::Fmu>>& fmus() const { return fmus_; }
   /// Likewise; empty for a component without a host.
   const std::vector<std::optional<Hosting>>& hostings() const { return hostings_; }
+  /// Whether the unit of a component is one of another machine, of which nothing but its
+  /// description is known here.
+  bool stays_elsewhere(std::size_t component) const;
   const core::RunOptions& options() const { return options_; }
   std::vector<std::string> component_names() const;
   /// Those that were requested.

@@ -1,8 +1,11 @@
 // Units on other machines, as a user meets them: `exec:` with the program of this build in place of
 // another machine.
+#include <algorithm>
 #include <chrono>
 #include <csignal>
+#include <fstream>
 #include <memory>
+#include <random>
 #include <thread>
 
 #include <nlohmann/json.hpp>
@@ -34,6 +37,14 @@ const Arguments kHalfSecond{"--set", "first.u=1", "--stop", "0.5", "--quiet"};
 nlohmann::json host_entry(const Workspace& workspace, std::size_t unit) {
   return nlohmann::json::parse(workspace.result("run.json"))["units"][unit].value("host",
                                                                                   nlohmann::json());
+}
+
+std::size_t count_of(const std::string& part, const std::string& text) {
+  std::size_t count = 0;
+  for (std::size_t at = 0; (at = text.find(part, at)) != std::string::npos; at += part.size()) {
+    ++count;
+  }
+  return count;
 }
 
 /// The error of a run that cannot begin; nothing stays.
@@ -109,6 +120,69 @@ TEST_CASE("a file is sent where that is allowed") {
              Contains("no files are accepted there"));
 }
 
+TEST_CASE("a file that is sent is no larger than the limit there, packed or unpacked") {
+  const Scratch scratch;
+  const auto error_with = [&](const std::string& content, const std::string& limit) {
+    const fs::path fmu = make_zip(
+        scratch / "large.fmu",
+        {{"modelDescription.xml", description_text("large")}, {"resources/content", content}});
+    const Workspace workspace(
+        Parts{component("unit", fmu.string()), "",
+              host("unit", "send=\"true\"", serve_command(" --accept-files" + limit))});
+    const Outcome outcome = workspace.run({"--quiet"});
+    CHECK(outcome.exit_code == 2);
+    CHECK_THAT(outcome.err, Contains(workspace.at("<ssd:Component") + "unit 'unit': "));
+    CHECK(workspace.left_behind().empty());
+    return outcome.err;
+  };
+  const std::string zeros(2'000'000, '\0');
+  std::string noise(2'000'000, '\0');
+  std::mt19937 random(1);
+  std::ranges::generate(noise, [&] { return static_cast<char>(random()); });
+  const std::string hint = "hint: have it served with a larger --file-limit";
+  CHECK_THAT(error_with(zeros, " --file-limit 1"),
+             Contains("'large.fmu' unpacks to more than 1048576 bytes") && Contains(hint));
+  CHECK_THAT(error_with(noise, " --file-limit 1"),
+             Contains("'large.fmu' has more than 1048576 bytes") && Contains(hint));
+  for (const std::string limit : {" --file-limit 2", ""}) {
+    CHECK_THAT(error_with(noise, limit), !Contains(hint));  // it has no library
+  }
+  CHECK_THAT(run_program({"serve", "--file-limit", "1"}).err, Contains("--accept-files"));
+}
+
+TEST_CASE("run.json and checkpoints know a unit that stays elsewhere by its description") {
+  const Scratch machine;
+  const fs::path unit = machine / "filter";
+  fs::copy(stride::importer::UnpackedFmu(unit_folder() / "minimal.fmu").folder(), unit,
+           fs::copy_options::recursive);
+  const Workspace workspace(
+      with_annotation(two_filters(), host("second", "fmu=\"" + unit.string() + "\"")));
+  const auto known = [&] {
+    nlohmann::json found;
+    const auto run = nlohmann::json::parse(workspace.result("run.json"));
+    for (const auto& source : run["provenance"]["sources"]) {
+      if (source["what"] == "the description of a unit on another machine") found.push_back(source);
+    }
+    REQUIRE(found.size() == 1);
+    return found[0];
+  };
+  const Arguments options{"--set", "first.u=1", "--stop", "0.3", "--quiet", "--checkpoint", "0.2"};
+  REQUIRE(workspace.run(options).exit_code == 0);
+  const nlohmann::json before = known();
+  CHECK(before["path"] == serve_command().substr(5) + ":" + unit.string());
+  REQUIRE(workspace.stride({"resume", "out", "--quiet"}).exit_code == 0);
+  CHECK(known() == before);
+
+  std::ofstream(unit / "modelDescription.xml", std::ios::app) << "<!-- another one -->\n";
+  const Outcome resumed = workspace.stride({"resume", "out", "--quiet"});
+  CHECK(resumed.exit_code == 2);
+  CHECK_THAT(resumed.err, Contains("the description of a unit on another machine, ") &&
+                              Contains("is not what it was"));
+  REQUIRE(workspace.run(options).exit_code == 0);
+  CHECK(known()["path"] == before["path"]);
+  CHECK(known()["sha256"] != before["sha256"]);
+}
+
 TEST_CASE("attributes that contradict each other are refused with their line") {
   const auto refusal = [](const std::string& attributes) {
     const Workspace workspace(with_annotation(
@@ -145,6 +219,16 @@ TEST_CASE("a machine without stride is an error with what it says") {
       error_of_start(host("second", "", "exec:echo Welcome; echo oh dear &gt;&amp;2; exit 3"), 1);
   CHECK_THAT(chatty, Contains("ended with the code 3") && Contains("it printed: Welcome") &&
                          Contains("it said: oh dear"));
+}
+
+TEST_CASE("an error has the command of its machine once") {
+  const Workspace workspace(two_filters());
+  const std::string missing = "/no/stride serve";
+  CHECK(count_of(missing, workspace.run({"--quiet", "--at", "second=exec:" + missing}).err) == 1);
+  const std::string other = stride_program().string() + " serve --only judge.fmu";
+  const Outcome refused = workspace.run({"--quiet", "--at", "second=exec:" + other});
+  CHECK_THAT(refused.err, Contains("--at second: " + other + ": 'minimal.fmu' is not offered"));
+  CHECK(count_of(other, refused.err) == 1);
 }
 
 TEST_CASE("what is printed before the greeting does no harm, and what comes between does") {
@@ -255,11 +339,12 @@ TEST_CASE("a link that is lost in the run ends it with the results up to there")
   CHECK(outcome.exit_code == 1);
   CHECK_THAT(outcome.err, Contains("unit 'second', at ") && Contains("the link to ") &&
                               Contains("has ended in "));
+  CHECK(count_of("sleep 1.5; kill -9", outcome.err) == 1);
   CHECK(workspace.signals().size() > 100);
   CHECK(leftovers.after_a_while().empty());
 }
 
-TEST_CASE("what a unit does there is the error that it is in a host here") {
+TEST_CASE("what a unit does there is the error that it is in a host here, with the machine") {
   const Leftovers leftovers;
   const auto error_of_fault = [](const std::string& fault, const std::string& hosting) {
     const Workspace workspace(
@@ -271,10 +356,14 @@ TEST_CASE("what a unit does there is the error that it is in a host here") {
     CHECK(workspace.left_behind().empty());
     return outcome.err;
   };
+  const std::string machine = serve_command().substr(5);
   for (const std::string fault : {"segfault", "exit", "kill"}) {
     INFO(fault);
-    CHECK(error_of_fault(fault, host("faulty")) ==
-          error_of_fault(fault, "<stride:Host components=\"faulty\"/>\n"));
+    std::string here = error_of_fault(fault, "<stride:Host components=\"faulty\"/>\n");
+    const std::string context = "unit 'faulty', at 0.499 s: ";
+    REQUIRE_THAT(here, Contains(context));
+    here.insert(here.find(context) + context.size(), machine + ": ");
+    CHECK(error_of_fault(fault, host("faulty")) == here);
   }
   CHECK_THAT(error_of_fault("loop", host("faulty", "timeout=\"0.5\"")),
              Contains("it took longer than 0.5 s in fmi3DoStep"));

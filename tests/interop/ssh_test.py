@@ -1,6 +1,5 @@
 """ssh_test.py STRIDE UNITS FOLDER: units run behind an OpenSSH server on the loopback, which is started for it with keys
-of its own, and the results are those of a run here; likewise behind a link that delays. Exit code 77 if there is no
-OpenSSH server."""
+of its own, and the results are those of a run here. Exit code 77 if there is no OpenSSH server."""
 
 import contextlib
 import getpass
@@ -32,30 +31,6 @@ SCENARIO = """<?xml version="1.0" encoding="UTF-8"?>
     {hosts}
   </stride:Scenario></ssc:Annotation></ssd:Annotations>
 </ssd:SystemStructureDescription>
-"""
-
-# Hands bytes on after DELAY seconds, in both directions, between its own pipes and those of a command.
-RELAY = """
-import os, queue, subprocess, sys, threading, time
-delay = float(sys.argv[1])
-child = subprocess.Popen(sys.argv[2:], stdin=subprocess.PIPE, stdout=subprocess.PIPE)
-def carry(source, target):
-    waiting = queue.Queue()
-    def read():
-        while data := os.read(source, 65536):
-            waiting.put((time.monotonic() + delay, data))
-        waiting.put((time.monotonic() + delay, None))
-    threading.Thread(target=read, daemon=True).start()
-    while True:
-        due, data = waiting.get()
-        time.sleep(max(0, due - time.monotonic()))
-        if data is None:
-            os.close(target)
-            return
-        os.write(target, data)
-there = threading.Thread(target=carry, args=(0, child.stdin.fileno()), daemon=True)
-there.start()
-carry(child.stdout.fileno(), 1)
 """
 
 
@@ -213,19 +188,6 @@ def check_faults(runs, server, stride):
     print("faults are errors with a name, and nothing is left")
 
 
-def check_delays(runs, stride):
-    relay = runs.folder / "relay.py"
-    relay.write_text(RELAY)
-    for delay in (0, 0.001, 0.02):
-        command = f"exec:{sys.executable} {relay} {delay / 2} {stride} serve"
-        code, errors = runs.run("delayed", f'<stride:Host components="second" at="{command}"/>')
-        require(code == 0, errors)
-        require(runs.signals("delayed") == runs.signals("near"), f"other bits with a delay of {delay} s")
-        link = runs.link("delayed")
-        require(link["lost_time"] >= 0.9 * delay * link["round_trips"], f"{delay} s: {link}")
-        print(f"delay {1000 * delay:g} ms: {link['round_trips']} round trips, {link['lost_time']:.3f} s lost")
-
-
 def main():
     stride, units, folder = sys.argv[1], pathlib.Path(sys.argv[2]), pathlib.Path(sys.argv[3])
     sshd = shutil.which("sshd", path=os.environ["PATH"] + ":/usr/sbin:/sbin")
@@ -241,7 +203,6 @@ def main():
             check_runs(runs, server, stride)
             check_pinned_key(runs, server)
             check_faults(runs, server, stride)
-            check_delays(runs, stride)
         finally:
             server.stop()
     return 0

@@ -100,7 +100,7 @@ class Extraction {
         folder_(std::move(folder)),
         expected_("expected " + std::move(expected)),
         where_(std::move(where)),
-        limits_(limits),
+        limits_(std::move(limits)),
         reader_(archive_read_new(), &archive_read_free) {}
 
   void run() {
@@ -142,8 +142,7 @@ class Extraction {
 
   void check_count(std::uint64_t entries) const {
     if (entries <= limits_.entries) return;
-    fail(fmt::format("has more than {} entries", limits_.entries),
-         "unpack it yourself and name the folder instead, if you trust it");
+    fail(fmt::format("has more than {} entries", limits_.entries), limits_.hint);
   }
 
   /// libarchive does not always have one.
@@ -262,8 +261,7 @@ class Extraction {
     }
     bytes_ += static_cast<std::uint64_t>(size);
     if (bytes_ > limits_.bytes) {
-      fail(fmt::format("unpacks to more than {} bytes", limits_.bytes),
-           "unpack it yourself and name the folder instead, if you trust it");
+      fail(fmt::format("unpacks to more than {} bytes", limits_.bytes), limits_.hint);
     }
     return static_cast<std::size_t>(size);
   }

@@ -16,6 +16,8 @@ namespace stride::archive {
 struct UnpackLimits {
   std::uint64_t bytes = std::uint64_t{4} << 30;  ///< all files together, unpacked
   std::uint64_t entries = 100'000;
+  /// For who has one that grows to more.
+  std::string hint = "unpack it yourself and name the folder instead, if you trust it";
 };
 
 /// A zip archive unpacked into a temporary folder that goes with this object, or a folder that is

@@ -62,7 +62,7 @@ std::string request_bytes() {
 
 void take_error(wire::Error::Reader from) {
   try {
-    throw_error(from);
+    throw_error(from, {.where = {"x.ssd", 3}, .unit = "sensor"}, "box");
   } catch (const core::Error&) {
   }
 }
@@ -83,7 +83,7 @@ void take_result_parts(wire::Result::Reader result) {
     }
     case wire::Result::INSTANCE: {
       core::HostStatistics host;
-      take_capabilities(result.getInstance());
+      take_capabilities(result.getInstance(), {});
       return take_protections(result.getInstance(), host);
     }
     case wire::Result::EVENTS:

@@ -129,19 +129,31 @@ TEST_CASE("clocks arrive as exact fractions, and none with the denominator 0") {
   CHECK_THROWS_AS(take_clock(bad.root().getClock()), BadMessage);
 }
 
-TEST_CASE("errors arrive with all their parts and their kind") {
-  const core::Context context{
+TEST_CASE("errors arrive with all their parts, their kind, the place here and the machine") {
+  core::Context context{
       .where = {"a.ssd", 7}, .unit = "u", .variable = "v", .time = Time(Duration(5))};
-  const auto again = [](const std::exception& error) {
+  const auto again = [here = context](const std::exception& error) {
     Sent<wire::Error> sent([&](wire::Error::Builder to) { put_error(to, error, {.unit = "w"}); });
-    throw_error(sent.root());
+    throw_error(sent.root(), {.where = here.where, .unit = here.unit}, "box");
   };
-  const core::Error error(core::Error::Kind::Input, context, "wrong", "mend it");
-  CHECK(tests::error_of([&] { again(error); }) == error.what());
+  const auto text_of = [&](const core::Context& there) {
+    return tests::error_of(
+        [&] { again(core::Error(core::Error::Kind::Input, there, "wrong", "mend it")); });
+  };
+  const std::string expected =
+      core::Error(core::Error::Kind::Input, context, "box: wrong", "mend it").what();
+  CHECK(text_of(context) == expected);
+  context.where = {};
+  CHECK(text_of(context) == expected);
+  context.where = {"/models/x.fmu/modelDescription.xml", 3};
+  CHECK_THAT(text_of(context),
+             Catch::Matchers::StartsWith("a.ssd:7: unit 'u'") &&
+                 Catch::Matchers::Contains("box: /models/x.fmu/modelDescription.xml:3: wrong"));
   CHECK_THROWS_AS(again(core::EnvironmentError(context, "full")), core::EnvironmentError);
   CHECK_THROWS_AS(again(core::ConsequentError(core::Error::Kind::Run, context, "x")),
                   core::ConsequentError);
-  CHECK(tests::error_of([&] { again(std::runtime_error("odd")); }) == "unit 'w': odd");
+  CHECK(tests::error_of([&] { again(std::runtime_error("odd")); }) ==
+        "a.ssd:7: unit 'u': box: odd");
 }
 
 TEST_CASE("a malformed message is refused, and none makes much out of little") {

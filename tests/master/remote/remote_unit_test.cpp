@@ -2,6 +2,7 @@
 #include "master/remote/remote_unit.h"
 
 #include <chrono>
+#include <functional>
 #include <memory>
 #include <string>
 #include <thread>
@@ -11,11 +12,15 @@
 
 #include "master/algorithm/capabilities/concurrent_steps.h"
 #include "tests/build.h"
+#include "tests/error_of.h"
 #include "tests/master/util/archive/support.h"
 
 using namespace stride;
 using namespace stride::tests;
 using namespace std::chrono_literals;
+using Catch::Matchers::Contains;
+using Catch::Matchers::StartsWith;
+namespace wire = remote::wire;
 
 namespace {
 
@@ -53,6 +58,28 @@ void begin(remote::RemoteUnit& unit) {
   unit.exit_initialization();
   unit.update_discrete_states();
   unit.enter_step_mode();
+}
+
+using Answer = std::function<void(wire::Reply::Builder)>;
+
+/// What becomes of the instantiation of a unit if this is all that its machine says; the component
+/// is in line 7 of its scenario.
+std::string error_of_answer(const Answer& answer, const std::string& unit = "feedthrough",
+                            bool takes_snapshots = false) {
+  const tests::Scratch scratch;
+  std::string bytes = greeting_line(remote::Side::Server, remote::own_greeting());
+  remote::Scratch words;
+  remote::append_message<wire::Reply>(bytes, words, answer);
+  const fs::path said = scratch.write("said", bytes);
+  const remote::RemoteSpec spec{
+      .place = remote::parse_place(fmt::format("exec:cat {}; cat > /dev/null", said.string()))};
+  isolation::HostOptions host;
+  host.takes_snapshots = takes_snapshots;
+  return error_of([&] {
+    remote::RemoteUnit made(spec, importer::Fmu::load(test_unit_folder() / (unit + ".fmu")), "far",
+                            {.where = {"test.ssd", 7}}, host);
+    made.instantiate();
+  });
 }
 
 core::ValueReference reference_of(const std::string& unit, const std::string& variable) {
@@ -98,4 +125,38 @@ TEST_CASE("a value of many pieces comes back as it was sent") {
   unit->set(std::span(&in, 1), sent);
   unit->get(std::span(&out, 1), answered);
   CHECK((answered == sent));
+}
+
+TEST_CASE("an answer to the instantiation that is none is an error of the component") {
+  const auto is_refused = [](const std::string& error, const std::string& why) {
+    CHECK_THAT(error, StartsWith("test.ssd:7: unit 'far': ") && Contains(why));
+  };
+  const auto has = [](std::initializer_list<wire::Capability> capabilities) -> Answer {
+    return [list = std::vector(capabilities)](wire::Reply::Builder reply) {
+      auto to =
+          reply.initDone().initInstance().initCapabilities(static_cast<unsigned>(list.size()));
+      for (unsigned i = 0; i < to.size(); ++i) to.set(i, list[i]);
+    };
+  };
+  constexpr auto kReset = wire::Capability::RESETTING;
+  constexpr auto kDiagnostics = wire::Capability::UNIT_DIAGNOSTICS;
+  constexpr auto kState = wire::Capability::STATE_SAVING;
+  constexpr auto kBytes = wire::Capability::STATE_SERIALIZATION;
+  is_refused(error_of_answer([](wire::Reply::Builder reply) { reply.initDone().setNone(); }),
+             "an answer of another kind");
+  is_refused(error_of_answer(has({})), "lacks what its description promises: ");
+  is_refused(error_of_answer(has({kReset, kDiagnostics, kState, kBytes}), "clocks"),
+             "lacks what its description promises: the intervals of clocks");
+  is_refused(error_of_answer(has({kReset, kDiagnostics, static_cast<wire::Capability>(999)}),
+                             "stateless", true),
+             "lacks what its description promises: the saving of its state");
+  for (const bool is_of_environment : {false, true}) {
+    const auto fail = [&](wire::Reply::Builder reply) {
+      auto error = reply.initFailed();
+      error.setMessage("no such luck");
+      error.setUnit("another");
+      error.setIsOfEnvironment(is_of_environment);
+    };
+    is_refused(error_of_answer(fail), "no such luck");
+  }
 }
