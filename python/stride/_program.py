@@ -64,7 +64,7 @@ def _warn(messages: str) -> None:
 def run(scenario: PathLike, *, out: Optional[PathLike] = None, **options: Any) -> Run:
     """Runs a scenario to its end, in a process of its own.
 
-    >>> run = stride.run("nfc_approach", set={"reader.power": 0.5}, swap={"sensor": "new.fmu"})
+    >>> run = stride.run("nfc_approach", set={"sensor.power.capacitance": 220e-6}, swap={"sensor": "new.fmu"})
     >>> run.signals["sensor.capacitor.voltage"].max()
 
     Args:

@@ -1,7 +1,7 @@
 """stride in pytest: scenarios and their checks as tests, runs that tests share, cases of campaigns.
 
     def test_it_answers(stride_run):
-        run = stride_run("nfc_approach.ssd", set={"reader.power": 0.4})
+        run = stride_run("nfc_approach.ssd", set={"sensor.power.capacitance": 220e-6})
         assert run.signals["sensor.led"].any()
 
     @pytest.mark.stride_campaign("variations.xosc")
