@@ -38,6 +38,11 @@ isolation::HostOptions host_options(wire::Instantiate::Reader from, const ServeO
   return host;
 }
 
+/// Who offers some units only tells nothing of where they are.
+std::string told_path(const UnitOffer& offer, const importer::Fmu& fmu) {
+  return (offer.is_pinned() ? fmu.path().filename() : fmu.path()).string();
+}
+
 }  // namespace
 
 core::Unit& UnitServer::unit() const {
@@ -60,7 +65,7 @@ void UnitServer::describe(const std::string& name) {
   const std::vector<importer::DescriptionFile> files = fmu->description_files();
   answer([&](wire::Result::Builder result) {
     auto description = result.initDescription();
-    description.setPath((offer_.is_pinned() ? fmu->path().filename() : fmu->path()).string());
+    description.setPath(told_path(offer_, *fmu));
     auto list = description.initFiles(static_cast<unsigned>(files.size()));
     for (unsigned i = 0; i < list.size(); ++i) {
       list[i].setName(files[i].name);
@@ -75,10 +80,10 @@ std::shared_ptr<const core::UnitDescription> UnitServer::description_for(
     wire::Instantiate::Reader from) {
   const auto fmu = offer_.fmu(to_string(from.getFmu()));
   if (description_digest(fmu->description_files()) != to_string(from.getDigest())) {
-    core::fail_input(
-        {.unit = name_},
-        fmt::format("'{}' there has changed since its description was read", fmu->path().string()),
-        "start the run again");
+    core::fail_input({.unit = name_},
+                     fmt::format("'{}' there has changed since its description was read",
+                                 told_path(offer_, *fmu)),
+                     "start the run again");
   }
   auto description = std::make_shared<core::UnitDescription>(*fmu->description());
   for (const auto size : from.getSizes()) {

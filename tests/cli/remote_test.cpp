@@ -105,6 +105,22 @@ TEST_CASE("the description comes from there, and the local file need not exist")
                               Contains(other.at("<stride:Host")));
 }
 
+TEST_CASE("a pinned FMU that has become another one is told by its name only") {
+  Parts parts = two_filters();
+  parts.components = component("first", "minimal.fmu") + component("second", "own.fmu");
+  const Workspace workspace(with_annotation(parts, host("second", "", "exec:sh serve.sh")));
+  const std::string serve =
+      "exec " + stride_program().string() + " serve --only \"$PWD/own.fmu\"\n";
+  const auto copy = [](const fs::path& fmu) { return "cp " + fmu.string() + " own.fmu\n"; };
+  workspace.scratch().write("serve.sh", "if test -e described; then\n" +
+                                            copy(test_unit_folder() / "judge.fmu") + "else\n" +
+                                            copy(unit_folder() / "minimal.fmu") +
+                                            "fi\ntouch described\n" + serve);
+  const Outcome outcome = workspace.run(kHalfSecond);
+  CHECK(outcome.exit_code == 2);
+  CHECK_THAT(outcome.err, Contains("'own.fmu' there has changed since its description was read"));
+}
+
 TEST_CASE("a file is sent where that is allowed") {
   Parts parts = two_filters();
   parts.components = component("first", "minimal.fmu") +

@@ -6,7 +6,7 @@ folder=$1
 requirements=$2
 if [ -x "$folder/bin/python" ] && cmp -s "$requirements" "$folder/requirements.txt"; then exit 0; fi
 rm -rf "$folder"
-if /usr/bin/python3 -m venv "$folder" && "$folder/bin/pip" install --quiet --disable-pip-version-check -r "$requirements"; then
+if /usr/bin/python3 -m venv "$folder" && "$folder/bin/pip" install --quiet --disable-pip-version-check --no-compile -r "$requirements"; then
   cp "$requirements" "$folder/requirements.txt"
   exit 0
 fi
