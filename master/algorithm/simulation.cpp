@@ -77,7 +77,14 @@ class Simulation::Run {
 
   void set_control(RunControl& control) { pauses_.set_control(control); }
 
-  void run_from_here() {
+  void run() {
+    begin();
+    advance(options_.stop);
+    end();
+  }
+
+  void resume(StateArchive& state, const std::function<void()>& started) {
+    begin(state, started);
     advance(options_.stop);
     end();
   }
@@ -312,7 +319,7 @@ class Simulation::Run {
     }
     start_observers();
     event_handler_.begin();
-    handle_events();
+    handle_events({});
     notify_observers();
   }
 
@@ -443,7 +450,7 @@ class Simulation::Run {
     }
     time_ = reached;
     if (stepper_.has_requests()) handle_requests();
-    clock_.timed(statistics_.phases.instants, [&] { handle_events(); });
+    clock_.timed(statistics_.phases.instants, [&] { handle_events({}); });
     ++statistics_.communication_steps;
     statistics_.parallel_steps += stepper_.was_parallel();
     statistics_.reached = time_;
@@ -492,7 +499,7 @@ class Simulation::Run {
     return std::min(interventions_.next(event_handler_.next_event(target)), context_.until);
   }
 
-  void handle_events(std::span<const Intervention> sets = {}) {
+  void handle_events(std::span<const Intervention> sets) {
     event_handler_.begin_instant(time_);
     interventions_.make(time_);
     interventions_.make_sets(sets, time_);
@@ -584,14 +591,10 @@ void Simulation::add_observer(Observer& observer, std::vector<VariableId> signal
 
 void Simulation::set_control(RunControl& control) { run_->set_control(control); }
 
-void Simulation::run() {
-  run_->begin();
-  run_->run_from_here();
-}
+void Simulation::run() { run_->run(); }
 
 void Simulation::resume(StateArchive& state, const std::function<void()>& started) {
-  run_->begin(state, started);
-  run_->run_from_here();
+  run_->resume(state, started);
 }
 
 void Simulation::persist(StateArchive& state) { run_->persist(state); }

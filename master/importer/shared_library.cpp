@@ -1,11 +1,14 @@
 #include "master/importer/shared_library.h"
 
 #include <algorithm>
+#include <array>
+#include <cerrno>
 #include <exception>
 #include <list>
 #include <map>
 #include <mutex>
 #include <set>
+#include <system_error>
 #include <utility>
 
 #include <dlfcn.h>
@@ -119,6 +122,13 @@ std::string missing_library(const std::string& reason, const std::string& opened
             "LD_LIBRARY_PATH");
 }
 
+/// The loader ends its message with what the system has said.
+bool says_shortage(const std::string& reason) {
+  return std::ranges::any_of(std::array{EMFILE, ENFILE, ENOMEM}, [&](int error) {
+    return reason.ends_with(std::generic_category().message(error));
+  });
+}
+
 /// Turns the loader's message (glibc's dlerror) into what is missing and how to get it.
 [[noreturn]] void fail_to_load(const SharedLibrary& library, std::string reason) {
   const core::Context& context = library.user();
@@ -138,7 +148,9 @@ std::string missing_library(const std::string& reason, const std::string& opened
                      is_of_python(symbol) ? kPythonHint : kSymbolHint);
   }
   const std::string hint = hint_for(reason);
+  const bool is_shortage = says_shortage(reason);
   if (reason.starts_with(path + ": ")) reason.erase(0, path.size() + 2);
+  if (is_shortage) throw core::EnvironmentError(context, head + reason);
   core::fail_input(context, head + reason, hint);
 }
 

@@ -29,7 +29,8 @@ class Signals(Mapping[str, np.ndarray]):
     for each event at it. Names are those of `stride inspect`; `units` are their units of measure.
     """
 
-    def __init__(self, file: Path, types: Mapping[str, str]) -> None:
+    def __init__(self, file: Path, types: Mapping[str, str], keeper: Any = None) -> None:
+        self._keeper = keeper  # of the file
         self._file = file
         self._types = types
         self._made: dict[str, np.ndarray] = {}
@@ -111,7 +112,7 @@ class Run:
         name = self.info["files"].get("signals")
         if not name:
             raise InputError("this run has recorded no signals: its scenario names no file for them")
-        return Signals(self.folder / name, {each["name"]: each["type"] for each in self.info["signals"]})
+        return Signals(self.folder / name, {each["name"]: each["type"] for each in self.info["signals"]}, self._keeper)
 
     @property
     def time(self) -> np.ndarray:

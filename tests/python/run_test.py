@@ -26,6 +26,11 @@ def test_a_run(folder):
     assert not folder_of_it.exists()
 
 
+def test_signals_outlive_their_run(folder):
+    signals = stride.run("test.ssd", set={"first.u": 1}).signals
+    assert signals["first.y"][-1] == pytest.approx(1 - np.exp(-1))
+
+
 def test_a_check_that_fails_is_no_exception(folder):
     run = stride.run("test.ssd", out="out")
     assert not run.passed

@@ -1,5 +1,8 @@
 #include "master/importer/shared_library.h"
 
+#include <sys/resource.h>
+#include <unistd.h>
+
 #include "master/importer/fmi3/fmi3_library.h"
 #include "tests/master/importer/support.h"
 
@@ -34,6 +37,27 @@ TEST_CASE("a missing shared library is named") {
 TEST_CASE("an undefined symbol is named") {
   CHECK_THAT(error_of_loading(raw_library("raw_with_undefined_symbol")),
              Contains("needs the symbol 'stride_test_nobody_has_this', which no library"));
+}
+
+TEST_CASE("a library that cannot be opened for want of open files is no mistake of the input") {
+  rlimit before{};
+  REQUIRE(::getrlimit(RLIMIT_NOFILE, &before) == 0);
+  const fs::path library = unit_library("minimal");
+  const int next = ::dup(STDERR_FILENO);
+  ::close(next);
+  // one file can be opened, to look at the library, and then no second one
+  const rlimit few{static_cast<rlim_t>(next), before.rlim_max};
+  std::string failure = "none";
+  REQUIRE(::setrlimit(RLIMIT_NOFILE, &few) == 0);
+  try {
+    const importer::SharedLibrary loaded(library, {});
+  } catch (const core::EnvironmentError& error) {
+    failure = error.what();
+  } catch (const core::Error& error) {
+    failure = std::string("a mistake: ") + error.what();
+  }
+  REQUIRE(::setrlimit(RLIMIT_NOFILE, &before) == 0);
+  CHECK_THAT(failure, Contains("Too many open files") && !Contains("a mistake"));
 }
 
 TEST_CASE("what is not a library for this machine is an error") {
