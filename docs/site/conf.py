@@ -42,11 +42,11 @@ exclude_patterns = ["build*", "results*", "master", "**/.*", "**/__pycache__"]
 
 CONTENTS = {
     "README": {
-        "Start": "All pages <docs/README>, docs/first-steps, docs/wheel, docs/accelerometer",
+        "Start": "All pages <docs/README>, docs/first-steps, docs/wheel, docs/container, docs/accelerometer",
         "Scenarios and runs": "docs/scenario, docs/cli, docs/report, docs/checks, docs/coverage, docs/stimuli,"
         " docs/checkpoints, docs/traces, docs/film, docs/hosts, docs/remote, scenarios/README",
         "Many runs": "docs/campaigns, docs/search, docs/distil",
-        "Python and C": "docs/python, docs/site/python-api, docs/library, docs/site/c-api",
+        "Python and C": "docs/python, docs/site/python-api, docs/python-peers, docs/library, docs/site/c-api",
         "Units": "docs/unit-guide, docs/wrap-systemc, docs/wrap-core, docs/bring-your-robot, docs/process-protocol,"
         " docs/units-of-others, docs/verify, units/*/README, tests/test_units/README",
         "How it works": "docs/architecture, docs/stepping, docs/idle, docs/performance, docs/paper, docs/variations,"
