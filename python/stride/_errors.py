@@ -16,8 +16,10 @@ class Error(Exception):
     Attributes:
         text: What is wrong, without the place and the hint.
         hint: How to mend it.
-        file, line: Where, in a file of the scenario.
-        component, variable: Of what.
+        file: Where, in a file of the scenario.
+        line: Of that file.
+        component: Of what.
+        variable: Of this component.
         time: When, in simulated time [s].
     """
 

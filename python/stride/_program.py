@@ -76,7 +76,7 @@ def run(scenario: PathLike, *, out: Optional[PathLike] = None, **options: Any) -
             `signals=["sensor.*"]`. See `stride run --help`.
 
     Returns:
-        What has happened. A bad verdict of a unit or a check is none of an exception: see `Run.passed`, `Run.check`.
+        What has happened. A bad verdict of a unit or a check is none of an exception; see `Run.passed`, `Run.check`.
 
     Raises:
         InputError: The scenario or an option is wrong.

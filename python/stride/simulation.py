@@ -209,7 +209,7 @@ class Simulation:
 
     @property
     def has_ended(self) -> bool:
-        """Whether its units are terminated: `end` was called, or it has failed."""
+        """Whether its units are terminated, because `end` was called or it has failed."""
         reason = self.end_reason
         return reason == "failed" or self._ended
 
@@ -244,7 +244,7 @@ class Simulation:
 
     @property
     def end_reason(self) -> str:
-        """When it is over: "completed", "ended by a unit", "interrupted", "ended early" or "failed"."""
+        """Once it is over, "completed", "ended by a unit", "interrupted", "ended early" or "failed"."""
         return c.text(self._library.stride_end_reason(self._open()))
 
     def step(self, duration: Optional[float] = None, *, until: Optional[float] = None) -> float:
