@@ -35,8 +35,12 @@ if(STRIDE_BUILD_UNITS)
   install(FILES cmake/FindSystemCLanguage.cmake DESTINATION ${package_dir})
 endif()
 
+# what packs units in Python
+set(python_dir "${CMAKE_INSTALL_DATADIR}/stride/python")
+install(DIRECTORY python/stride DESTINATION ${python_dir} FILES_MATCHING PATTERN "*.py")
+
 configure_package_config_file(cmake/strideConfig.cmake.in "${PROJECT_BINARY_DIR}/strideConfig.cmake"
-  INSTALL_DESTINATION ${package_dir})
+  INSTALL_DESTINATION ${package_dir} PATH_VARS python_dir)
 write_basic_package_version_file("${PROJECT_BINARY_DIR}/strideConfigVersion.cmake" COMPATIBILITY SameMinorVersion)
 install(FILES
   "${PROJECT_BINARY_DIR}/strideConfig.cmake"

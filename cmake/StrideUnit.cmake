@@ -15,6 +15,10 @@
 # stride_pack_program(NAME DECLARATION file.xml [DEPENDS target or file...])
 #
 # Packs the program that the file declares, with the files that it names, as NAME.fmu (docs/process-protocol.md).
+#
+# stride_pack_python_unit(NAME FILE file.py [CLASS class] [PYTHON program] [FILES file...])
+#
+# Packs a class of Python, with other files that it needs, as NAME.fmu (docs/python-units.md). PYTHON runs it.
 
 function(stride_add_unit name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "RESOURCES" "SOURCES;LIBRARIES;BUNDLE")
@@ -86,9 +90,48 @@ function(stride_pack_program name)
   stride_run_pack(${name} "${arg_DECLARATION}" DEPENDS "${arg_DECLARATION}" ${arg_DEPENDS})
 endfunction()
 
+function(stride_pack_python_unit name)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "FILE;CLASS;PYTHON" "FILES")
+  if(NOT arg_FILE)
+    message(FATAL_ERROR "stride_pack_python_unit(${name}): FILE is missing")
+  endif()
+  find_package(Python3 3.9 REQUIRED COMPONENTS Interpreter)
+  set(options "")
+  set(inputs "")
+  foreach(file IN LISTS arg_FILE arg_FILES)
+    cmake_path(ABSOLUTE_PATH file BASE_DIRECTORY "${CMAKE_CURRENT_SOURCE_DIR}" NORMALIZE)
+    list(APPEND inputs "${file}")
+  endforeach()
+  list(POP_FRONT inputs source)
+  foreach(file IN LISTS inputs)
+    list(APPEND options --file "${file}")
+  endforeach()
+  if(arg_CLASS)
+    list(APPEND options --class "${arg_CLASS}")
+  endif()
+  if(arg_PYTHON)
+    list(APPEND options --python "${arg_PYTHON}")
+  endif()
+  if(TARGET process_fmu)
+    list(APPEND inputs process_fmu)
+  endif()
+  file(GLOB package "${STRIDE_PYTHON_DIR}/stride/unit/*.py")
+  stride_make_fmu(${name}
+    COMMAND ${CMAKE_COMMAND} -E env "PYTHONPATH=${STRIDE_PYTHON_DIR}" PYTHONDONTWRITEBYTECODE=1
+      "STRIDE_PREFIX=$<PATH:GET_PARENT_PATH,$<TARGET_FILE_DIR:stride::stride>>"
+      "${Python3_EXECUTABLE}" -m stride.unit "${source}" ${options}
+    DEPENDS "${source}" ${inputs} ${package})
+endfunction()
+
 # `stride pack FILE`, as a target NAME_fmu.
 function(stride_run_pack name file)
   cmake_parse_arguments(PARSE_ARGV 2 arg "" "" "OPTIONS;DEPENDS")
+  stride_make_fmu(${name} COMMAND stride::stride pack "${file}" ${arg_OPTIONS} DEPENDS ${arg_DEPENDS})
+endfunction()
+
+# A target NAME_fmu, whose command gets `--output NAME.fmu` appended.
+function(stride_make_fmu name)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "COMMAND;DEPENDS")
   set(folder "${CMAKE_BINARY_DIR}/units")
   if(STRIDE_UNIT_DIR)
     set(folder "${STRIDE_UNIT_DIR}")
@@ -96,7 +139,7 @@ function(stride_run_pack name file)
   set(fmu "${folder}/${name}.fmu")
   add_custom_command(OUTPUT "${fmu}"
     COMMAND ${CMAKE_COMMAND} -E make_directory "${folder}"
-    COMMAND stride::stride pack "${file}" --output "${fmu}" ${arg_OPTIONS}
+    COMMAND ${arg_COMMAND} --output "${fmu}"
     DEPENDS stride::stride ${arg_DEPENDS}
     COMMENT "Packing ${name}.fmu"
     VERBATIM)

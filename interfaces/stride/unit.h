@@ -153,10 +153,20 @@ class Unit {
     return add_row(std::move(name), Causality::Output, Initial::Calculated, detail::type_of<T>(),
                    elements, size, {size});
   }
+  template <class T>
+  VariableBuilder input(std::string name, T* elements, std::size_t size) {
+    return add_row(std::move(name), Causality::Input, Initial::Exact, detail::type_of<T>(),
+                   elements, size, {size});
+  }
   /// Fixed, unless tunable() is called.
   template <class T>
   VariableBuilder parameter(std::string name, T& member) {
     return add(std::move(name), Causality::Parameter, Initial::Exact, member);
+  }
+  template <class T>
+  VariableBuilder parameter(std::string name, T* elements, std::size_t size) {
+    return add_row(std::move(name), Causality::Parameter, Initial::Exact, detail::type_of<T>(),
+                   elements, size, {size});
   }
   template <class T>
   VariableBuilder local(std::string name, T& member) {

@@ -10,6 +10,8 @@
 
     stride.campaign("variations.xosc")                   # many of them
 
+    import stride.unit as su                             # units in Python: help(stride.unit)
+
 The program is on the PATH of the environment as `stride`; `python -m stride` is the same.
 """
 

@@ -1,9 +1,9 @@
 // What the way to a unit costs: nanoseconds per step of an integrator with one input and one
 // output, in this process, in a process of its own, there with a snapshot before each step, and
-// through the pipe of the unit `process`; what several units in processes of their own cost; and
-// what a snapshot costs beside a bare fork of a process of the same size. All in turn within each
-// iteration, so that a machine that changes its speed changes it for all. What counts are the
-// ratios and the differences.
+// through the pipe of the unit `process`, to a program in C++ and to a class of Python; what
+// several units in processes of their own cost; and what a snapshot costs beside a bare fork of a
+// process of the same size. All in turn within each iteration, so that a machine that changes its
+// speed changes it for all. What counts are the ratios and the differences.
 #include <algorithm>
 #include <cstdint>
 #include <cstdlib>
@@ -97,9 +97,8 @@ Stepped in_process(const std::shared_ptr<importer::Fmu>& fmu) {
   return {*fmu->description(), fmu->instantiate("unit")};
 }
 
-Stepped piped() {
-  static const auto fmu = importer::Fmu::load(tests::test_unit_folder() / "integrator.fmu");
-  return in_process(fmu);
+Stepped piped(const std::string& unit) {
+  return in_process(importer::Fmu::load(tests::test_unit_folder() / (unit + ".fmu")));
 }
 
 Stepped hosted() {
@@ -114,14 +113,17 @@ void transport(benchmark::State& state) {
   Stepped other = hosted();  // before this process has loaded the unit's library
   Stepped snapshotted = hosted();
   Stepped near = in_process(integrator());
-  Stepped pipe = piped();
-  double near_seconds = 0, other_seconds = 0, snapshot_seconds = 0, pipe_seconds = 0;
+  Stepped pipe = piped("integrator");
+  Stepped python = piped("python_integrator");
+  double near_seconds = 0, other_seconds = 0, snapshot_seconds = 0;
+  std::vector<double> pipe_seconds, python_seconds;  // medians: a step waits for the scheduler
   for (auto _ : state) {
     near_seconds += near.steps(steps);
     const double mine = other.steps(steps);
     other_seconds += mine;
     snapshot_seconds += snapshotted.steps(snapshots, true);
-    pipe_seconds += pipe.steps(snapshots);
+    pipe_seconds.push_back(pipe.steps(snapshots) / snapshots);
+    python_seconds.push_back(python.steps(snapshots) / snapshots);
     state.SetIterationTime(mine);
   }
   const double all = static_cast<double>(state.iterations()) * steps;
@@ -133,8 +135,13 @@ void transport(benchmark::State& state) {
   state.counters["hosted_more_ns"] = hosted_ns - near_ns;
   state.counters["hosted_ratio"] = hosted_ns / near_ns;
   state.counters["snapshot_ns"] = 1e9 * snapshot_seconds / few;
-  state.counters["pipe_ns"] = 1e9 * pipe_seconds / few;
-  state.counters["pipe_ratio"] = 1e9 * pipe_seconds / few / near_ns;
+  const double pipe_ns = 1e9 * median(pipe_seconds);
+  const double python_ns = 1e9 * median(python_seconds);
+  state.counters["pipe_ns"] = pipe_ns;
+  state.counters["pipe_ratio"] = pipe_ns / near_ns;
+  state.counters["python_ns"] = python_ns;
+  state.counters["python_ratio"] = python_ns / near_ns;
+  state.counters["python_to_pipe"] = python_ns / pipe_ns;
 }
 
 /// Seconds of a run of a ring of workers, each in a process of its own.

@@ -26,7 +26,9 @@ def main(program, session, folder):
             shutil.copy(file, folder)
     path = f"{pathlib.Path(program).parent}{os.pathsep}{os.environ['PATH']}"
     environment = {**os.environ, "PATH": path, "STRIDE": str(pathlib.Path(__file__).parents[2]),
-                   "PKG_CONFIG_PATH": str(pathlib.Path(program).parents[1] / "pkgconfig")}
+                   "PKG_CONFIG_PATH": str(pathlib.Path(program).parents[1] / "pkgconfig"),
+                   "PYTHONPATH": str(pathlib.Path(__file__).parents[2] / "python"), "PYTHONDONTWRITEBYTECODE": "1",
+                   "STRIDE_PREFIX": str(pathlib.Path(program).parents[1])}
     commands = list(commands_of(session.read_text(encoding="utf-8")))
     mistakes = 0 if commands else 1
     for command, expected in commands:

@@ -67,6 +67,10 @@ step "A program is packed with the installed unit process, and is a good unit"
 "$stride" verify "$work/project/build/units/pump.fmu" --instances 40 --check splitting > "$work/table" ||
   { cat "$work/table"; fail "the pump is no good"; }
 
+step "A class of Python is packed with the installed package, and runs where nothing of it is"
+"$stride" run "$work/project/build/units/valve.fmu" --set valve.pressure=4 --stop 0.1 --out "$work/out" --quiet
+grep -q '^0.1,0.002$' "$work/out/signals.csv" || { cat "$work/out/signals.csv"; fail "another flow"; }
+
 # position = cos(pi t); behind the low-pass of 1 s, held over 1 ms, (cos(pi t) + pi sin(pi t) - exp(-t)) / (1 + pi^2)
 step "stride run: half a period leads to the other side, and the installed filter follows"
 "$stride" run "$work/project/oscillator.ssd" --out "$work/out" --quiet

@@ -138,7 +138,7 @@ class Reader {
   // ---- Variables ----
 
   void read_variable(const Element& child, Role role, std::vector<std::string> attributes) {
-    attributes.insert(attributes.begin(), {"name", "type", "start", "description"});
+    attributes.insert(attributes.begin(), {"name", "type", "dimensions", "start", "description"});
     child.allow_only_leaf(attributes);
     Variable variable;
     variable.name = child.text("name");
@@ -166,11 +166,12 @@ class Reader {
   }
 
   static void read_type(const Element& child, Variable& variable) {
+    if (child.has("dimensions")) variable.dimensions = read_dimensions(child);
     checked(child, [&] {
-      variable.start = value_of_type(child.text("type"));
+      variable.start = value_of_type(child.text("type"), variable.dimensions);
       if (child.has("start")) parse(child.text("start"), variable.start);
     });
-    const bool is_number = variable.start.index() < Value(false).index();
+    const bool is_number = type_of(variable.start) < stride::Type::Boolean;
     for (const char* attribute : {"unit", "min", "max"}) {
       if (!is_number && child.has(attribute)) {
         child.fail(std::string(attribute) + ": expected of numbers only");
@@ -178,6 +179,25 @@ class Reader {
     }
     const bool is_binary = std::holds_alternative<Binary>(variable.start);
     if (!is_binary && child.has("mime-type")) child.fail("mime-type: expected of a Binary only");
+  }
+
+  static std::vector<std::size_t> read_dimensions(const Element& child) {
+    constexpr std::size_t kMost = std::size_t{1} << 20;
+    std::vector<std::size_t> dimensions;
+    std::size_t size = 1;
+    std::istringstream words(child.text("dimensions"));
+    for (std::string word; words >> word;) {
+      std::uint32_t dimension = 0;
+      checked(child, [&] { stride::process::parse_value(word, dimension); });
+      if (dimension == 0 || dimension > kMost / size) {
+        child.fail("dimensions: expected from 1 to " + std::to_string(kMost) +
+                   " elements; a Binary can have more bytes");
+      }
+      size *= dimension;
+      dimensions.push_back(dimension);
+    }
+    if (dimensions.empty()) child.fail("dimensions: expected a number for each, such as \"3 2\"");
+    return dimensions;
   }
 
   static void read_range(const Element& child, Variable& variable) {
@@ -200,7 +220,7 @@ class Reader {
   }
 
   static void read_variability(const Element& child, Variable& variable) {
-    const bool is_float = variable.start.index() < 2;
+    const bool is_float = type_of(variable.start) <= stride::Type::Float64;
     variable.is_discrete = !is_float;
     if (!child.has("variability")) return;
     const std::string word = child.text("variability");

@@ -8,6 +8,7 @@
 #include <string>
 #include <type_traits>
 #include <utility>
+#include <valarray>
 #include <variant>
 #include <vector>
 
@@ -174,6 +175,24 @@ class ProcessUnit : public stride::Unit {
     }
     return output(variable.name, member);
   }
+  template <class T>
+  stride::VariableBuilder add(const Variable& variable, std::valarray<T>& array) {
+    T* const elements = std::begin(array);
+    const auto listed = [&] {
+      switch (variable.role) {
+        case Role::Parameter:
+          return parameter(variable.name, elements, array.size());
+        case Role::Input:
+        case Role::MessageInput:
+          return input(variable.name, elements, array.size());
+        case Role::Output:
+        case Role::MessageOutput:
+          break;
+      }
+      return output(variable.name, elements, array.size());
+    };
+    return listed().dimensions(variable.dimensions);
+  }
 
   void list_own_parameters() {
     parameter("process.program", program_)
@@ -235,7 +254,7 @@ class ProcessUnit : public stride::Unit {
     while (!sent.empty() && sent.front().time == time) {
       process::Message& message = sent.front();
       if (clocks_[message.variable]->ticked()) break;
-      values_[message.variable] = std::move(message.value);
+      values_[message.variable] = message.value;  // a copy leaves the elements where they are
       clocks_[message.variable]->tick();
       sent.pop_front();
     }
@@ -244,7 +263,7 @@ class ProcessUnit : public stride::Unit {
   process::Declaration declaration_;
   std::filesystem::path resources_;
   std::filesystem::path results_;
-  std::vector<Value> values_;                           ///< whose alternatives stay what they are
+  std::vector<Value> values_;  ///< whose alternatives stay what they are, and arrays where they are
   std::vector<std::unique_ptr<stride::Clock>> clocks_;  ///< of messages
   process::Opening opening_{"", "", "", "*"};
   std::string program_;

@@ -72,7 +72,9 @@ const ::process::Declaration& declaration() {
     const auto file = write_file(
         "cat/process.xml",
         "<process version=\"1\">\n<program name=\"cat\"/>\n<output name=\"y\" type=\"Float64\"/>\n"
-        "<output name=\"n\" type=\"Int8\"/>\n<message-output name=\"m.f\" type=\"Binary\"/>\n"
+        "<output name=\"n\" type=\"Int8\"/>\n"
+        "<output name=\"a\" type=\"Float32\" dimensions=\"2\"/>\n<message-output name=\"m.f\" "
+        "type=\"Binary\"/>\n"
         "</process>\n");
     return ::process::load_declaration(file.parent_path().string() + "/");
   }();

@@ -53,6 +53,17 @@ TEST_CASE("a declaration with a bit of everything") {
   CHECK(d.variables[4].clock == "tick");
 }
 
+TEST_CASE("arrays have dimensions") {
+  const Declaration d = declared(with(
+      "<input name=\"pose\" type=\"Float32\" dimensions=\"2 3\" unit=\"m\" start=\"1 2 3 4 5 6\"/>"
+      "<output name=\"pixels\" type=\"UInt8\" dimensions=\"4\"/>"));
+  CHECK(d.variables[0].dimensions == std::vector<std::size_t>{2, 3});
+  CHECK_FALSE(d.variables[0].is_discrete);
+  CHECK(std::get<std::valarray<float>>(d.variables[0].start)[5] == 6);
+  CHECK(std::get<std::valarray<std::uint8_t>>(d.variables[1].start).size() == 4);
+  CHECK(d.variables[1].is_discrete);
+}
+
 TEST_CASE("mistakes in a declaration are reported with file and line") {
   const auto [line, expected] = GENERATE(table<std::string, std::string>({
       {"<knob/>", "process.xml:3: <knob>: not known here: expected <program>"},
@@ -66,6 +77,16 @@ TEST_CASE("mistakes in a declaration are reported with file and line") {
       {"<input name=\"u\" type=\"Int8\" start=\"200\"/>", "'200' is not a valid Int8"},
       {"<input name=\"u\" type=\"Int8\" size=\"3\"/>", "unknown attribute 'size'"},
       {"<input name=\"u\" type=\"Int8\" variability=\"continuous\"/>", "expected discrete"},
+      {"<input name=\"u\" type=\"Int8\" dimensions=\"2\" start=\"1\"/>",
+       "has 1 elements; expected 2"},
+      {"<input name=\"u\" type=\"Int8\" dimensions=\"2 0\"/>",
+       "expected from 1 to 1048576 elements"},
+      {"<input name=\"u\" type=\"Int8\" dimensions=\"65536 65536\"/>",
+       "expected from 1 to 1048576 elements"},
+      {"<input name=\"u\" type=\"Int8\" dimensions=\"2x3\"/>", "'2x3' is not a valid UInt32"},
+      {"<input name=\"u\" type=\"Int8\" dimensions=\"\"/>", "expected a number for each"},
+      {"<input name=\"u\" type=\"String\" dimensions=\"2\"/>",
+       "dimensions: expected of numbers and Booleans only"},
       {"<input name=\"\" type=\"Int8\"/>", "expected a name"},
       {"<input name=\"u\" type=\"String\" unit=\"m\"/>", "unit: expected of numbers only"},
       {"<output name=\"y\" type=\"Int8\" depends-on=\"x\"/>", "there is no <input name=\"x\"/>"},

@@ -246,6 +246,29 @@ TEST_CASE("a program may request the end of the simulation") {
   CHECK(scripted.unit.last.terminate);
 }
 
+TEST_CASE("arrays are read and written as a whole") {
+  ResourceFolder resources(
+      "process.xml",
+      "<process version=\"1\">\n<program name=\"sh\"/><argument file=\"echo.sh\"/>\n"
+      "<input name=\"u\" type=\"Float64\" dimensions=\"2 2\"/>\n"
+      "<output name=\"y\" type=\"Float64\" dimensions=\"2 2\" depends-on=\"u\"/>\n</process>\n");
+  std::ofstream(fs::path(resources.path()) / "echo.sh")
+      << "while read -r line; do case $line in\n"
+         "'<input'*) u=$(echo \"$line\" | sed 's/.*value=.\\(.*\\).\\/>/\\1/');;\n"
+         "'<start'*) printf '%s\\n' \"<output name='y' value='$u'/>\" \"<sync time='0'/>\";;\n"
+         "esac; done\n";
+  UnitInstance unit(library(), choices_with(resources.path()));
+  CHECK_THAT(library().describe(resources.path()), Contains("<Dimension start=\"2\"/>"));
+  const fmi3ValueReference u = unit.reference("u");
+  const fmi3ValueReference y = unit.reference("y");
+  const double set[] = {0.5, -1, 1e300, 4};
+  double got[4] = {};
+  REQUIRE(unit.fmi.EnterInitializationMode(unit.handle, fmi3False, 0, 0, fmi3False, 0) == fmi3OK);
+  REQUIRE(unit.fmi.SetFloat64(unit.handle, &u, 1, set, 4) == fmi3OK);
+  REQUIRE(unit.fmi.GetFloat64(unit.handle, &y, 1, got, 4) == fmi3OK);
+  CHECK(std::equal(set, set + 4, got));
+}
+
 TEST_CASE("standard error is the log") {
   Scripted scripted("echo 'warming up' >&2; sleep 0.05; " + start_answer() + "cat > /dev/null");
   REQUIRE(scripted.unit.start_steps() == fmi3OK);

@@ -1,8 +1,10 @@
 // Values as text and back, exactly.
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <limits>
 #include <random>
+#include <valarray>
 
 #include <catch2/catch.hpp>
 
@@ -94,6 +96,22 @@ TEST_CASE("no number is read from more or less than one") {
   }
   CHECK_THROWS_WITH(read<double>(std::string(500, 'x')),
                     Catch::Contains("xxx…' is not a valid Float64"));
+}
+
+TEST_CASE("elements of arrays have a blank between them") {
+  using Vector = std::array<double, 3>;
+  CHECK(text_of(Vector{0.1, -0.0, 2}) == "0.1 -0 2");
+  CHECK(is_same(read<Vector>("0.1 -0 2"), Vector{0.1, -0.0, 2}));
+  CHECK_FALSE(is_same(read<Vector>("0.1 0 2"), Vector{0.1, -0.0, 2}));
+  CHECK(is_same(read<Vector>(" nan  1 2 "), Vector{read<double>("nan"), 1, 2}));
+  std::valarray<bool> flags(2);
+  parse_value("true false", flags);
+  CHECK(text_of(flags) == "true false");
+  CHECK(is_same(flags, std::valarray<bool>{true, false}));
+  CHECK(text_of(std::valarray<std::uint8_t>{1, 255}) == "1 255");
+  CHECK_THROWS_WITH(read<Vector>("1 2"), "has 2 elements; expected 3");
+  CHECK_THROWS_WITH(read<Vector>("1 2 3 4"), Catch::Contains("more elements than the 3"));
+  CHECK_THROWS_WITH(read<Vector>("1 b 3"), Catch::Contains("'b' is not a valid Float64"));
 }
 
 TEST_CASE("names of types") {

@@ -70,7 +70,7 @@ class Program {
 
  protected:
   /// Bind a member, or anything that lives as long, to a declared variable. T: double, float, any
-  /// integer type, bool, std::string, stride::process::Binary.
+  /// integer type, bool, std::string, stride::process::Binary, std::array of a number or bool.
   template <class T>
   void parameter(std::string name, T& member) {
     add_input(parameters_, std::move(name), member);

@@ -1,14 +1,18 @@
-// Values and texts of the protocol. Values are written and read as <stride/value_text.h> defines;
-// texts are escaped by TagWriter.
+// Values and texts of the protocol. Values are written and read as <stride/value_text.h> defines,
+// the elements of an array with a blank between them; texts are escaped by TagWriter.
 #ifndef STRIDE_PROCESS_VALUE_H
 #define STRIDE_PROCESS_VALUE_H
 
+#include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <valarray>
 
 #include <stride/value_text.h>
 
@@ -28,6 +32,76 @@ bool is_same(const T& one, const T& other) {
   } else {
     return one == other;
   }
+}
+
+// ---- Arrays ----
+
+// A std::array or std::valarray of numbers or booleans: its elements, the last index running
+// fastest.
+
+namespace detail {
+
+template <class T>
+void append_elements(std::string& text, const T* elements, std::size_t size) {
+  for (std::size_t i = 0; i < size; ++i) {
+    if (i != 0) text += ' ';
+    append_value(text, elements[i]);
+  }
+}
+
+template <class T>
+void parse_elements(std::string_view text, T* elements, std::size_t size) {
+  std::size_t at = 0;
+  for (std::size_t i = 0; i < size; ++i) {
+    at = text.find_first_not_of(' ', at);
+    if (at == std::string_view::npos) {
+      throw std::invalid_argument("has " + std::to_string(i) + " elements; expected " +
+                                  std::to_string(size));
+    }
+    const std::size_t end = std::min(text.find(' ', at), text.size());
+    parse_value(text.substr(at, end - at), elements[i]);
+    at = end;
+  }
+  if (text.find_first_not_of(' ', at) != std::string_view::npos) {
+    throw std::invalid_argument("has more elements than the " + std::to_string(size) +
+                                " that are expected");
+  }
+}
+
+template <class T>
+bool are_same(const T* one, const T* other, std::size_t size) {
+  return std::equal(one, one + size, other, [](const T& a, const T& b) { return is_same(a, b); });
+}
+
+}  // namespace detail
+
+template <class T, std::size_t N>
+void append_value(std::string& text, const std::array<T, N>& value) {
+  detail::append_elements(text, value.data(), N);
+}
+template <class T>
+void append_value(std::string& text, const std::valarray<T>& value) {
+  detail::append_elements(text, std::begin(value), value.size());
+}
+
+/// Reads as many elements as the array has. Throws as parse_value() of one does.
+template <class T, std::size_t N>
+void parse_value(std::string_view text, std::array<T, N>& value) {
+  detail::parse_elements(text, value.data(), N);
+}
+template <class T>
+void parse_value(std::string_view text, std::valarray<T>& value) {
+  detail::parse_elements(text, std::begin(value), value.size());
+}
+
+template <class T, std::size_t N>
+bool is_same(const std::array<T, N>& one, const std::array<T, N>& other) {
+  return detail::are_same(one.data(), other.data(), N);
+}
+/// Of the same size.
+template <class T>
+bool is_same(const std::valarray<T>& one, const std::valarray<T>& other) {
+  return detail::are_same(std::begin(one), std::begin(other), one.size());
 }
 
 // ---- Characters ----

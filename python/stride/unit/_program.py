@@ -1,0 +1,218 @@
+"""The program's side of docs/process-protocol.md, for one instance of a unit."""
+
+from __future__ import annotations
+
+import operator
+import os
+
+from ._errors import UnitError
+from ._time import SECOND, Time
+from ._values import MISTAKES
+from ._variables import Input, MessageInput, Output, Parameter
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+    from typing import Any, Callable, Optional
+
+    from ._unit import Unit
+
+
+def read_tag(line: str) -> tuple[str, dict[str, str]]:
+    """Name and attributes."""
+    pieces = line.split('"')
+    if "&" in line or "'" in line or len(pieces) < 3 or pieces[-1] != "/>\n":
+        from xml.etree import ElementTree
+
+        element = ElementTree.fromstring(line)
+        return element.tag, element.attrib
+    name, _, first = pieces[0].partition(" ")
+    attributes = {first.strip()[:-1]: pieces[1]}
+    for i in range(2, len(pieces) - 1, 2):
+        attributes[pieces[i].strip()[:-1]] = pieces[i + 1]
+    return name[1:], attributes
+
+
+def _instant(value: Any, what: str, expected: str) -> Time:
+    """What one of the user's functions has returned."""
+    if isinstance(value, bool) or not isinstance(value, (int, float)) and not hasattr(value, "__float__"):
+        raise UnitError(f"{what} returned {value!r:.80}; expected None, or {expected}")
+    try:
+        return Time(value if type(value) is Time else float(value))
+    except (ValueError, OverflowError):
+        raise UnitError(f"{what} returned {value!r:.80}; expected None, or {expected}") from None
+
+
+class Program:
+    """Runs a unit as stride's commands say."""
+
+    def __init__(self, cls: type[Unit], commands: Iterable[bytes], write: Callable[[bytes], None]) -> None:
+        """`commands` are the lines that stride writes; `write` takes those for stride."""
+        self._unit = unit = cls()
+        self._commands = commands
+        self._write = write
+        self._answer = unit._answer
+        self._time_unit = 1  # [ps]
+        variables = cls._variables.values()
+        # tag -> name -> attribute, and what reads its value
+        self._settable = {
+            kind.tag: {v.name: (v.attribute, v.read) for v in variables if type(v) is kind} for kind in (Parameter, Input)
+        }
+        self._receivers = {v.name: v for v in variables if isinstance(v, MessageInput)}
+        self._outputs = [
+            (v.attribute, v.name, f'<output name="{v.name}" value="', v.text) for v in variables if isinstance(v, Output)
+        ]
+        self._told = [""] * len(self._outputs)
+        self._has_told = False
+        self._announced: Optional[int] = None  # what next_event() has returned [ps]
+
+    def run(self) -> None:
+        """Obeys until <end/>, or until there is no line any more."""
+        for line in self._commands:
+            name, attributes = read_tag(line.decode())
+            if name == "step":
+                self._step(int(attributes["size"]) * self._time_unit, attributes["may-stop"] == "true")
+            elif name in self._settable:
+                self._set(name, attributes["name"], attributes["value"])
+            elif name == "message":
+                self._receive(attributes["name"], attributes["value"])
+            elif name == "time-unit":
+                self._time_unit = int(attributes["picoseconds"])
+            elif name == "open":
+                self._open(attributes)
+            elif name == "trace":
+                self._unit.trace(attributes["file"], attributes["signals"])
+            elif name == "start":
+                self._start(int(attributes["time"]) * self._time_unit)
+            elif name == "end":
+                self._unit.finish()
+                return
+            else:
+                raise UnitError(f"the command <{name}> is not known to the stride.unit in the FMU: pack it again")
+
+    # ---- Commands ----
+
+    def _open(self, attributes: dict[str, str]) -> None:
+        if attributes["protocol"] != "1":
+            raise UnitError(f"the FMU knows protocol 1, not {attributes['protocol']}: pack it again")
+        unit = self._unit
+        unit.instance_name = attributes["instance"]
+        unit.resources = attributes["resources"]
+        unit.results = os.environ.get("STRIDE_RESULTS", "")
+
+    def _set(self, tag: str, name: str, text: str) -> None:
+        try:
+            attribute, read = self._settable[tag][name]
+        except KeyError:
+            raise self._other_class(tag, name) from None
+        self._unit.__dict__[attribute] = read(text)
+
+    def _other_class(self, tag: str, name: str) -> UnitError:
+        return UnitError(f"the class {type(self._unit).__name__} has no {tag} '{name}', which its FMU has: pack it again")
+
+    def _receive(self, name: str, text: str) -> None:
+        variable = self._receivers.get(name)
+        if variable is None:
+            raise self._other_class("message-input", name)
+        if variable.receiver:
+            getattr(self._unit, variable.receiver)(variable.read(text))
+
+    def _start(self, ps: int) -> None:
+        unit = self._unit
+        unit.now = Time.from_ps(ps)
+        unit._end_ps = ps
+        unit.start()
+        self._reply()
+
+    def _step(self, size: int, may_stop: bool) -> None:
+        unit = self._unit
+        now = unit.now
+        if size == 0:
+            unit.event(now)
+            self._reply()
+            return
+        unit._end_ps = now.ps + size
+        end = Time.from_ps(unit._end_ps)
+        unit.early_return_allowed = may_stop
+        reached = unit.step(now, end)
+        unit.now = now = end if reached is None else self._reached(reached, now, end, may_stop)
+        unit._end_ps = now.ps
+        unit.early_return_allowed = False
+        if self._announced is not None and now.ps >= self._announced:
+            unit.event(now)
+        self._reply()
+
+    @staticmethod
+    def _reached(returned: Any, now: Time, end: Time, may_stop: bool) -> Time:
+        reached = _instant(returned, "step()", "the instant at which it has ended")
+        if not now.ps <= reached.ps <= end.ps:
+            raise UnitError(f"step() returned {float(reached)!r} s; expected from {float(now)!r} s to {float(end)!r} s")
+        if reached.ps != end.ps and not may_stop:
+            raise UnitError(
+                f"step() returned {float(reached)!r} s, but this step has to end at {float(end)!r} s: end early only where"
+                " self.early_return_allowed is true, for which the class declares early_return=True"
+            )
+        return reached
+
+    # ---- Answers ----
+
+    def _reply(self) -> None:
+        unit, told, answer = self._unit, self._told, self._answer
+        if unit._sent:
+            self._send()
+        values = unit.__dict__
+        for i, (attribute, name, prefix, write) in enumerate(self._outputs):
+            try:
+                text = write(values[attribute])
+            except MISTAKES as mistake:
+                raise UnitError(f"output '{name}': {mistake}") from None
+            if text != told[i] or not self._has_told:
+                told[i] = text
+                answer.append(f'{prefix}{text}"/>\n')
+        self._has_told = True
+        now = unit.now.ps
+        self._announced = self._next(now)
+        if self._announced is None:
+            [time] = self._counts(now)
+            answer.append(f'<sync time="{time}"')
+        else:
+            time, following = self._counts(now, self._announced)
+            answer.append(f'<sync time="{time}" next="{following}"')
+        answer.append(' end="true"/>\n' if unit._ends else "/>\n")
+        self.flush()
+
+    def _next(self, now: int) -> Optional[int]:
+        following = self._unit.next_event()
+        if following is None or following == float("inf"):
+            return None
+        ps = _instant(following, "next_event()", "an instant after now").ps
+        if ps <= now:
+            raise UnitError(f"next_event() returned {ps / SECOND!r} s; expected None, or an instant after {now / SECOND!r} s")
+        return ps
+
+    def _send(self) -> None:
+        """In the order of time; messages without an instant of their own have that of the end."""
+        unit = self._unit
+        messages = [((unit.now if at is None else at).ps, name, text) for at, name, text in unit._sent]
+        unit._sent.clear()
+        for ps, name, text in sorted(messages, key=operator.itemgetter(0)):
+            if ps > unit.now.ps:
+                raise UnitError(
+                    f"message '{name}' of {ps / SECOND!r} s is behind {float(unit.now)!r} s, where step() has ended: send it"
+                    " in the step that reaches it"
+                )
+            [time] = self._counts(ps)
+            self._answer.append(f'<message name="{name}" time="{time}" value="{text}"/>\n')
+
+    def _counts(self, *times: int) -> list[int]:
+        """Of units of time, which become picoseconds where they have to."""
+        unit = self._time_unit
+        if unit != 1 and any(ps % unit for ps in times):
+            self._time_unit = unit = 1
+            self._answer.append('<time-unit picoseconds="1"/>\n')
+        return [ps // unit for ps in times]
+
+    def flush(self) -> None:
+        text = "".join(self._answer)
+        self._answer.clear()
+        self._write(text.encode())

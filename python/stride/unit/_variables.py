@@ -1,0 +1,201 @@
+"""Variables in the body of a class."""
+
+from __future__ import annotations
+
+from ._errors import UnitError
+from ._values import MISTAKES, SCALARS, Array, type_name, type_of
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Sequence
+    from typing import Any, Callable, Optional, TypeVar, Union
+
+    Method = TypeVar("Method", bound=Callable[..., Any])
+
+
+class Variable:
+    """A variable in the body of a class; of an instance the attribute is its value.
+
+    Args:
+        type: float, int, bool, str, bytes; the name of a type of FMI, such as "Float32", or a type of numpy; or the
+            start value, which has the type.
+        start: The start value; zero, False or empty where it is not given.
+        shape: Of a numpy array: a number, or one for each dimension.
+        name: In the FMU, where it is another one than that of the attribute, such as "receive.frame".
+        unit: Of measure, as Modelica writes it: "m", "rad/s", "degC".
+        min, max: Bounds.
+    """
+
+    tag = ""
+
+    def __init__(
+        self,
+        type: Any,
+        *,
+        start: Any = None,
+        shape: Union[int, Sequence[int], None] = None,
+        name: str = "",
+        description: str = "",
+        unit: str = "",
+        min: Optional[float] = None,
+        max: Optional[float] = None,
+    ) -> None:
+        self.attribute = ""
+        self.name = name
+        self.description = description
+        self.unit = unit
+        self.min = min
+        self.max = max
+        found = type_name(type)
+        if shape is not None:
+            shape = (shape,) if isinstance(shape, int) else tuple(shape)
+        if found is None and start is None:
+            start = type
+            found, own_shape = type_of(start)
+            shape = own_shape if shape is None else shape
+        if found is None:
+            raise UnitError(
+                f"{type!r:.80} is neither a type nor a start value: expected float, int, bool, str, bytes, an array, or"
+                " the name of a type such as 'Float32'"
+            )
+        self.type_name = found
+        self.shape = shape
+        self._set_type()
+        if start is not None:
+            self.start = start
+
+    def _set_type(self) -> None:
+        self.new: Callable[[Any], Any] = lambda value: value
+        if self.shape is None:
+            self.start, self.read, self.text = SCALARS[self.type_name]
+            return
+        if self.type_name in ("String", "Binary"):
+            raise UnitError("shape: expected of numbers and bool only")
+        array = Array(self.type_name, self.shape)
+        self.new, self.start, self.read, self.text = array.new, array.zeros(), array.read, array.text
+
+    def attributes(self) -> dict[str, str]:
+        """Those of the declaration in docs/process-protocol.md. Raises one of MISTAKES for another start value."""
+        found = {"name": self.name, "type": self.type_name}
+        if self.shape is not None:
+            found["dimensions"] = " ".join(map(str, self.shape))
+        text = self.text(self.start)
+        found["start"] = self.start if self.type_name == "String" else text
+        for key in ("unit", "description", "min", "max"):
+            value = getattr(self, key)
+            if value not in (None, ""):
+                found[key] = str(value)
+        return found
+
+    def names(self) -> list[str]:
+        """All that it has in the FMU."""
+        return [self.name]
+
+    def __repr__(self) -> str:
+        return f"<{type(self).__name__} {self.name or self.attribute}>"
+
+    if TYPE_CHECKING:  # of an instance it is a value, which is in its dictionary
+
+        def __get__(self, instance: Optional[object], owner: type) -> Any: ...
+
+        def __set__(self, instance: object, value: Any) -> None: ...
+
+
+class Parameter(Variable):
+    """What is set before the start, and stays."""
+
+    tag = "parameter"
+
+
+class Input(Variable):
+    """Has its value before each step and each event. `discrete`: it changes at events only, as all do that are no float."""
+
+    tag = "input"
+
+    def __init__(self, type: Any, *, discrete: bool = False, **options: Any) -> None:
+        super().__init__(type, **options)
+        self.discrete = discrete
+
+    def attributes(self) -> dict[str, str]:
+        return {**super().attributes(), **({"variability": "discrete"} if self.discrete else {})}
+
+
+class Output(Input):
+    """Assigned by the unit; read after each step and each event.
+
+    `depends_on`: the names of the inputs on which it depends at the same instant. Without it none, if the class has
+    neither `start` nor `event` nor receives messages, or else all.
+    """
+
+    tag = "output"
+
+    def __init__(self, type: Any, *, depends_on: Optional[Iterable[str]] = None, **options: Any) -> None:
+        super().__init__(type, **options)
+        self.depends_on = depends_on
+
+
+class Message(Variable):
+    """`clock`: the name of its clock; `mime_type`: of a Binary."""
+
+    def __init__(self, type: Any, *, clock: str = "", mime_type: str = "", **options: Any) -> None:
+        super().__init__(type, **options)
+        self.clock = clock
+        self.mime_type = mime_type
+
+    def clock_name(self) -> str:
+        """`receive.frame` has the clock `receive.clock`, `frame` has `frame.clock`."""
+        return self.clock or f"{self.name.rpartition('.')[0] or self.name}.clock"
+
+    def names(self) -> list[str]:
+        return [self.name, self.clock_name()]
+
+    def attributes(self) -> dict[str, str]:
+        mime_type = {"mime-type": self.mime_type} if self.mime_type else {}
+        return {**super().attributes(), "clock": self.clock_name(), **mime_type}
+
+
+class MessageInput(Message):
+    """Messages that arrive; `@NAME.receive` decorates the method that is called with each of them, at `self.now`."""
+
+    tag = "message-input"
+    receiver = ""
+    """The name of the method."""
+
+    def receive(self, method: Method) -> Method:
+        self.receiver = method.__name__
+        return method
+
+    if TYPE_CHECKING:
+
+        def __get__(self, instance: Optional[object], owner: type) -> MessageInput: ...
+
+
+class MessageOutput(Message):
+    """Messages that the unit sends: `self.NAME.send(value)`."""
+
+    tag = "message-output"
+
+
+def collect(cls: type, base: type) -> dict[str, Variable]:
+    """The variables of a class that derives from `base`, and of its bases, by their attributes."""
+    found: dict[str, Variable] = {}
+    for each in reversed(cls.__mro__):
+        found.update((key, value) for key, value in vars(each).items() if isinstance(value, Variable))
+    names: dict[str, str] = {}
+    for attribute, variable in found.items():
+        where = f"{cls.__name__}.{attribute}"
+        variable.attribute = attribute
+        variable.name = variable.name or attribute
+        if hasattr(base, attribute):
+            raise UnitError(
+                f"{where}: each unit has something of this name; choose another one, and give name='{variable.name}' if"
+                " the FMU is to have it"
+            )
+        for name in variable.names():
+            if names.setdefault(name, attribute) != attribute:
+                raise UnitError(f"{where}: '{names[name]}' has the name '{name}', too; give it another name='…'")
+        try:
+            variable.attributes()
+        except MISTAKES as mistake:
+            raise UnitError(f"{where}: start: {mistake}") from None
+    return found
