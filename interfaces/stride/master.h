@@ -18,12 +18,14 @@
  * pointers in the structures that it fills, belong to the simulation and are valid until the next
  * call with it, unless it says otherwise. What is passed to a function is copied.
  *
- * Threads.  A simulation is used by one thread at a time; stride_interrupt() may be called by any
- * thread and by a signal handler. Units in processes of their own (the setting "isolate") end with
- * the thread that has opened their simulation. Different simulations are independent, but for what
- * their units have in common: code of units that run in the process of the caller shares it, also
- * with the caller. Behind a fork() the simulation is the parent's; in the child nothing may be
- * called with it, and what is, fails with STRIDE_MISUSE.
+ * Threads.  A simulation is used by one thread at a time, and not by the functions that it calls
+ * (stride_progress, stride_log): other calls meanwhile are STRIDE_MISUSE. stride_interrupt() may be
+ * called by any thread and by a signal handler. Where units get processes of their own (the setting
+ * "isolate"), stride_open() forks the process, and waits before that for the calls of other
+ * threads. Different simulations are independent, but for what their units have in common: code of
+ * units that run in the process of the caller shares it, also with the caller. Behind a fork() the
+ * simulation is the parent's; in the child nothing may be called with it, and what is, fails with
+ * STRIDE_MISUSE.
  *
  * Time.  int64_t picoseconds of simulated time.
  *
@@ -132,12 +134,14 @@ stride_status stride_open(const char* scenario, const stride_options* options,
 stride_status stride_advance(stride_simulation* simulation, int64_t until);
 
 /* Ends the run where it is: units are terminated, verdicts are given, and the results completed.
- * A failed verdict is none of the status. Afterwards stride_verdict(), stride_end_reason() and
+ * A failed verdict is none of the status. Afterwards stride_get_verdict(), stride_end_reason() and
  * stride_now() can be called, and stride_close(). */
 stride_status stride_end(stride_simulation* simulation);
 
-/* Ends the run, if it has not ended, and frees the simulation. NULL is allowed. */
-void stride_close(stride_simulation* simulation);
+/* Ends the run, if it has not ended, and frees the simulation. NULL is allowed. Where a call with
+ * the simulation is under way, as in a function that such a call has called, it is STRIDE_MISUSE,
+ * and the simulation stays open; likewise in a fork of the process. */
+stride_status stride_close(stride_simulation* simulation);
 
 /* The run ends at its next communication point: stride_advance() returns STRIDE_RUN_FAILED then,
  * and all that is left to do is to end it. */
@@ -152,7 +156,8 @@ int64_t stride_stop_time(const stride_simulation* simulation);
  * it has failed, was interrupted or ended. */
 int stride_is_over(const stride_simulation* simulation);
 
-/* Behind the end: "completed", "ended by a unit", "interrupted", "ended early", or "failed". */
+/* Where it is over: "completed", "ended by a unit", "interrupted", "ended early", or "failed";
+ * empty before. */
 const char* stride_end_reason(const stride_simulation* simulation);
 
 /* ---- Variables ---- */
@@ -220,7 +225,8 @@ stride_status stride_find(stride_simulation* simulation, const char* name, size_
 stride_status stride_get(stride_simulation* simulation, size_t index, void* elements, size_t count);
 
 /* Sets a tunable parameter, or an input without a source, at the present instant; all that is set
- * and sent at an instant is one event of it. */
+ * and sent at an instant is one event of it, another one than those that were handled there. The
+ * instant is recorded again then: signals.csv has a second row with this time. */
 stride_status stride_set(stride_simulation* simulation, size_t index, const void* elements,
                          size_t count);
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "master/util/error.h"
+#include "master/util/readable_text.h"
 
 namespace stride::api {
 namespace {
@@ -32,6 +33,7 @@ core::ValueBlock read_elements(const core::Variable& variable, const void* eleme
       if constexpr (std::is_same_v<T, std::string>) {
         const char* const text = static_cast<const char* const*>(elements)[i];
         if (text == nullptr) fail_value(variable, "a text is NULL");
+        if (!core::is_utf8(text)) fail_value(variable, "a text is not UTF-8");
         to[i] = text;
       } else if constexpr (std::is_same_v<T, core::Binary>) {
         const stride_bytes& bytes = static_cast<const stride_bytes*>(elements)[i];

@@ -1,4 +1,5 @@
 // The C interface of the master, interfaces/stride/master.h, on api::Session.
+#include <atomic>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -18,6 +19,7 @@
 #include "master/api/elements.h"
 #include "master/api/last_error.h"
 #include "master/api/log.h"
+#include "master/api/process_use.h"
 #include "master/api/session.h"
 
 using stride::Duration;
@@ -34,6 +36,7 @@ struct stride_simulation {
 
   Session session;
   pid_t process = ::getpid();
+  std::atomic<bool> is_in_use{false};  ///< by a call
   CElements elements{};
   std::string name{}, content{};
   std::vector<std::size_t> dimensions{}, clocks{};
@@ -43,9 +46,14 @@ namespace {
 
 std::int64_t picoseconds(Time time) { return time.time_since_epoch().count(); }
 
+void require(bool condition, const char* message) {
+  if (!condition) throw std::logic_error(message);
+}
+
 /// Of the caller's structure, which may be that of an earlier version: its size and a part of it.
 template <class Structure>
 void give(Structure* to, Structure from) {
+  require(to->size > 0, "the size of a structure is 0: set it to its sizeof");
   const std::size_t size = std::min(to->size, sizeof(Structure));
   from.size = to->size;
   std::memcpy(to, &from, size);
@@ -55,13 +63,9 @@ template <class Structure>
 Structure taken(const Structure* from) {
   Structure structure{};
   if (from == nullptr) return structure;
-  if (from->size == 0) throw std::logic_error("the size of a structure is 0: set it to its sizeof");
+  require(from->size > 0, "the size of a structure is 0: set it to its sizeof");
   std::memcpy(&structure, from, std::min(from->size, sizeof(Structure)));
   return structure;
-}
-
-void require(bool condition, const char* message) {
-  if (!condition) throw std::logic_error(message);
 }
 
 template <class Action>
@@ -76,13 +80,31 @@ stride_status attempt(Action&& action) noexcept {
   }
 }
 
+/// Of one call: others meanwhile, of another thread or of a function that the call calls, are
+/// misuse.
+class Use {
+ public:
+  explicit Use(stride_simulation& simulation) : simulation_(simulation) {
+    require(!simulation.is_in_use.exchange(true),
+            "the simulation is in use: by another thread, or by the call that has called this");
+  }
+  ~Use() { simulation_.is_in_use = false; }
+  Use(const Use&) = delete;
+  Use& operator=(const Use&) = delete;
+
+ private:
+  stride_simulation& simulation_;
+};
+
 /// An action with an open simulation.
 template <class Action>
-stride_status attempt_with(const stride_simulation* simulation, Action&& action) noexcept {
+stride_status attempt_with(stride_simulation* simulation, Action&& action) noexcept {
   return attempt([&] {
     require(simulation != nullptr, "the simulation is NULL");
     require(simulation->process == ::getpid(),
             "the simulation was opened by another process, of which this one is a fork");
+    const stride::api::SharedUse in_library;
+    const Use use(*simulation);
     action();
   });
 }
@@ -157,9 +179,13 @@ stride_status stride_end(stride_simulation* simulation) {
   return attempt_with(simulation, [&] { simulation->session.end(); });
 }
 
-void stride_close(stride_simulation* simulation) {
-  if (simulation == nullptr || simulation->process != ::getpid()) return;
+stride_status stride_close(stride_simulation* simulation) {
+  if (simulation == nullptr) return STRIDE_OK;
+  const stride_status status = attempt_with(simulation, [] {});
+  if (status != STRIDE_OK) return status;
+  const stride::api::SharedUse in_library;
   delete simulation;
+  return STRIDE_OK;
 }
 
 void stride_interrupt(stride_simulation* simulation) {

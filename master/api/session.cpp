@@ -4,12 +4,15 @@
 #include <cstdint>
 #include <exception>
 #include <iterator>
+#include <set>
 #include <stdexcept>
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <spdlog/spdlog.h>
 
+#include "master/api/process_use.h"
 #include "master/checkpoint/checkpoint_file.h"
 #include "master/results/checkpoint_states.h"
 #include "master/results/output_paths.h"
@@ -57,6 +60,31 @@ scenario::InterventionDeclaration parse_intervention(const std::string& option,
   const std::vector<std::string> known{"set-at", "force", "drop", "delay", "corrupt"};
   core::fail_input({}, fmt::format("there is no intervention '{}'", option),
                    core::suggestion(option, known));
+}
+
+/// Those that decide what a run computes, up to the checkpoint.
+std::multiset<std::string> deciding_settings(const recorders::Command& command) {
+  constexpr std::size_t kFirst = 2;  // behind "run" and the file
+  std::multiset<std::string> settings;
+  for (std::size_t i = kFirst; i < command.words.size(); ++i) {
+    const std::string& word = command.words[i];
+    const bool may_differ = word.starts_with("--stop=") || word.starts_with("--signals=") ||
+                            word.starts_with("--threads=");
+    if (!may_differ) settings.insert(word);
+  }
+  return settings;
+}
+
+/// Throws core::Error (Input), at the checkpoint.
+void require_same_settings(const recorders::Provenance& before, const recorders::Command& now,
+                           const fs::path& checkpoint) {
+  const auto then = before.commands.empty() ? std::multiset<std::string>{}
+                                            : deciding_settings(before.commands.front());
+  if (then == deciding_settings(now)) return;
+  core::fail_input({.where = {checkpoint.string(), 0}},
+                   fmt::format("the checkpoint is of a simulation with other settings: {}",
+                               then.empty() ? "none" : fmt::format("{}", fmt::join(then, " "))),
+                   "open this one with the same; what is to change is set from there on");
 }
 
 core::Context context_of(const core::System& system, core::VariableId id) {
@@ -109,7 +137,9 @@ results::ResultsTarget Session::target_of(const SessionOptions& options,
 
 recorders::Provenance Session::provenance() {
   recorders::Provenance made = results::provenance_of(loaded_, request_.command, digests_);
-  if (checkpoint_) results::require_same(checkpoint_->provenance, made, given_.checkpoint);
+  if (!checkpoint_) return made;
+  require_same_settings(checkpoint_->provenance, request_.command, given_.checkpoint);
+  results::require_same(checkpoint_->provenance, made, given_.checkpoint);
   return made;
 }
 
@@ -125,7 +155,7 @@ std::vector<std::unique_ptr<core::Unit>> Session::instantiate() {
   if (!target_.folder.empty()) {
     unit_folders_.emplace(target_.folder, loaded_.component_names());
   }
-  auto units = loaded_.instantiate(target_.folder, &interrupted_);
+  auto units = make_units();
   if (given_.can_save || checkpoint_) journals_.wrap(units, options_.stop);
   if (!checkpoint_) return units;
   try {
@@ -134,6 +164,16 @@ std::vector<std::unique_ptr<core::Unit>> Session::instantiate() {
     results::fail_checkpoint(given_.checkpoint, mistake);
   }
   return units;
+}
+
+std::vector<std::unique_ptr<core::Unit>> Session::make_units() {
+  const auto is_hosted = [](const auto& hosting) { return hosting.has_value(); };
+  if (std::ranges::any_of(loaded_.hostings(), is_hosted)) {
+    const ExclusiveUse use;
+    return loaded_.instantiate(target_.folder, &interrupted_);
+  }
+  const SharedUse use;
+  return loaded_.instantiate(target_.folder, &interrupted_);
 }
 
 void Session::list_variables() {
@@ -169,6 +209,7 @@ bool Session::is_over() const {
 }
 
 const char* Session::end_reason() const {
+  if (!is_over()) return "";
   return has_failed_ ? "failed" : name(simulation_.statistics().end);
 }
 

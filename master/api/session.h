@@ -78,6 +78,7 @@ class Session {
   void require_value(core::VariableId id, const core::ValueBlock& value) const;
   void require_message(const core::SentMessage& message) const;
   std::vector<std::unique_ptr<core::Unit>> instantiate();
+  std::vector<std::unique_ptr<core::Unit>> make_units();
   void begin();
   void make_changes();
   template <class Part>

@@ -114,7 +114,7 @@ _FUNCTIONS = {
     "stride_open": (c_int, [c_char_p, POINTER(Options), POINTER(c_void_p)]),
     "stride_advance": (c_int, [c_void_p, c_int64]),
     "stride_end": (c_int, [c_void_p]),
-    "stride_close": (None, [c_void_p]),
+    "stride_close": (c_int, [c_void_p]),
     "stride_interrupt": (None, [c_void_p]),
     "stride_now": (c_int64, [c_void_p]),
     "stride_start_time": (c_int64, [c_void_p]),

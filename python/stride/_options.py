@@ -19,7 +19,7 @@ def _text(value: Any) -> str:
     if isinstance(value, Iterable):
         return " ".join(_text(element) for element in value)
     if isinstance(value, float):
-        return repr(value)
+        return repr(float(value))  # that of numpy has another text
     item = getattr(value, "item", None)  # a number of numpy
     return _text(item()) if item is not None else str(value)
 

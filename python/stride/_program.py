@@ -15,7 +15,7 @@ import numpy as np
 from ._errors import Error, InputError, RunError, parse_error
 from ._installed import program
 from ._options import words
-from .results import Run, temporary_folder
+from .results import Run, TemporaryFolder
 
 __all__ = ["Campaign", "campaign", "run"]
 
@@ -70,7 +70,8 @@ def run(scenario: PathLike, *, out: Optional[PathLike] = None, **options: Any) -
     Args:
         scenario: A system file (.ssd), a package (.ssp), an FMU (.fmu), or the name of a scenario that comes with
             stride, such as "nfc_approach".
-        out: The folder of the results; None: a temporary one, which is removed with the Run that is returned.
+        out: The folder of the results; None: a temporary one, which is removed with the Run that is returned, and its
+            signals.
         options: Those of `stride run`, with "_" for "-"; a mapping or a list repeats the option: `stop=3`,
             `set={"sensor.gain": 2}`, `swap={"sensor": "new.fmu"}`, `isolate=True`, `film=0.1`,
             `signals=["sensor.*"]`. See `stride run --help`.
@@ -91,7 +92,7 @@ def run_words(
     """Likewise, of the words behind `stride run`, in this working folder."""
     keeper = None
     if out is None:
-        keeper = temporary_folder()
+        keeper = TemporaryFolder()
         out = keeper.name
     results = Path(out).absolute()
     code, output, messages = _call(["run", *arguments, f"--out={results}", "--progress=none", *words(options)], folder)
@@ -120,7 +121,7 @@ class Campaign:
 
     def __init__(self, folder: Union[str, Path], summary: str = "") -> None:
         """Reads cases.csv in this folder. Raises InputError if there is none."""
-        self.folder = Path(folder)
+        self.folder = Path(folder).absolute()
         self.summary = summary
         table = self.folder / "cases.csv"
         if not table.is_file():
@@ -138,6 +139,8 @@ class Campaign:
         if column not in self.columns:
             raise KeyError(f"no column '{column}'; there are: {', '.join(self.columns)}")
         texts = [row[column] for row in self.rows]
+        if column in ("case", "seed"):  # a seed has more digits than a float
+            return np.array([int(text) for text in texts], dtype=np.uint64)
         try:
             return np.array([float(text) if text else np.nan for text in texts])
         except ValueError:

@@ -6,7 +6,9 @@ import csv
 import functools
 import html
 import json
+import shutil
 import tempfile
+import weakref
 import webbrowser
 from collections.abc import Iterator, Mapping
 from pathlib import Path
@@ -37,6 +39,8 @@ class Signals(Mapping[str, np.ndarray]):
 
     @functools.cached_property
     def _columns(self) -> dict[str, Any]:
+        if not self._file.is_file():
+            raise InputError(f"the signals of this run are gone: there is no {self._file}")
         with self._file.open(newline="", encoding="utf-8") as lines:
             rows = csv.reader(lines)
             header = next(rows)
@@ -96,7 +100,7 @@ class Run:
 
         `keeper` is whatever removes the folder when this object goes.
         """
-        self.folder = Path(folder)
+        self.folder = Path(folder).absolute()
         self.summary = summary
         self._keeper = keeper
         file = self.folder / "run.json"
@@ -128,8 +132,10 @@ class Run:
     def events(self) -> list[Message]:
         """The messages that were sent and received, in order."""
         name = self.info["files"].get("events")
-        if not name or not (self.folder / name).is_file():
+        if not name:
             return []
+        if not (self.folder / name).is_file():
+            raise InputError(f"the messages of this run are gone: there is no {self.folder / name}")
         with (self.folder / name).open(newline="", encoding="utf-8") as lines:
             return [
                 Message(
@@ -161,7 +167,11 @@ class Run:
     @property
     def passed(self) -> bool:
         """Whether it came to its end, and no verdict is a bad one."""
-        return self.error is None and all(verdict.passed is not False for verdict in self.verdicts)
+        return self._came_to_its_end and all(verdict.passed is not False for verdict in self.verdicts)
+
+    @property
+    def _came_to_its_end(self) -> bool:
+        return self.error is None and self.info["outcome"] in ("completed", "ended by a unit")
 
     @property
     def error(self) -> Optional[str]:
@@ -170,14 +180,14 @@ class Run:
 
     @property
     def reached(self) -> float:
-        """The simulated time at its end [s]."""
-        return float(self.info["reached"])
+        """The simulated time at its end [s]; NaN where it has been killed before."""
+        return float(self.info.get("reached", "nan"))
 
     def check(self) -> Run:
-        """Raises AssertionError that lists each bad verdict; returns the run if there is none."""
+        """Raises AssertionError that lists each bad verdict; returns the run if there is none, and it came to its end."""
         bad = [verdict for verdict in self.verdicts if verdict.passed is False]
-        if bad or self.error:
-            lines = [self.error] if self.error else []
+        if bad or not self._came_to_its_end:
+            lines = [] if self._came_to_its_end else [self.error or f"it is {self.info['outcome']}"]
             lines += [f"{verdict.name}: {verdict.text}" for verdict in bad]
             raise AssertionError("the run has failed\n  " + "\n  ".join(lines))
         return self
@@ -216,5 +226,9 @@ class Run:
         )
 
 
-def temporary_folder() -> tempfile.TemporaryDirectory[str]:
-    return tempfile.TemporaryDirectory(prefix="stride-")
+class TemporaryFolder:
+    """Is removed with the object."""
+
+    def __init__(self) -> None:
+        self.name = tempfile.mkdtemp(prefix="stride-")
+        weakref.finalize(self, shutil.rmtree, self.name, ignore_errors=True)

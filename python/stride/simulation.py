@@ -152,14 +152,19 @@ class Simulation:
     ) -> None:
         self._handle = ctypes.c_void_p()
         self._variables: dict[str, tuple[int, Variable]] = {}
-        self._verdicts: list[Verdict] = []
+        self._last: Optional[list[Verdict]] = None
         self._library = _library()
         pairs = settings(options)
+        for text in [os.fsencode(scenario), *(os.fsencode(each) for each in (results, checkpoint) if each is not None)]:
+            if b"\0" in text:
+                raise InputError(f"the name of a file has no NUL: {text!r}")
+        for name, value in pairs:
+            _text_bytes(f"{name}={value}", "an option")
         array = (c.Setting * len(pairs))(
             *[c.Setting(name.encode(), None if value is None else value.encode()) for name, value in pairs]
         )
-        self._interruption = _Interruptible()
-        self._progress = c.Progress(self._tell)  # kept as long as the library may call it
+        self._interruption = _Interruption()
+        self._progress = c.Progress(self._interruption.tell)  # kept as long as the library may call it
         given = c.Options(
             size=ctypes.sizeof(c.Options),
             settings=array,
@@ -193,6 +198,8 @@ class Simulation:
         """Ends the run, if it has not ended, and frees its units. May be called again."""
         if not self._handle:
             return
+        if self._interruption.is_active:
+            raise MisuseError("the simulation is in a step, so it cannot be closed: interrupt it")
         try:
             if not self.has_ended:
                 self.end()
@@ -203,9 +210,10 @@ class Simulation:
             self._library.stride_close(handle)
 
     def end(self) -> list[Verdict]:
-        """Ends the run where it is: units are terminated, verdicts given, and results completed. Returns the verdicts."""
+        """Ends the run where it is: units are terminated, verdicts given, results completed. Returns the verdicts."""
         self._call("stride_end")
-        return self.verdicts
+        self._last = self._read_verdicts()
+        return self._last
 
     @property
     def has_ended(self) -> bool:
@@ -270,13 +278,9 @@ class Simulation:
         return self._advance(c.END_OF_TIME)
 
     def _advance(self, target: int) -> float:
-        with _Interruptible() as self._interruption:
+        with self._interruption:
             self._call("stride_advance", target)
         return self.time
-
-    def _tell(self, _user: Any, _time: int) -> int:
-        """Called now and then during a step; Python looks at signals meanwhile."""
-        return 1 if self._interruption.is_wanted else 0
 
     # ---- Variables ----
 
@@ -347,7 +351,7 @@ class Simulation:
         Args:
             name: The input that receives it, with its value: `send("sensor.receive.frame", frame)`; or a clock,
                 with the values of inputs that belong to it, by their names in the component:
-                `send("sensor.receive", **{"receive.frame": frame})`.
+                `send("sensor.receive.clock", **{"receive.frame": frame})`.
         """
         index, variable = self._find(name)
         payload = []
@@ -402,7 +406,7 @@ class Simulation:
 
         >>> sim.intervene("force", "sensor.supply.voltage=2@1.5..2")
         """
-        self._call("stride_intervene", option.encode(), text.encode())
+        self._call("stride_intervene", _text_bytes(option, "an option"), _text_bytes(text, "an intervention"))
 
     def save(self, file: PathLike) -> None:
         """Writes a checkpoint of the present instant: see the arguments `can_save` and `checkpoint`."""
@@ -410,7 +414,14 @@ class Simulation:
 
     @property
     def verdicts(self) -> list[Verdict]:
-        """Of the units and the scenario's checks, when the run has ended."""
+        """Of the units and the scenario's checks. Raises MisuseError before the run has ended."""
+        if self._last is None and self._handle and self.has_ended:
+            self._last = self._read_verdicts()
+        if self._last is None:
+            raise MisuseError("there are no verdicts before the run has ended: call end()")
+        return self._last
+
+    def _read_verdicts(self) -> list[Verdict]:
         handle = self._open()
         found = []
         for index in range(self._library.stride_verdict_count(handle)):
@@ -443,31 +454,66 @@ class Simulation:
 # ---- Interruption ----
 
 
-class _Interruptible:
-    """Ctrl-C during a call of the library: it ends the run, and then is a KeyboardInterrupt as elsewhere."""
+class _Interruption:
+    """During a step: handlers of signals are called, and what they raise ends the run and goes on behind the step.
+
+    The library calls `tell` now and then, and Python its handlers meanwhile. What these raised there would be lost.
+    """
+
+    _SIGNALS = tuple(
+        getattr(signal, name)
+        for name in ("SIGINT", "SIGTERM", "SIGHUP", "SIGALRM", "SIGUSR1", "SIGUSR2")
+        if hasattr(signal, name)
+    )
 
     def __init__(self) -> None:
-        self.is_wanted = False
-        self._before: Any = None
+        self.is_active = False
+        self._raised: Optional[BaseException] = None
+        self._handlers: dict[int, Any] = {}
 
-    def __enter__(self) -> _Interruptible:
-        # a handler that raised would do so in the function that the library calls, where nobody could catch it
-        is_main = threading.current_thread() is threading.main_thread()
-        if is_main and signal.getsignal(signal.SIGINT) is signal.default_int_handler:
-            self._before = signal.signal(signal.SIGINT, self._note)
-        return self
+    def __enter__(self) -> None:
+        if self.is_active:
+            raise MisuseError("the simulation is in a step already")
+        self.is_active = True
+        self._raised = None
+        if threading.current_thread() is not threading.main_thread():
+            return
+        for number in self._SIGNALS:
+            if callable(handler := signal.getsignal(number)):
+                self._handlers[number] = handler
+                signal.signal(number, self._handle)
 
     def __exit__(self, *_exception: Any) -> None:
-        if self._before is not None:
-            signal.signal(signal.SIGINT, self._before)
-        if self.is_wanted:
-            raise KeyboardInterrupt from None
+        for number, handler in self._handlers.items():
+            if signal.getsignal(number) == self._handle:  # else the handler has put another one in its place
+                signal.signal(number, handler)
+        self._handlers.clear()
+        self.is_active = False
+        if self._raised is not None:
+            raise self._raised from None
 
-    def _note(self, *_arguments: Any) -> None:
-        self.is_wanted = True
+    def _handle(self, number: int, frame: Any) -> None:
+        try:
+            self._handlers[number](number, frame)
+        except BaseException as raised:  # noqa: BLE001 - such as KeyboardInterrupt and SystemExit
+            self._raised = raised
+
+    def tell(self, _user: Any, _time: int) -> int:
+        return 0 if self._raised is None else 1
 
 
 # ---- Values ----
+
+
+def _text_bytes(text: str, what: str) -> bytes:
+    """Raises InputError for what no text in C can be."""
+    try:
+        encoded = text.encode()
+    except UnicodeEncodeError:
+        raise InputError(f"{what}: {text!r} cannot be written in UTF-8") from None
+    if b"\0" in encoded:
+        raise InputError(f"{what}: a text has no NUL: {text!r}")
+    return encoded
 
 
 def _space(type_: int, count: int) -> Any:
@@ -513,9 +559,7 @@ def _elements(variable: Variable, value: Any) -> tuple[Any, int]:
         if len(flat) != count or not all(isinstance(element, wanted) for element in flat):
             raise fail("a text (str)" if variable.type == "String" else "bytes")
         if variable.type == "String":
-            if any("\0" in element for element in flat):
-                raise fail("a text without NUL")
-            return (ctypes.c_char_p * count)(*[element.encode() for element in flat]), count
+            return (ctypes.c_char_p * count)(*[_text_bytes(element, variable.name) for element in flat]), count
         space: Any = (c.Bytes * count)()
         space.kept = [ctypes.create_string_buffer(bytes(element), len(element) or 1) for element in flat]
         for entry, buffer, element in zip(space, space.kept, flat):
@@ -532,7 +576,9 @@ def _elements(variable: Variable, value: Any) -> tuple[Any, int]:
         raise fail(wanted_text)
     with np.errstate(all="ignore"):
         converted = given.astype(dtype)
-    is_exact = dtype.kind == "f" or np.array_equal(converted.astype(object), given.astype(object))
+    is_exact = dtype.kind != "f" and np.array_equal(converted.astype(object), given.astype(object))
+    if dtype.kind == "f":
+        is_exact = np.array_equal(np.isfinite(converted), np.isfinite(given.astype(float)))
     if not is_exact or (dtype.kind != "b" and given.dtype.kind == "b"):
         raise fail(wanted_text)
     space = (np.ctypeslib.as_ctypes_type(dtype) * count)()

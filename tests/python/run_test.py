@@ -108,6 +108,27 @@ def test_an_error_has_its_parts(folder):
     assert error.hint
 
 
+_KILLED = """
+import os, stride
+sim = stride.Simulation("test.ssd", set={"first.u": 1}, results="out")
+sim.step(0.5)
+os.kill(os.getpid(), 9)
+"""
+
+
+def test_a_run_that_was_killed_has_not_passed(folder):
+    subprocess.run([sys.executable, "-c", _KILLED])
+    run = stride.Run("out")
+    assert not run.passed and "failed" in repr(run)
+    with pytest.raises(AssertionError, match="it is running"):
+        run.check()
+
+
+def test_options_may_be_numbers_of_numpy(folder):
+    run = stride.run("test.ssd", set={"first.time_constant": np.linspace(0.1, 0.3, 2)[0]}, stop=np.float64(0.5))
+    assert run.reached == 0.5
+
+
 def test_a_run_that_fails_has_what_was_recorded(folder):
     (folder / "failing.ssd").write_text(scenario("thrower=thrower filter=minimal"))
     with pytest.raises(stride.RunError, match="the fuse has blown") as caught:
@@ -176,6 +197,7 @@ def test_a_campaign(campaign):
     assert len(table) == 3
     assert list(table["first.u"]) == [0, 1, 1.5]
     assert list(table["outcome"]) == ["failed", "passed", "passed"]
+    assert [str(seed) for seed in table["seed"]] == [row["seed"] for row in table.rows]
     assert table["aggregate:end"][2] == pytest.approx(1.5 * table["aggregate:end"][1])
     assert not table.passed
     assert "2 of 3 cases passed" in repr(table)

@@ -192,6 +192,7 @@ def test_wrong_options(folder, options, message):
         ("float64", [1.0], "Float64"),
         ("float64", None, "Float64"),
         ("float64", math.nan, "NaN"),
+        ("float32", 1e300, "Float32"),
         ("matrix", [1.0, 2.0], "shape"),
         ("string", b"x", "text"),
         ("string", "a\0b", "NUL"),
@@ -213,6 +214,79 @@ def test_messages_that_nobody_receives(types):
         for name, value in [("types.float64", 1.0), ("types.send.frame", b"x"), ("types.receive.clock", 3)]:
             with pytest.raises(stride.InputError):
                 sim.send(name, value)
+
+
+@pytest.mark.parametrize("name", ["a\0b", "\ud800"])
+def test_texts_that_no_c_text_can_be(types, name):
+    with stride.Simulation("types.ssd") as sim:
+        with pytest.raises(stride.InputError, match="NUL|UTF-8"):
+            sim["types.string"] = name
+        with pytest.raises(stride.InputError, match="NUL|UTF-8"):
+            sim.intervene("set-at", f"types.string={name}@0.5")
+    with pytest.raises(stride.InputError, match="NUL|UTF-8"):
+        stride.Simulation("types.ssd", set={"types.string": name})
+
+
+def test_verdicts_are_there_behind_the_end_only(folder):
+    with stride.Simulation("test.ssd", set={"first.u": np.float64(1)}) as sim:
+        sim.run()
+        with pytest.raises(stride.MisuseError, match="before the run has ended"):
+            sim.verdicts
+    assert [verdict.passed for verdict in sim.verdicts] == [True, True]
+
+
+@pytest.mark.parametrize("raised", [TimeoutError, SystemExit])
+def test_what_a_handler_of_a_signal_raises_ends_a_step(folder, raised):
+    def handle(_number, _frame):
+        raise raised
+
+    before = signal.signal(signal.SIGALRM, handle)
+    try:
+        with stride.Simulation("test.ssd", stop=9e6, step=1e-3) as sim:
+            signal.setitimer(signal.ITIMER_REAL, 0.3)
+            with pytest.raises(raised):
+                sim.run()
+            assert sim.end_reason == "interrupted"
+        assert signal.getsignal(signal.SIGALRM) is handle
+    finally:
+        signal.signal(signal.SIGALRM, before)
+
+
+def test_a_step_cannot_be_closed_by_a_handler(folder):
+    seen = []
+    sim = stride.Simulation("test.ssd", stop=9e6, step=1e-3)
+
+    def handle(_number, _frame):
+        with pytest.raises(stride.MisuseError, match="is in a step"):
+            sim.close()
+        seen.append("refused")
+        raise TimeoutError
+
+    before = signal.signal(signal.SIGALRM, handle)
+    try:
+        signal.setitimer(signal.ITIMER_REAL, 0.3)
+        with pytest.raises(TimeoutError):
+            sim.run()
+    finally:
+        signal.signal(signal.SIGALRM, before)
+    assert seen == ["refused"]
+    sim.close()
+
+
+def test_one_with_isolated_units_is_opened_beside_threads(folder):
+    results = {}
+
+    def simulate(key, isolate):
+        with stride.Simulation("test.ssd", set={"first.u": 1}, isolate=isolate) as sim:
+            sim.run()
+            results[key] = sim["second.y"]
+
+    threads = [threading.Thread(target=simulate, args=(i, i % 2 == 1)) for i in range(8)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join(timeout=120)
+    assert len(results) == 8 and len(set(results.values())) == 1
 
 
 def test_a_unit_that_fails(folder):
@@ -271,7 +345,6 @@ def test_one_that_is_forgotten_is_closed(folder):
     sim = stride.Simulation("test.ssd", isolate=True)
     assert processes_below()
     del sim
-    gc.collect()
     assert processes_below() == set()
     assert _open_files() == files
 

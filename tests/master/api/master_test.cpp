@@ -140,6 +140,7 @@ TEST_CASE("a scenario is opened, advanced, looked at and ended") {
   CHECK(stride_now(simulation.get()) == 0);
   CHECK(stride_stop_time(simulation.get()) == STRIDE_SECOND);
   CHECK_FALSE(stride_is_over(simulation.get()));
+  CHECK(stride_end_reason(simulation.get()) == std::string());
   step_to(simulation, 0.5);
   CHECK(stride_now(simulation.get()) == STRIDE_SECOND / 2);
   CHECK(get(simulation, "second.u") == get(simulation, "first.y"));
@@ -266,6 +267,8 @@ TEST_CASE("variables are described") {
 TEST_CASE("a structure of an earlier version is filled as far as it goes") {
   const Simulation simulation = open(unit("types"), {{"stop", "1"}, {"step", "0.1"}});
   stride_variable variable{};
+  CHECK_THAT(failure(STRIDE_MISUSE, stride_describe(simulation.get(), 0, &variable)),
+             Contains("sizeof"));
   variable.size = offsetof(stride_variable, type);
   variable.count = 77;
   REQUIRE(stride_describe(simulation.get(), 0, &variable) == STRIDE_OK);
@@ -383,6 +386,28 @@ TEST_CASE("a checkpoint is not made, or not taken, where it would be a wrong one
       Contains("saved.zip"));
 }
 
+TEST_CASE("a checkpoint is of the same settings, but for those that may differ") {
+  const Folder folder;
+  const std::string file = (folder / "saved.zip").string();
+  stride_options saving{};
+  saving.can_save = 1;
+  const Simulation whole = open(folder.scenario(), kRising, saving);
+  step_to(whole, 0.5);
+  REQUIRE(stride_save(whole.get(), file.c_str()) == STRIDE_OK);
+  const auto opened = [&](const Settings& settings) {
+    stride_options options = options_of(settings);
+    options.checkpoint = file.c_str();
+    stride_simulation* simulation = nullptr;
+    const stride_status status = stride_open(folder.scenario().c_str(), &options, &simulation);
+    stride_close(simulation);
+    return status;
+  };
+  CHECK_THAT(
+      failure(STRIDE_INVALID_INPUT, opened({{"set", "first.u=2"}, {"set", "judge.limit=0.3"}})),
+      Contains("other settings: --set=first.u=1 --set=judge.limit=0.3"));
+  CHECK(opened({kRising[1], kRising[0], {"stop", "2"}, {"threads", "2"}}) == STRIDE_OK);
+}
+
 TEST_CASE("mistakes in the input are told with what would be right") {
   const Folder folder;
   CHECK_THAT(open_failure("nowhere.ssd"), Contains("nowhere.ssd"));
@@ -462,6 +487,39 @@ TEST_CASE("another thread can interrupt a run") {
   CHECK_THAT(failure(STRIDE_RUN_FAILED, stride_advance(simulation.get(), INT64_MAX)),
              Contains("interrupted"));
   other.join();
+}
+
+TEST_CASE("what is called during a call is misuse, and the run goes on") {
+  struct During {
+    stride_simulation* simulation = nullptr;
+    stride_status closed = STRIDE_OK, read = STRIDE_OK;
+  } during;
+  stride_options options{};
+  options.user = &during;
+  options.progress = [](void* user, std::int64_t) {
+    auto& seen = *static_cast<During*>(user);
+    double value = 0;
+    seen.closed = stride_close(seen.simulation);
+    seen.read = stride_get(seen.simulation, 0, &value, 1);
+    return 1;
+  };
+  const Simulation simulation = open(unit("minimal"), {{"stop", "9e6"}, {"step", "1e-3"}}, options);
+  during.simulation = simulation.get();
+  CHECK(stride_advance(simulation.get(), INT64_MAX) == STRIDE_RUN_FAILED);
+  CHECK(during.closed == STRIDE_MISUSE);
+  CHECK(during.read == STRIDE_MISUSE);
+  CHECK(stride_end_reason(simulation.get()) == std::string("interrupted"));
+  CHECK(stride_end(simulation.get()) == STRIDE_OK);
+}
+
+TEST_CASE("units get processes of their own when no other thread is in the library") {
+  const Folder folder;
+  const Simulation busy = open(folder.scenario(), {{"stop", "1000"}, {"step", "1e-4"}});
+  std::thread other([&] { stride_advance(busy.get(), INT64_MAX); });
+  const Simulation isolated = open(folder.scenario(), {{"isolate", nullptr}});
+  step_to(isolated, 1);
+  other.join();
+  CHECK(stride_is_over(busy.get()));
 }
 
 TEST_CASE("two simulations are advanced in turns, and in threads") {

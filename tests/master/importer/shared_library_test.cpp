@@ -50,7 +50,7 @@ TEST_CASE("a library that cannot be opened for want of open files is no mistake 
   std::string failure = "none";
   REQUIRE(::setrlimit(RLIMIT_NOFILE, &few) == 0);
   try {
-    const importer::SharedLibrary loaded(library, {});
+    const importer::Fmi3Library loaded(library, "", {"system.ssd", 3});
   } catch (const core::EnvironmentError& error) {
     failure = error.what();
   } catch (const core::Error& error) {
