@@ -135,14 +135,6 @@ class Simulation::Run {
     end_behind([] {});
   }
 
-  RunStatistics present_statistics() const {
-    RunStatistics present = statistics_;
-    if (!is_between_parts_) add_wall_time(present);
-    sampling_.scale(present);
-    counters_.add_to(present);
-    return present;
-  }
-
   void persist(StateArchive& state) {
     if (!is_between_parts_) pauses_.check_paused();
     if (state.is_reading()) throw std::logic_error("a state is read by resume() only");
@@ -416,7 +408,10 @@ class Simulation::Run {
       statistics_.reached = time_;
       return;
     }
-    RunStatistics present = present_statistics();
+    RunStatistics present = statistics_;
+    if (!is_between_parts_) add_wall_time(present);
+    sampling_.scale(present);
+    counters_.add_to(present);
     core::persist(state, present);
   }
 
@@ -509,16 +504,12 @@ class Simulation::Run {
 
   ValueBlock read_value(VariableId id) {
     if (system_.is_output(id)) return read_output(system_.outputs()[id.variable]);
-    const Variable& variable = system_.variable(id);
-    ValueBlock value(variable.type, variable.size);
-    if (exchange_.has(id)) {
-      const Signal known = exchange_.signal(id);
-      copy_elements(value, 0, *known.block, known.first, value.size());
-      return value;
-    }
+    if (exchange_.has(id)) return exchange_.value(id);
     if (idle_ && idle_->is_suspended(id.component)) {
       idle_->catch_up_and_report(id.component, time_);
     }
+    const Variable& variable = system_.variable(id);
+    ValueBlock value(variable.type, variable.size);
     units_[id.component]->get({&variable.reference, 1}, value);
     return value;
   }
@@ -618,8 +609,6 @@ void Simulation::make_event(ChangesAtInstant changes) { run_->make_event(std::mo
 ValueBlock Simulation::value(VariableId id) { return run_->value(id); }
 
 void Simulation::end() { run_->end(); }
-
-RunStatistics Simulation::present_statistics() const { return run_->present_statistics(); }
 
 void Simulation::abandon() noexcept { run_->abandon(); }
 

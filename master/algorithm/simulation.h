@@ -92,8 +92,6 @@ class Simulation {
   ValueBlock value(VariableId id);
   /// Terminates and frees the units.
   void end();
-  /// What statistics() are between the parts, with the wall-clock times so far.
-  RunStatistics present_statistics() const;
 
   /// Calls the observers' on_finish(), and no unit, where run() cannot go on: for a process that a
   /// unit has damaged. The statistics are those up to there.

@@ -29,7 +29,7 @@ PLACEHOLDER = "Class::function"
 SHOWN = {
     "Run": "abandon note_requested_end add_observer statistics suspended_time was_suspended verdicts count "
            "sets_inputs_in_steps "
-           "coasting add_wall_time finish_suspensions finish_observers start make_part check_between_parts conclude present_statistics "
+           "coasting add_wall_time finish_suspensions finish_observers start make_part check_between_parts conclude "
            "value read_value read_output "
            "set_control run_rest end_behind persist add_interventions persist_all persist_statistics "
            "notify_observers start_observers make_input_extrapolator make_idle_scheduler "
@@ -47,7 +47,7 @@ SHOWN = {
     "AlgebraicLoop": "collect fail has_converged have_held_values_converged hint inputs put sweep values_text",
     "InputExtrapolator": "persist sample set_targets signal_of undo_step within_step",
     "StepPolicy": "persist regular_size",
-    "EventHandler": "receive_sent set had_event has_announced count description activate activate_announced update_announced "
+    "EventHandler": "had_event has_announced count description activate activate_announced update_announced "
                     "notify_observers receive report content_of described_by fail_nan fail_ticking fail_sample_loop "
                     "takes_part find_discontinuities quiet_until pass_quietly persist set_in_event make_assignments disturb release report_disturbed",
 }

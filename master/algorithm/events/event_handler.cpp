@@ -14,12 +14,6 @@ namespace {
 /// Event iterations at one instant after which the run fails.
 constexpr std::uint32_t kEventLimit = 1000;
 
-const ValueBlock kTick = [] {
-  ValueBlock tick(ValueType::Clock, 1);
-  tick.numbers<bool>()[0] = true;
-  return tick;
-}();
-
 /// By reference, since a copy of an optional value that was just written stalls the processor.
 void bring_forward(Time& time, const std::optional<Time>& event) {
   if (event && *event < time) time = *event;
@@ -166,23 +160,12 @@ bool EventHandler::prepare_events() {
 }
 
 void EventHandler::make_assignments() {
-  for (const auto& [id, value] : assignments_) set(id, *value);
-  assignments_.clear();
-  for (const SentMessage* message : sent_) receive_sent(*message);
-  sent_.clear();
-}
-
-void EventHandler::receive_sent(const SentMessage& message) {
-  set(message.clock, kTick);
-  if (message.values.empty()) report(message.clock, true, nullptr);
-  for (const auto& [id, block] : message.values) {
-    set(id, block);
-    report(id, true, &block);
+  for (const auto& [id, value] : assignments_) {
+    units_[id.component]->set({&system_.variable(id).reference, 1}, *value);
   }
-}
-
-void EventHandler::set(VariableId id, const ValueBlock& value) {
-  units_[id.component]->set({&system_.variable(id).reference, 1}, value);
+  assignments_.clear();
+  for (const SentMessage* message : sent_) messages_.deliver(*message);
+  sent_.clear();
 }
 
 void EventHandler::enter_event_mode(std::size_t i) {

@@ -14,7 +14,6 @@
 #include "master/algorithm/capabilities/message_text.h"
 #include "master/algorithm/events/clocks.h"
 #include "master/algorithm/events/messages.h"
-#include "master/algorithm/events/sent_message.h"
 #include "master/algorithm/idle/idle_scheduler.h"
 #include "master/algorithm/loops/ordered_evaluation.h"
 #include "master/algorithm/run_context.h"
@@ -97,8 +96,6 @@ class EventHandler : private OrderedEvaluation::Participants,
   }
   void activate(std::size_t i) { active_[i] = has_active_ = true; }
   void make_assignments();
-  void receive_sent(const SentMessage& message);
-  void set(VariableId id, const ValueBlock& value);
   void activate_announced();
   void update_announced();
   bool prepare_events();

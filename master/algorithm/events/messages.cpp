@@ -251,13 +251,7 @@ void MessageExchange::delay(Target& target, Time due) {
 
 void MessageExchange::deliver(Target& target) {
   target.has_ticked = true;
-  participants_.receive(target.clock.component);
-  set(target.clock, tick_);
-  if (target.receivers.empty()) participants_.report(target.clock, true, nullptr);
-  for (const Receiver& receiver : target.receivers) {
-    set(receiver.id, receiver.block);
-    participants_.report(receiver.id, true, &receiver.block);
-  }
+  deliver(target.clock, target.receivers);
 }
 
 void MessageExchange::set(VariableId id, const ValueBlock& value) {

@@ -13,6 +13,7 @@
 
 #include <stride/time.h>
 
+#include "master/algorithm/events/sent_message.h"
 #include "master/algorithm/intervention.h"
 #include "master/algorithm/unit.h"
 #include "master/model/system.h"
@@ -48,6 +49,8 @@ class MessageExchange {
 
   /// Hands over the messages whose delay is over.
   void deliver_delayed();
+  /// One from outside of the system; its clock ticks in this instant.
+  void deliver(const SentMessage& message) { deliver(message.clock, message.values); }
   /// Reads the output clocks of a unit in Event Mode and hands over those that tick and were not
   /// handed over in this instant.
   void transmit(std::size_t component);
@@ -124,6 +127,8 @@ class MessageExchange {
   void corrupt(Target& target);
   void delay(Target& target, Time due);
   void deliver(Target& target);
+  template <class Values>
+  void deliver(VariableId clock, const Values& values);
   void set(VariableId id, const ValueBlock& value);
 
   const System& system_;
@@ -134,6 +139,17 @@ class MessageExchange {
   Time time_{};
   ValueBlock tick_{ValueType::Clock, 1};
 };
+
+template <class Values>
+void MessageExchange::deliver(VariableId clock, const Values& values) {
+  participants_.receive(clock.component);
+  set(clock, tick_);
+  if (values.empty()) participants_.report(clock, true, nullptr);
+  for (const auto& value : values) {
+    set(value.id, value.block);
+    participants_.report(value.id, true, &value.block);
+  }
+}
 
 }  // namespace stride::core
 

@@ -414,9 +414,10 @@ void Exchange::release(VariableId input) {
 }
 
 ValueBlock Exchange::value(VariableId id) {
-  const ValueSlice from = slice(id);
-  ValueBlock value(from.block->type(), from.size);
-  copy_elements({&value, 0, from.size}, from);
+  const Signal from = signal(id);
+  const Variable& variable = system_.variable(id);
+  ValueBlock value(variable.type, variable.size);
+  copy_elements(value, 0, *from.block, from.first, variable.size);
   return value;
 }
 

@@ -110,7 +110,7 @@ class Exchange {
       if (forced.input.component == component) keep(forced);
     }
   }
-  /// What a connected variable has now.
+  /// What a connected or observed variable has now.
   ValueBlock value(VariableId id);
   /// An input was changed in its block by other means than route().
   void mark_changed(std::size_t component) { ports_[component].written_route = 0; }
