@@ -28,9 +28,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Names of a checkpoint's states.
-constexpr const char* kSimulation = "simulation";
-
 std::optional<checkpoint::Checkpoint> read_checkpoint(const fs::path& file) {
   if (file.empty()) return std::nullopt;
   return checkpoint::read_checkpoint(file);
@@ -40,12 +37,9 @@ std::optional<checkpoint::Checkpoint> read_checkpoint(const fs::path& file) {
 std::optional<recorders::ResultsLock> locked_folder(const results::ResultsTarget& target,
                                                     const scenario::LoadedScenario& loaded) {
   if (target.folder.empty()) return std::nullopt;
-  const recorders::ResultFiles& names = loaded.scenario().annotation.results;
-  results::refuse_results(target.folder, names, results::inputs_of(loaded));
-  recorders::make_results_folder(target.folder);
-  recorders::check_name_lengths(target.folder, target.files);
+  results::make_folder(target, loaded);
   std::optional<recorders::ResultsLock> lock(target.folder);
-  recorders::remove_results(target.folder, names);
+  recorders::remove_results(target.folder, loaded.scenario().annotation.results);
   recorders::clean_unit_folders(target.folder, loaded.component_names());
   return lock;
 }
@@ -128,11 +122,7 @@ Session::~Session() {
 results::ResultsTarget Session::target_of(const SessionOptions& options,
                                           const scenario::LoadedScenario& loaded) {
   if (options.results.empty()) return {{}, results::no_files()};
-  results::ResultsTarget target{fs::absolute(options.results),
-                                loaded.scenario().annotation.results};
-  if (loaded.coverage().empty()) target.files.coverage.clear();
-  if (!results::has_reports()) target.files.report.clear();
-  return target;
+  return {fs::absolute(options.results), results::possible_files(loaded)};
 }
 
 recorders::Provenance Session::provenance() {
@@ -144,8 +134,7 @@ recorders::Provenance Session::provenance() {
 }
 
 core::RunOptions Session::run_options() const {
-  core::RunOptions options = loaded_.options();
-  if (target_.files.signals.empty() && target_.files.trace.empty()) options.recorded.clear();
+  core::RunOptions options = results::options_for(loaded_, target_.files);
   options.threads.count = request_.threads;
   options.interrupted = &interrupted_;
   return options;
@@ -157,12 +146,7 @@ std::vector<std::unique_ptr<core::Unit>> Session::instantiate() {
   }
   auto units = make_units();
   if (given_.can_save || checkpoint_) journals_.wrap(units, options_.stop);
-  if (!checkpoint_) return units;
-  try {
-    journals_.restore(*checkpoint_);
-  } catch (const core::BadState& mistake) {
-    results::fail_checkpoint(given_.checkpoint, mistake);
-  }
+  if (checkpoint_) results::restore_units(journals_, *checkpoint_, given_.checkpoint);
   return units;
 }
 
@@ -223,11 +207,12 @@ void Session::begin() {
     records_.announce();
     if (!checkpoint_) return simulation_.begin();
     try {
-      core::StateArchive state(checkpoint::state_of(*checkpoint_, kSimulation));
-      simulation_.begin(state, [&] {
-        state.end();
-        records_.restore_checks(*checkpoint_);
-      });
+      results::go_on_from(
+          *checkpoint_, simulation_,
+          [&](core::StateArchive& state, const auto& started) {
+            simulation_.begin(state, started);
+          },
+          [&] { records_.restore_checks(*checkpoint_); });
     } catch (const core::BadState& mistake) {
       results::fail_checkpoint(given_.checkpoint, mistake);
     }
@@ -396,12 +381,10 @@ void Session::save(const fs::path& file) {
   make_changes();
   checkpoint::Checkpoint taken{.provenance = provenance_, .time = now()};
   taken.results = target_.folder;
-  taken.interventions = static_cast<std::size_t>(std::ranges::count_if(
-      options_.interventions,
-      [&](const core::Intervention& intervention) { return intervention.from <= now(); }));
+  taken.interventions = results::interventions_until(options_, now());
   make_part([&] {
     journals_.add_to(taken);
-    results::add_state(taken, kSimulation, simulation_);
+    results::add_state(taken, results::kSimulation, simulation_);
     records_.add_to(taken);
   });
   checkpoint::write_checkpoint(file, taken);

@@ -61,9 +61,8 @@ CaseRun::CaseRun(const scenario::ScenarioRequest& request,
 results::ResultsTarget CaseRun::target_of(const CaseResults& results,
                                           const scenario::LoadedScenario& loaded) {
   if (results.folder.empty()) return {{}, results::no_files()};
-  results::ResultsTarget target{results.folder, loaded.scenario().annotation.results};
-  if (!results.has_report || !results::has_reports()) target.files.report.clear();
-  if (loaded.coverage().empty()) target.files.coverage.clear();
+  results::ResultsTarget target{results.folder, results::possible_files(loaded)};
+  if (!results.has_report) target.files.report.clear();
   recorders::make_results_folder(target.folder);
   recorders::check_name_lengths(target.folder, target.files);
   return target;
@@ -76,8 +75,7 @@ recorders::Provenance CaseRun::provenance(const CaseResults& results,
 }
 
 core::RunOptions CaseRun::run_options() const {
-  core::RunOptions options = loaded_.options();
-  if (target_.files.signals.empty() && target_.files.trace.empty()) options.recorded.clear();
+  core::RunOptions options = results::options_for(loaded_, target_.files);
   const auto& signals = aggregates_.signals();
   options.watched.insert(options.watched.end(), signals.begin(), signals.end());
   options.interrupted = &Interruption::flag();

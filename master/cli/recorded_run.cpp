@@ -27,9 +27,6 @@
 namespace stride::cli {
 namespace {
 
-/// The state of all but units and observers.
-constexpr const char* kSimulation = "simulation";
-
 /// Calls write(), which writes of a run that is over: whatever is wrong with a file then, it is not
 /// the input that is.
 template <class Write>
@@ -138,11 +135,12 @@ void RecordedRun::resume() {
   const Resumption& resumption = *setup_.resumption;
   try {
     execute([&] {
-      core::StateArchive state(checkpoint::state_of(resumption.from, kSimulation));
-      simulation_.resume(state, [&] {
-        state.end();
-        restore();
-      });
+      results::go_on_from(
+          resumption.from, simulation_,
+          [&](core::StateArchive& state, const auto& started) {
+            simulation_.resume(state, started);
+          },
+          [&] { restore(); });
     });
   } catch (const core::BadState& mistake) {
     results::fail_checkpoint(resumption.file, mistake);
@@ -152,9 +150,6 @@ void RecordedRun::resume() {
 /// What the observers have seen.
 void RecordedRun::restore() {
   const checkpoint::Checkpoint& from = setup_.resumption->from;
-  if (simulation_.statistics().reached != from.time) {
-    throw core::BadState("its state is of another time than it says");
-  }
   if (!setup_.display.quiet) summary_.begin_late(from.time);
   if (from.states.contains("summary") && !setup_.display.quiet) {
     results::restore_state(from, "summary", summary_);
@@ -182,7 +177,7 @@ void RecordedRun::run_rest(std::vector<core::Intervention> interventions,
 }
 
 void RecordedRun::add_to(checkpoint::Checkpoint& checkpoint) {
-  results::add_state(checkpoint, kSimulation, simulation_);
+  results::add_state(checkpoint, results::kSimulation, simulation_);
   records_.add_to(checkpoint);
   if (!setup_.display.quiet) results::add_state(checkpoint, "summary", summary_);
   if (!setup_.capture.is_empty()) results::add_state(checkpoint, "captures", setup_.capture);

@@ -82,10 +82,9 @@ std::shared_ptr<ssp::Files> check_output_paths(const RunArguments& arguments) {
 
 recorders::ResultFiles chosen_files(const RunArguments& arguments,
                                     const scenario::LoadedScenario& loaded) {
-  recorders::ResultFiles files = loaded.scenario().annotation.results;
-  if (loaded.coverage().empty()) files.coverage.clear();
+  recorders::ResultFiles files = results::possible_files(loaded);
   if (arguments.no_trace) files.trace.clear();
-  if (arguments.no_report || !results::has_reports()) files.report.clear();
+  if (arguments.no_report) files.report.clear();
   if (arguments.open && files.report.empty()) {
     core::fail_input({}, "--open: this run writes no report",
                      "leave --open out, or let the run write its report");
@@ -93,11 +92,9 @@ recorders::ResultFiles chosen_files(const RunArguments& arguments,
   return files;
 }
 
-/// Values that nothing records or shows are not read from the units.
 core::RunOptions run_options(const RunArguments& arguments, const scenario::LoadedScenario& loaded,
                              const recorders::ResultFiles& files) {
-  core::RunOptions options = loaded.options();
-  if (files.signals.empty() && files.trace.empty()) options.recorded.clear();
+  core::RunOptions options = results::options_for(loaded, files);
   if (!arguments.quiet) {
     const Summary summary(loaded.system(), loaded.options().recorded);
     options.watched.insert(options.watched.end(), summary.signals().begin(),
@@ -201,10 +198,7 @@ class ResultsOfRun {
  private:
   static const std::filesystem::path& made(const results::ResultsTarget& target,
                                            const scenario::LoadedScenario& loaded) {
-    results::refuse_results(target.folder, loaded.scenario().annotation.results,
-                            results::inputs_of(loaded));
-    recorders::make_results_folder(target.folder);
-    recorders::check_name_lengths(target.folder, target.files);
+    results::make_folder(target, loaded);
     return target.folder;
   }
   bool goes_on() const {
@@ -227,12 +221,6 @@ bool is_journaled(const RunArguments& arguments) {
   return arguments.checkpoints.are_wanted() || arguments.branches.request || arguments.resumed;
 }
 
-std::size_t interventions_until(const core::RunOptions& options, Time time) {
-  return static_cast<std::size_t>(std::ranges::count_if(
-      options.interventions,
-      [&](const core::Intervention& intervention) { return intervention.from <= time; }));
-}
-
 void require_time_in_run(const core::RunOptions& options, const Resumption& resumption) {
   const Time time = resumption.from.time;
   if (time >= options.start && time <= options.stop) return;
@@ -246,7 +234,7 @@ void require_time_in_run(const core::RunOptions& options, const Resumption& resu
 /// What was not there before would have had to begin in the part that is over.
 void require_later_interventions(const core::RunOptions& options,
                                  const checkpoint::Checkpoint& from) {
-  if (interventions_until(options, from.time) == from.interventions) return;
+  if (results::interventions_until(options, from.time) == from.interventions) return;
   core::fail_input({},
                    fmt::format("an intervention begins at or before {} s, where the run goes on",
                                core::to_text(from.time)),
@@ -274,7 +262,8 @@ class UnitsOfRun {
              const std::filesystem::path& results, const core::RunOptions& options)
       : journals_(loaded.system()), instances_(loaded.instantiate(results, &Interruption::flag())) {
     if (is_journaled(arguments)) journals_.wrap(instances_, options.stop);
-    if (arguments.resumed) restore(*arguments.resumed);
+    if (!arguments.resumed) return;
+    results::restore_units(journals_, arguments.resumed->from, arguments.resumed->file);
   }
 
   checkpoint::Journals& journals() { return journals_; }
@@ -285,14 +274,6 @@ class UnitsOfRun {
   }
 
  private:
-  void restore(const Resumption& resumption) {
-    try {
-      journals_.restore(resumption.from);
-    } catch (const core::BadState& mistake) {
-      results::fail_checkpoint(resumption.file, mistake);
-    }
-  }
-
   checkpoint::Journals journals_;
   std::vector<std::unique_ptr<core::Unit>> instances_;
 };
@@ -375,7 +356,7 @@ checkpoint::Checkpoint ScenarioRun::take(Time now) {
   checkpoint::Checkpoint taken{.provenance = provenance_,
                                .time = now,
                                .results = std::filesystem::absolute(results_.target().folder),
-                               .interventions = interventions_until(options_, now)};
+                               .interventions = results::interventions_until(options_, now)};
   units_.journals().add_to(taken);
   recorded_.add_to(taken);
   return taken;

@@ -63,6 +63,15 @@ void require_same(const recorders::Provenance& before, const recorders::Provenan
                    "put back what was changed, or let the run begin at its start");
 }
 
+void restore_units(checkpoint::Journals& journals, const checkpoint::Checkpoint& from,
+                   const std::filesystem::path& checkpoint) {
+  try {
+    journals.restore(from);
+  } catch (const core::BadState& mistake) {
+    fail_checkpoint(checkpoint, mistake);
+  }
+}
+
 void fail_checkpoint(const std::filesystem::path& checkpoint, const core::BadState& mistake) {
   core::fail_input(
       {.where = {checkpoint.string(), 0}},

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <string>
 
+#include "master/checkpoint/journals.h"
 #include "master/recorders/provenance.h"
 #include "master/scenario/loaded_scenario.h"
 #include "master/util/file_digests.h"
@@ -24,6 +25,11 @@ recorders::Provenance provenance_of(const scenario::LoadedScenario& loaded,
 /// Throws core::Error (Input), at the checkpoint, that names all that differs.
 void require_same(const recorders::Provenance& before, const recorders::Provenance& now,
                   const std::filesystem::path& checkpoint);
+
+/// Makes units what they were at the checkpoint in this file. Throws as Journals::restore() does,
+/// and as fail_checkpoint().
+void restore_units(checkpoint::Journals& journals, const checkpoint::Checkpoint& from,
+                   const std::filesystem::path& checkpoint);
 
 /// Throws core::Error (Input): the checkpoint suits the files, but is none of this run.
 [[noreturn]] void fail_checkpoint(const std::filesystem::path& checkpoint,
