@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <utility>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -15,9 +14,6 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// Where communication steps are shorter, the clock is not read after each of them.
-constexpr auto kShortStep = 10us;
-constexpr int kMostUnread = 15;
 /// Between two updates of a line that is rewritten.
 constexpr auto kRefresh = 100ms;
 /// A log gets a line at each tenth of a run, within these bounds.
@@ -74,7 +70,8 @@ Progress::Form Progress::form_of(ProgressStyle style) {
 }
 
 void Progress::on_start(std::span<const core::Signal>) {
-  began_ = now_ = shown_ = Clock::now();
+  began_ = shown_ = Clock::now();
+  clock_ = core::SparseClock(began_);
   pace_.emplace(began_, start_);
   next_tenth_ = start_ + (stop_ - start_) / 10;
 }
@@ -82,25 +79,13 @@ void Progress::on_start(std::span<const core::Signal>) {
 void Progress::on_communication_point(Time time) {
   if (form_ == Form::Nothing) return;
   time_ = time;
-  if (unread_ > 0) {
-    --unread_;
-    return;
-  }
-  read_clock();
-  pace_->note(now_, time);
-  if (!is_due(time, now_)) return;
+  if (!clock_.read()) return;
+  pace_->note(clock_.now(), time);
+  if (!is_due(time, clock_.now())) return;
   show(state());
-  shown_ = now_;
+  shown_ = clock_.now();
   const Duration tenth = std::max((stop_ - start_) / 10, Duration(1));
   next_tenth_ = time + (tenth - (time - start_) % tenth);
-}
-
-/// Reading it takes longer than a communication step of small units.
-void Progress::read_clock() {
-  const Clock::time_point before = std::exchange(now_, Clock::now());
-  const bool are_short = now_ - before < kShortStep * (between_ + 1);
-  between_ = are_short ? std::min(2 * between_ + 1, kMostUnread) : 0;
-  unread_ = between_;
 }
 
 bool Progress::is_due(Time time, Clock::time_point now) const {
@@ -124,8 +109,8 @@ Progress::State Progress::state() const {
   const double done = to_seconds(time_ - start_);
   const double whole = to_seconds(stop_ - start_);
   const double units = static_cast<double>(simulation_.statistics().units.size());
-  State state{whole > 0 ? done / whole : 1, std::chrono::duration<double>(now_ - began_).count(),
-              pace_->speed(),
+  State state{whole > 0 ? done / whole : 1,
+              std::chrono::duration<double>(clock_.now() - began_).count(), pace_->speed(),
               done > 0 ? to_seconds(simulation_.suspended_time()) / (done * units) : 0.0,
               std::nullopt};
   if (state.speed > 0 && time_ < stop_) state.left = to_seconds(stop_ - time_) / state.speed;

@@ -11,6 +11,7 @@
 
 #include "master/algorithm/observer.h"
 #include "master/algorithm/simulation.h"
+#include "master/util/sparse_clock.h"
 
 namespace stride::cli {
 
@@ -83,7 +84,6 @@ class Progress : public core::Observer {
     std::optional<double> left;  ///< [s]
   };
 
-  void read_clock();
   bool is_due(Time time, Clock::time_point now) const;
   State state() const;
   void show(const State& state) const;
@@ -93,10 +93,9 @@ class Progress : public core::Observer {
   Time start_, stop_;
   const core::Simulation& simulation_;
   std::optional<Pace> pace_;  ///< from the begin of the run on
-  Clock::time_point began_{}, now_{}, shown_{};
+  core::SparseClock clock_{};
+  Clock::time_point began_{}, shown_{};
   Time time_{}, next_tenth_{};
-  int between_ = 0,
-      unread_ = 0;  ///< communication points between two readings, and the rest of them
 };
 
 }  // namespace stride::cli
