@@ -51,29 +51,28 @@ core::ValueBlock read_elements(const core::Variable& variable, const void* eleme
   return value;
 }
 
-CElements::CElements(core::ValueBlock value) {
-  value_.push_back(std::move(value));
-  if (value_[0].type() == core::ValueType::String) {
-    for (const std::string& text : value_[0].strings()) strings_.push_back(text.c_str());
-  } else if (value_[0].type() == core::ValueType::Binary) {
-    for (const core::Binary& binary : value_[0].binaries()) {
+CElements::CElements(core::ValueBlock value) : value_(std::move(value)) {
+  if (value_->type() == core::ValueType::String) {
+    for (const std::string& text : value_->strings()) strings_.push_back(text.c_str());
+  } else if (value_->type() == core::ValueType::Binary) {
+    for (const core::Binary& binary : value_->binaries()) {
       bytes_.push_back({reinterpret_cast<const std::uint8_t*>(binary.data()), binary.size()});
     }
   }
 }
 
 const void* CElements::data() const {
-  if (value_.empty()) return nullptr;
+  if (!value_) return nullptr;
   if (!strings_.empty()) return strings_.data();
   if (!bytes_.empty()) return bytes_.data();
-  return value_[0].bytes();
+  return value_->bytes();
 }
 
 void CElements::copy_to(void* elements) const {
   const std::size_t size = !strings_.empty() ? sizeof(const char*)
                            : !bytes_.empty() ? sizeof(stride_bytes)
-                                             : core::element_size(value_[0].type());
-  std::memcpy(elements, data(), size * value_[0].size());
+                                             : core::element_size(value_->type());
+  std::memcpy(elements, data(), size * value_->size());
 }
 
 }  // namespace stride::api

@@ -3,6 +3,7 @@
 #define STRIDE_MASTER_API_ELEMENTS_H
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include <stride/master.h>
@@ -32,7 +33,7 @@ class CElements {
   void copy_to(void* elements) const;
 
  private:
-  std::vector<core::ValueBlock> value_;  ///< one, or none
+  std::optional<core::ValueBlock> value_;  ///< none: of a message without one
   std::vector<const char*> strings_;
   std::vector<stride_bytes> bytes_;
 };

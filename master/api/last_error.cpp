@@ -24,7 +24,8 @@ stride_status keep(stride_status status, const std::string& message) {
   return status;
 }
 
-stride_status point() {
+/// At the texts.
+void point() {
   stride_error& error = kept.error;
   error.message = kept.message.c_str();
   error.text = kept.text.c_str();
@@ -32,7 +33,6 @@ stride_status point() {
   error.file = kept.file.c_str();
   error.component = kept.component.c_str();
   error.variable = kept.variable.c_str();
-  return error.status;
 }
 
 void add(const core::Error& error) {
@@ -57,12 +57,11 @@ stride_status note_error(const std::exception& error) noexcept {
                   : STRIDE_RUN_FAILED,
        error.what());
   if (known != nullptr) add(*known);
-  return point();
+  return kept.error.status;
 }
 
 stride_status note_misuse(const std::string& message) noexcept {
-  keep(STRIDE_MISUSE, message);
-  return point();
+  return keep(STRIDE_MISUSE, message);
 }
 
 const stride_error* last_error() noexcept {
