@@ -50,6 +50,14 @@ def _call(arguments: list[str], folder: Optional[PathLike] = None) -> tuple[int,
     return process.returncode, output, messages
 
 
+def output_of(arguments: list[str], folder: Optional[PathLike] = None) -> str:
+    """What the program prints. Raises InputError with its error."""
+    code, output, messages = _call(arguments, folder)
+    if code != 0:
+        raise _failure(messages, InputError)
+    return output
+
+
 def _failure(messages: str, kind: type[AnyError]) -> AnyError:
     """The error among the messages."""
     before, found, error = messages.partition(_ERROR)

@@ -17,10 +17,9 @@ from __future__ import annotations
 import csv
 import fnmatch
 import shlex
-import subprocess
 import tempfile
 from collections.abc import Generator, Iterable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, Callable, Optional
 from xml.parsers import expat
@@ -28,8 +27,7 @@ from xml.parsers import expat
 import pytest
 
 from ._errors import Error, InputError, RunError
-from ._installed import program
-from ._program import run, run_words
+from ._program import output_of, run, run_words
 from .results import Run
 
 _CHECKS = "urn:org.stride:scenario:1 Checks"
@@ -76,41 +74,40 @@ class _Runs:
         return self._made[key]
 
 
-@pytest.fixture(scope="session")
-def _stride_runs(tmp_path_factory: pytest.TempPathFactory) -> _Runs:
-    return _Runs(tmp_path_factory.mktemp("stride"))
+_session_runs = pytest.StashKey[_Runs]()
+
+
+def _runs_of(config: pytest.Config) -> _Runs:
+    """Those of the session, for tests, items and cases."""
+    if _session_runs not in config.stash:
+        factory = getattr(config, "_tmp_path_factory")  # noqa: B009 - what pytest's fixture returns
+        config.stash[_session_runs] = _Runs(factory.mktemp("stride"))
+    return config.stash[_session_runs]
+
+
+def _noted(node: pytest.Item, make: Callable[[], Run]) -> Run:
+    """The run that is made, kept as one at which the test has looked, also one that has failed."""
+    noted = node.stash.setdefault(_runs, [])
+    try:
+        noted.append(make())
+    except RunError as error:
+        if error.run is not None:
+            noted.append(error.run)
+        raise
+    return noted[-1]
 
 
 @pytest.fixture
-def stride_run(_stride_runs: _Runs, request: pytest.FixtureRequest) -> RunFunction:
+def stride_run(request: pytest.FixtureRequest) -> RunFunction:
     """`stride.run`, which runs a scenario with the same options once in the session, for all tests.
 
     The report is named where a test fails. Files of results stay where pytest keeps temporary folders.
     """
 
     def made(scenario: Any, **options: Any) -> Run:
-        with _noting(request.node) as noted:
-            return noted(_stride_runs.run(scenario, **options))
+        return _noted(request.node, lambda: _runs_of(request.config).run(scenario, **options))
 
     return made
-
-
-class _noting:
-    """Keeps which runs a test has looked at, also one that has failed."""
-
-    def __init__(self, node: pytest.Item) -> None:
-        self._runs = node.stash.setdefault(_runs, [])
-
-    def __enter__(self) -> Callable[[Run], Run]:
-        return self._note
-
-    def __exit__(self, _kind: Any, error: Optional[BaseException], _trace: Any) -> None:
-        if isinstance(error, RunError) and error.run is not None:
-            self._note(error.run)
-
-    def _note(self, made: Run) -> Run:
-        self._runs.append(made)
-        return made
 
 
 @pytest.hookimpl(hookwrapper=True)
@@ -178,62 +175,46 @@ class _Verdict(Exception):
     """A verdict that is a bad one."""
 
 
-class RunItem(pytest.Item):
+class _ScenarioItem(pytest.Item):
+    """Of a scenario, whose items have one run in common, and what it has failed with."""
+
+    line: Optional[int] = None
+
+    def scenario_run(self) -> Run:
+        return _noted(self, lambda: _runs_of(self.config).run(self.path))
+
+    def repr_failure(self, excinfo: Any, style: Any = None) -> Any:
+        if isinstance(excinfo.value, (Error, _Verdict)):
+            return str(excinfo.value)
+        return super().repr_failure(excinfo)
+
+    def reportinfo(self) -> tuple[Path, Optional[int], str]:
+        return self.path, None if self.line is None else self.line - 1, f"{self.path.name}: {self.name}"
+
+
+class RunItem(_ScenarioItem):
     """The scenario runs to its end, and its units judge it well."""
 
     def runtest(self) -> None:
-        made = _run_of(self)
-        checks = {check["name"] for check in made.info["checks"]}
-        bad = [each for each in made.verdicts if each.passed is False and each.name not in checks]
+        bad = [each for each in self.scenario_run().info["verdicts"] if each["passed"] is False]
         if bad:
-            raise _Verdict("\n".join(f"{each.name}: {each.text}" for each in bad))
-
-    def repr_failure(self, excinfo: Any, style: Any = None) -> Any:
-        return _text_of(excinfo, super().repr_failure)
-
-    def reportinfo(self) -> tuple[Path, Optional[int], str]:
-        return self.path, None, f"{self.path.name}: run"
+            raise _Verdict("\n".join(f"{each['component']}: {each['text']}" for each in bad))
 
 
-class CheckItem(pytest.Item):
+class CheckItem(_ScenarioItem):
     """A check of the scenario, which begins in this line of it."""
 
     def __init__(self, *, line: int, **further: Any) -> None:
         super().__init__(**further)
-        self._line = line
+        self.line = line
 
     def runtest(self) -> None:
-        verdicts = [check for check in _run_of(self).info["checks"] if check["line"] == self._line]
+        verdicts = [check for check in self.scenario_run().info["checks"] if check["line"] == self.line]
         bad = [check for check in verdicts if check["passed"] is False]
         if bad:
             raise _Verdict("\n".join(f"{check['name']}: {check['text']}" for check in bad))
         if not all(check["passed"] for check in verdicts) or not verdicts:
             pytest.skip("; ".join(check["text"] for check in verdicts) or "it was not made")
-
-    def repr_failure(self, excinfo: Any, style: Any = None) -> Any:
-        return _text_of(excinfo, super().repr_failure)
-
-    def reportinfo(self) -> tuple[Path, Optional[int], str]:
-        return self.path, self._line - 1, f"{self.path.name}: {self.name}"
-
-
-_session_runs = pytest.StashKey[_Runs]()
-
-
-def _run_of(item: pytest.Item) -> Run:
-    """Of the item's scenario; all its items have the same one, and what it has failed with."""
-    stash = item.config.stash
-    if _session_runs not in stash:
-        factory = getattr(item.config, "_tmp_path_factory")  # noqa: B009 - what pytest's fixture returns
-        stash[_session_runs] = _Runs(factory.mktemp("stride-scenarios"))
-    with _noting(item) as noted:
-        return noted(stash[_session_runs].run(item.path))
-
-
-def _text_of(excinfo: Any, otherwise: Callable[[Any], Any]) -> Any:
-    if isinstance(excinfo.value, (Error, _Verdict)):
-        return str(excinfo.value)
-    return otherwise(excinfo)
 
 
 # ---- Campaigns ----
@@ -252,27 +233,17 @@ class Case:
     campaign: Path
     number: int
     parameters: dict[str, str]
-    _runs: Optional[_Runs] = field(default=None, repr=False, compare=False)
     _node: Any = field(default=None, repr=False, compare=False)
 
     def run(self, **options: Any) -> Run:
         """Runs it, and what `stride.run` takes besides."""
-        command = _plan(self.campaign, f"--case={self.number}")
-        folder = self._runs.new_folder(f"case-{self.number:06}") if self._runs else None
-        with _noting(self._node) as noted:
-            return noted(run_words(shlex.split(command)[2:], out=folder, folder=self.campaign.parent, **options))
+        words = shlex.split(_plan(self.campaign, f"--case={self.number}"))[2:]
+        folder = _runs_of(self._node.config).new_folder(f"case-{self.number:06}")
+        return _noted(self._node, lambda: run_words(words, out=folder, folder=self.campaign.parent, **options))
 
 
 def _plan(campaign: Path, *options: str) -> str:
-    done = subprocess.run(
-        [str(program()), "campaign", "plan", campaign.name, *options],
-        cwd=campaign.parent,
-        capture_output=True,
-        text=True,
-    )
-    if done.returncode != 0:
-        raise InputError(done.stderr.partition("error: ")[2].strip() or done.stderr)
-    return done.stdout
+    return output_of(["campaign", "plan", campaign.name, *options], campaign.parent)
 
 
 def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
@@ -304,7 +275,7 @@ def _cases(file: Path) -> list[Case]:
 
 
 @pytest.fixture
-def stride_case(request: pytest.FixtureRequest, _stride_runs: _Runs) -> Case:
+def stride_case(request: pytest.FixtureRequest) -> Case:
     """A case of the campaign that `@pytest.mark.stride_campaign` names; the test is called for each."""
     case: Case = request.param
-    return Case(case.campaign, case.number, case.parameters, _stride_runs, request.node)
+    return replace(case, _node=request.node)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ctypes
+import functools
 import logging
 import math
 import os
@@ -10,6 +11,7 @@ import signal
 import threading
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from types import MappingProxyType
 from typing import Any, Optional, Union
 
 import numpy as np
@@ -151,7 +153,6 @@ class Simulation:
         **options: Any,
     ) -> None:
         self._handle = ctypes.c_void_p()
-        self._variables: dict[str, tuple[int, Variable]] = {}
         self._last: Optional[list[Verdict]] = None
         self._library = _library()
         pairs = settings(options)
@@ -284,15 +285,20 @@ class Simulation:
 
     # ---- Variables ----
 
-    @property
+    @functools.cached_property
     def variables(self) -> Mapping[str, Variable]:
-        """All variables, by their names."""
-        if not self._variables:
-            raw = [self._describe(index) for index in range(self._library.stride_variable_count(self._open()))]
-            names = [name for name, _ in raw]
-            for index, (name, make) in enumerate(raw):
-                self._variables[name] = (index, make(names))
-        return {name: variable for name, (_, variable) in self._variables.items()}
+        """All variables, by their names, in the order of their indices."""
+        raw = [self._describe(index) for index in range(self._library.stride_variable_count(self._open()))]
+        names = [name for name, _ in raw]
+        return MappingProxyType({name: make(names) for name, make in raw})
+
+    @functools.cached_property
+    def _indices(self) -> dict[str, int]:
+        return {name: index for index, name in enumerate(self.variables)}
+
+    @functools.cached_property
+    def _by_index(self) -> list[Variable]:
+        return list(self.variables.values())
 
     def _describe(self, index: int) -> tuple[str, Any]:
         raw = c.Variable(size=ctypes.sizeof(c.Variable))
@@ -315,10 +321,8 @@ class Simulation:
     def _find(self, name: str) -> tuple[int, Variable]:
         if not isinstance(name, str):
             raise InputError(f"the name of a variable is a text, not {name!r}")
-        if not self._variables:
-            self.variables  # noqa: B018 - lists them
-        if found := self._variables.get(name):
-            return found
+        if name in self._indices:
+            return self._indices[name], self.variables[name]
         index = ctypes.c_size_t()
         c.check(self._library.stride_find(self._open(), name.encode(), ctypes.byref(index)))  # fails with a suggestion
         raise InputError(f"there is no variable '{name}'")
@@ -376,14 +380,10 @@ class Simulation:
         """What components have sent and received since the last call, in order."""
         found = []
         raw = c.Message(size=ctypes.sizeof(c.Message))
-        if not self._variables:
-            self.variables  # noqa: B018
-        names = list(self._variables)
         while self._library.stride_next_message(self._open(), ctypes.byref(raw)):
             if raw.dropped:
                 _log.warning("%d messages were more than are kept (messages=)", raw.dropped)
-            name = names[raw.index]
-            _, variable = self._variables[name]
+            variable = self._by_index[raw.index]
             value = None
             if raw.elements:
                 space = _space(_TYPES.index(variable.type), raw.count)
@@ -392,7 +392,7 @@ class Simulation:
             found.append(
                 Message(
                     c.seconds(raw.time),
-                    name,
+                    variable.name,
                     bool(raw.is_received),
                     value,
                     c.text(raw.content),

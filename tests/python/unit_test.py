@@ -37,7 +37,9 @@ def units(tmp_path, monkeypatch):
 
         @staticmethod
         def write(source, name="u"):
-            (tmp_path / f"{name}.py").write_text("import stride.unit as su\n" + textwrap.dedent(source), encoding="utf-8")
+            (tmp_path / f"{name}.py").write_text(
+                "import stride.unit as su\n" + textwrap.dedent(source), encoding="utf-8"
+            )
 
         def pack(self, source, *options, name="u"):
             """Returns what is printed."""
@@ -84,7 +86,10 @@ def test_a_unit_with_inputs_outputs_and_parameters(units):
 
 
 def test_it_needs_no_package_and_no_numpy(units, monkeypatch):
-    source = THERMOSTAT + "        def finish(self):\n            import sys\n            assert not {'numpy', 'ctypes', 'typing'} & {*sys.modules}\n"
+    source = (
+        THERMOSTAT
+        + "        def finish(self):\n            import sys\n            assert not {'numpy', 'ctypes', 'typing'} & {*sys.modules}\n"
+    )
     assert units.pack(source) == ""
     monkeypatch.delenv("PYTHONPATH")
     (units.path / "bare.sh").write_text(f'#!/bin/sh\nexec {sys.executable} -I -S "$@"\n')
@@ -239,7 +244,9 @@ def test_messages_and_early_returns_as_in_cpp(units, options):
 
 
 def test_units_send_messages_to_each_other(units):
-    assert units.pack("""
+    assert (
+        units.pack(
+            """
         class Bell(su.Unit, early_return=True):
             ring = su.MessageOutput(int)
             count = 0
@@ -249,8 +256,14 @@ def test_units_send_messages_to_each_other(units):
                     self.count += 1
                     self.ring.send(self.count)  # where the step ends
                     return at
-    """, name="bell") == ""
-    assert units.pack("""
+    """,
+            name="bell",
+        )
+        == ""
+    )
+    assert (
+        units.pack(
+            """
         class Ear(su.Unit):
             ring = su.MessageInput(int)
             heard = su.Output(float)
@@ -258,18 +271,28 @@ def test_units_send_messages_to_each_other(units):
             def hear(self, number):
                 self.heard = number + self.now
             def step(self, now, end): pass
-    """, name="ear") == ""
-    (units.path / "s.ssd").write_text(scenario("bell=bell ear=ear", "bell.ring.clock>ear.ring.clock bell.ring>ear.ring"))
+    """,
+            name="ear",
+        )
+        == ""
+    )
+    (units.path / "s.ssd").write_text(
+        scenario("bell=bell ear=ear", "bell.ring.clock>ear.ring.clock bell.ring>ear.ring")
+    )
     run = stride.run("s.ssd")
     received = [(event.time, event.value) for event in run.events if event.received and event.variable == "ear.ring"]
     assert [(pytest.approx(time), value) for time, value in received] == [
-        (0.3, "1"), (0.5, "2"), (0.7, "3"), (0.9, "4"),
+        (0.3, "1"),
+        (0.5, "2"),
+        (0.7, "3"),
+        (0.9, "4"),
     ]
     assert run.signals["ear.heard"][-1] == 4.9
 
 
 def test_next_events_are_communication_points(units):
-    run = units.run("""
+    run = units.run(
+        """
         class Clock(su.Unit):
             hour = su.Output(int)
             due = 0.2
@@ -280,7 +303,9 @@ def test_next_events_are_communication_points(units):
             def next_event(self):
                 return self.due
             def step(self, now, end): pass
-    """, step=0.25)
+    """,
+        step=0.25,
+    )
     assert run.signals["u.hour"][-1] == 4
     assert {0.2, 0.3, 0.4} <= {round(time, 9) for time in run.time}
 
@@ -313,7 +338,8 @@ def test_times_are_exact_and_in_the_unit_of_time(units):
 
 def test_the_end_of_the_simulation_logs_and_folders(units, caplog):
     with caplog.at_level("INFO", logger="stride"):
-        run = units.run("""
+        run = units.run(
+            """
             import os, sys
             class Ends(su.Unit):
                 y = su.Output(str)
@@ -329,7 +355,9 @@ def test_the_end_of_the_simulation_logs_and_folders(units, caplog):
                     self.y = sys.stdin.read() + "nothing"
                     if end >= 0.25:
                         self.end_simulation()
-        """, out="out")
+        """,
+            out="out",
+        )
     assert run.reached == 0.25
     assert run.signals["u.y"][-1] == "nothing"
     assert (units.path / "out/units/u/note.txt").read_text() == "u"
@@ -373,11 +401,16 @@ def test_names_of_files_clash(units, name):
 def test_a_file_can_run_and_pack_itself(units):
     units.write(THERMOSTAT + "\n    if __name__ == '__main__':\n        su.main(Thermostat)\n")
     assert subprocess.run([sys.executable, "u.py", "-o", "u.fmu"], check=True, capture_output=True).stderr == b""
-    commands = '<open protocol="1" instance="i" resources=""/>\n<input value=\'4\' name="temperature"/>\n<start time="0"/>\n'
+    commands = (
+        '<open protocol="1" instance="i" resources=""/>\n<input value=\'4\' name="temperature"/>\n<start time="0"/>\n'
+    )
     commands += '<time-unit picoseconds="1000"/>\n<step may-stop="false" size="5"/>\n<end/>\n'
     done = subprocess.run([sys.executable, "u.py"], input=commands, capture_output=True, text=True, check=True)
     assert done.stdout.splitlines() == [
-        '<output name="power" value="0.0"/>', '<sync time="0"/>', '<output name="power" value="32.0"/>', '<sync time="5"/>',
+        '<output name="power" value="0.0"/>',
+        '<sync time="0"/>',
+        '<output name="power" value="32.0"/>',
+        '<sync time="5"/>',
     ]
 
 
@@ -404,11 +437,20 @@ STEP = "def step(self, now, end): pass"
         ("y = su.Output(complex)", "<class 'complex'> is neither a type nor a start value: expected float, int, bool"),
         ("y = su.Output(float, start='high')", "U.y: start: expected a float, is 'high' (str)"),
         ("y = su.Output('UInt8', start=256)", "U.y: start: expected a number of the type UInt8, from 0 to 255, is 256"),
-        ("y = su.Output(float, shape=2, start=[1.0])", "expected an array of float64 with the shape (2,), is one of float64"),
+        (
+            "y = su.Output(float, shape=2, start=[1.0])",
+            "expected an array of float64 with the shape (2,), is one of float64",
+        ),
         ("y = su.Output(str, shape=2)", "shape: expected of numbers and bool only"),
-        ("event = su.Input(bool)", "U.event: each unit has something of this name; choose another one, and give name='event'"),
+        (
+            "event = su.Input(bool)",
+            "U.event: each unit has something of this name; choose another one, and give name='event'",
+        ),
         ("a = su.Input(bool, name='x')\n        b = su.Output(int, name='x')", "U.b: 'a' has the name 'x', too"),
-        ("m = su.MessageInput(str)\n        n = su.Output(int, name='m.clock')", "U.n: 'm' has the name 'm.clock', too"),
+        (
+            "m = su.MessageInput(str)\n        n = su.Output(int, name='m.clock')",
+            "U.n: 'm' has the name 'm.clock', too",
+        ),
         ("y = su.Output(float)\n        def y(self): pass", "'y' is defined twice; give one of both another name"),
         ("y = su.Output(float, depends_on=['v'])", "U.y: depends_on: there is no input 'v'"),
         ("y = su.Output(float, color=1)", "unexpected keyword argument 'color'"),
@@ -473,13 +515,22 @@ def failure(units, source, **settings):
         ("self.y = None", "output 'y': expected a float, is None (NoneType)"),
         ("self.y = True", "output 'y': expected a float, is True (bool)"),
         ("self.i = 1.5", "output 'i': expected an int, is 1.5 (float)"),
-        ("self.i = 2**63", "output 'i': expected a number of the type Int64, from -9223372036854775808 to 9223372036854775807"),
+        (
+            "self.i = 2**63",
+            "output 'i': expected a number of the type Int64, from -9223372036854775808 to 9223372036854775807",
+        ),
         ("self.b = 1", "output 'b': expected a bool, is 1 (int)"),
         ("self.s = b'x'", "output 's': expected a str, is b'x' (bytes)"),
         ("self.s = '\\x01'", "output 's': a str cannot have the character '\\x01' here, but bytes can"),
         ("self.d = 'x'", "output 'd': expected bytes, is 'x' (str)"),
-        ("self.a = [1.0]", "output 'a': expected an array of uint8 with the shape (2,), is one of float64 with the shape (1,)"),
-        ("self.a = [1, 256]", "output 'a': expected an array of uint8 with the shape (2,), has elements beyond that: [1, 256]"),
+        (
+            "self.a = [1.0]",
+            "output 'a': expected an array of uint8 with the shape (2,), is one of float64 with the shape (1,)",
+        ),
+        (
+            "self.a = [1, 256]",
+            "output 'a': expected an array of uint8 with the shape (2,), has elements beyond that: [1, 256]",
+        ),
         ("self.u = 1/0", "ZeroDivisionError: division by zero (u.py:16, in step)"),
         ("self.v[0] = 1", "ValueError: assignment destination is read-only (u.py:16, in step)"),
         ("raise SystemExit", "SystemExit (u.py:16, in step)"),
@@ -492,7 +543,9 @@ def failure(units, source, **settings):
     ],
 )
 def test_mistakes_in_a_step(units, assignment, expected):
-    error = failure(units, f"""
+    error = failure(
+        units,
+        f"""
     class U(su.Unit):
         u = su.Input(float)
         v = su.Input(float, shape=2)
@@ -509,7 +562,8 @@ def test_mistakes_in_a_step(units, assignment, expected):
                 {assignment}
         def next_event(self):
             return self.due
-    """)
+    """,
+    )
     assert error.component == "u"
     assert error.time == 0.25
     assert f"fails: {expected}" in str(error)
@@ -517,25 +571,38 @@ def test_mistakes_in_a_step(units, assignment, expected):
 
 
 def test_mistakes_at_the_start_and_at_the_end(units):
-    assert "RuntimeError: no (u.py:4, in start)" in str(failure(units, """
+    assert "RuntimeError: no (u.py:4, in start)" in str(
+        failure(
+            units,
+            """
         class U(su.Unit):
             def start(self): raise RuntimeError("no")
             def step(self, now, end): pass
-    """))
-    assert "OSError: late" in str(failure(units, """
+    """,
+        )
+    )
+    assert "OSError: late" in str(
+        failure(
+            units,
+            """
         class U(su.Unit):
             def finish(self): raise OSError("late")
             def step(self, now, end): pass
-    """))
+    """,
+        )
+    )
 
 
 def test_the_whole_traceback_is_there(units):
-    error = failure(units, """
+    error = failure(
+        units,
+        """
         def below(x):
             return {}[x]
         class U(su.Unit):
             def step(self, now, end): below("key")
-    """)
+    """,
+    )
     assert "fails: KeyError: 'key' (u.py:4, in below)" in str(error)
     assert 'u.py", line 6, in step' in str(error)
     assert "stride_unit" not in str(error).partition("standard error:")[2]
@@ -544,7 +611,9 @@ def test_the_whole_traceback_is_there(units):
 def test_a_class_that_has_changed_outside(units):
     units.run(THERMOSTAT, "--outside")
     units.write(THERMOSTAT.replace("gain", "factor"))
-    with pytest.raises(stride.RunError, match="the class Thermostat has no parameter 'gain', which its FMU has: pack it again"):
+    with pytest.raises(
+        stride.RunError, match="the class Thermostat has no parameter 'gain', which its FMU has: pack it again"
+    ):
         stride.run("u.fmu", stop=0.5)
 
 
