@@ -61,13 +61,15 @@ Greeting ServerChannel::greet() {
   }
 }
 
-/// Signals are for the thread that calls units.
+/// Signals are for the thread that calls units. That one may fork when this returns, which must not
+/// be while the other one is being made: the libraries' locks for it would be held in the fork.
 void ServerChannel::begin() {
   sigset_t all, before;
   ::sigfillset(&all);
   ::pthread_sigmask(SIG_SETMASK, &all, &before);
   watch_ = std::thread([this] { watch(); });
   ::pthread_sigmask(SIG_SETMASK, &before, nullptr);
+  watches_.wait();
 }
 
 std::span<const std::uint64_t> ServerChannel::receive() {
@@ -102,6 +104,7 @@ bool ServerChannel::write_some(std::string_view bytes) noexcept {
 }
 
 void ServerChannel::watch() noexcept {
+  watches_.count_down();
   auto last = Clock::now();
   std::optional<Clock::time_point> end;
   while (!is_done_) {

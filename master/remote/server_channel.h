@@ -5,6 +5,7 @@
 #include <atomic>
 #include <csignal>
 #include <cstdint>
+#include <latch>
 #include <mutex>
 #include <optional>
 #include <span>
@@ -27,7 +28,8 @@ class LinkEnded : public std::runtime_error {
 /// signs of life, four a second while a request is carried out and seldom otherwise, and when the
 /// link ends it sets is_over(), for what waits for a unit; if that has no effect the process ends.
 ///
-/// That thread takes no lock of others and allocates nothing, so the process may be forked.
+/// Once it has begun, that thread takes no lock of others and allocates nothing, so the process may
+/// be forked.
 class ServerChannel {
  public:
   /// `interrupted`: set by a signal handler to end the session. None of the files is closed.
@@ -78,6 +80,7 @@ class ServerChannel {
   std::atomic<bool> is_busy_ = false;
   std::atomic<bool> is_done_ = false;
   volatile std::sig_atomic_t is_over_ = 0;
+  std::latch watches_{1};
   std::thread watch_;
 };
 
