@@ -1,6 +1,9 @@
 // The self-description of a library, without an instance.
 #include <exception>
+#include <map>
+#include <mutex>
 #include <string>
+#include <thread>
 
 #include "interfaces/unit/entry_call.h"
 #include "interfaces/unit/idle_manifest.h"
@@ -8,13 +11,21 @@
 
 namespace {
 
+/// That of the calling thread. Not thread_local: what is destroyed when a thread ends would keep
+/// the library loaded until then.
+std::string& text_of_thread() {
+  static std::mutex mutex;
+  static std::map<std::thread::id, std::string> texts;
+  const std::lock_guard lock(mutex);
+  return texts[std::this_thread::get_id()];
+}
+
 /// The text that `describe` makes of a fresh unit; on failure NULL, and *error holds the reason.
 template <class Describe>
 const char* self_description(const char* resources, const char** error, Describe describe) {
-  thread_local std::string text;
   const auto keep = [](const char* message) noexcept {
     try {
-      return (text = message).c_str();
+      return (text_of_thread() = message).c_str();
     } catch (...) {
       return "out of memory";
     }
@@ -23,6 +34,7 @@ const char* self_description(const char* resources, const char** error, Describe
     const stride::UnitFactory factory = stride::unit_factory();
     double time = 0;
     const auto unit = factory.make({resources != nullptr ? resources : "", factory.name});
+    std::string& text = text_of_thread();
     text = describe(factory.name, *unit, stride::kit::Table(*unit, time));
     return text.c_str();
   } catch (const std::exception& failure) {

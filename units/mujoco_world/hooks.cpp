@@ -1,5 +1,6 @@
 #include "units/mujoco_world/hooks.h"
 
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -13,7 +14,9 @@ namespace {
 using Hook = void (*)(const char*);
 
 constexpr std::size_t kMostWarnings = 100;
-thread_local std::vector<std::string> warnings;
+// Of the calling thread, null for none. No object: one that has to be destroyed when its thread
+// ends would keep this library loaded until then.
+thread_local std::vector<std::string>* warnings = nullptr;
 
 void throw_error(const char* message) { throw std::runtime_error(message); }
 
@@ -43,9 +46,13 @@ void install_hooks() {
 }
 
 void add_warning(std::string warning) {
-  if (warnings.size() < kMostWarnings) warnings.push_back(std::move(warning));
+  if (warnings == nullptr) warnings = new std::vector<std::string>;
+  if (warnings->size() < kMostWarnings) warnings->push_back(std::move(warning));
 }
 
-std::vector<std::string> take_warnings() { return std::exchange(warnings, {}); }
+std::vector<std::string> take_warnings() {
+  const std::unique_ptr<std::vector<std::string>> taken(std::exchange(warnings, nullptr));
+  return taken ? std::move(*taken) : std::vector<std::string>{};
+}
 
 }  // namespace mujoco_world
