@@ -2,6 +2,8 @@
 #ifndef STRIDE_MASTER_UTIL_PROCESS_LOADED_OBJECT_H
 #define STRIDE_MASTER_UTIL_PROCESS_LOADED_OBJECT_H
 
+#include <set>
+
 struct link_map;
 
 namespace stride::core {
@@ -10,6 +12,9 @@ namespace stride::core {
 /// one pointer. Null if it is in none. It looks no symbol up, unlike dladdr(), which for that reads
 /// the table of all symbols.
 const link_map* loaded_object_at(const void* address) noexcept;
+
+/// The program and all its libraries, as they are loaded now.
+std::set<const link_map*> loaded_objects();
 
 }  // namespace stride::core
 

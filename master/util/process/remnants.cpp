@@ -49,11 +49,6 @@ std::string words_for(const std::set<pid_t>& threads) {
                      quoted(first), shown < names.size() ? ", …" : "");
 }
 
-bool is_of_program(const void* function) {
-  return loaded_object_at(function) ==
-         loaded_object_at(reinterpret_cast<const void*>(&is_of_program));
-}
-
 bool calls_function(const struct sigaction& action) {
   return action.sa_handler != SIG_DFL && action.sa_handler != SIG_IGN;
 }
@@ -67,7 +62,7 @@ struct sigaction present_action(int signal) {
 
 }  // namespace
 
-Remnants::Remnants() : threads_(present_threads()) {
+Remnants::Remnants() : threads_(present_threads()), objects_(loaded_objects()) {
   for (int signal = 1; signal < NSIG; ++signal) {
     actions_[static_cast<std::size_t>(signal)] = present_action(signal);
   }
@@ -79,7 +74,8 @@ std::string Remnants::find() const {
     const struct sigaction now = present_action(signal);
     const struct sigaction& before = actions_[static_cast<std::size_t>(signal)];
     if (!calls_function(now) || now.sa_handler == before.sa_handler) continue;
-    if (is_of_program(reinterpret_cast<const void*>(now.sa_handler))) continue;
+    if (objects_.contains(loaded_object_at(reinterpret_cast<const void*>(now.sa_handler))))
+      continue;
     const char* const name = ::sigabbrev_np(signal);
     found += fmt::format("{}a handler of SIG{}", found.empty() ? "" : ", ",
                          name != nullptr ? name : std::to_string(signal));

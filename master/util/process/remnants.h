@@ -9,12 +9,15 @@
 
 #include <sys/types.h>
 
+struct link_map;
+
 namespace stride::core {
 
-/// Notes which threads and which functions that handle signals there are, before a library is
-/// loaded. Those that there are beside them later may be of the library, or of another one that it
-/// has loaded: as long as they exist, it cannot be unloaded. Handlers of the program itself do not
-/// count; threads that the program has started meanwhile do, so there may be none.
+/// Notes which threads, libraries and functions that handle signals there are, before a library is
+/// loaded. Threads and handlers that there are beside them later may be of the library, or of
+/// another one that it has loaded: as long as they exist, it cannot be unloaded. A handler that is
+/// in the program, or in a library that was there before, does not count. A thread that the program
+/// has started meanwhile does: nothing tells whose code it runs.
 class Remnants {
  public:
   Remnants();
@@ -28,6 +31,7 @@ class Remnants {
   std::set<pid_t> threads_that_stay() const;
 
   std::set<pid_t> threads_;
+  std::set<const link_map*> objects_;
   std::array<struct sigaction, NSIG> actions_{};
 };
 

@@ -9,6 +9,7 @@
 #include <link.h>
 
 using stride::core::loaded_object_at;
+using stride::core::loaded_objects;
 
 namespace {
 
@@ -35,4 +36,18 @@ TEST_CASE("what is in no file has no object") {
   const int local = 0;
   CHECK(loaded_object_at(&local) == nullptr);
   CHECK(loaded_object_at(nullptr) == nullptr);
+}
+
+TEST_CASE("the objects that are loaded can be listed") {
+  const auto before = loaded_objects();
+  CHECK(before.contains(loaded_object_at(&variable)));
+  CHECK(before.contains(loaded_object_at(::dlsym(RTLD_DEFAULT, "gnu_get_libc_version"))));
+  CHECK(!before.contains(nullptr));
+  void* const library = ::dlopen("libresolv.so.2", RTLD_NOW | RTLD_LOCAL);
+  REQUIRE(library != nullptr);
+  const link_map* const added = loaded_object_at(::dlsym(library, "ns_sprintrr"));
+  CHECK(!before.contains(added));
+  CHECK(loaded_objects().contains(added));
+  ::dlclose(library);
+  CHECK(loaded_objects() == before);
 }

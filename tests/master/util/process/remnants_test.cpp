@@ -6,6 +6,7 @@
 #include <thread>
 
 #include <catch2/catch.hpp>
+#include <dlfcn.h>
 #include <pthread.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -28,6 +29,17 @@ class Waiting {
  private:
   std::atomic<bool> is_over_ = false;
   std::thread thread_{[this] { is_over_.wait(false); }};
+};
+
+/// That the function of this name in the library is said to handle a signal; it is never sent.
+class Handler {
+ public:
+  Handler(void* library, const char* function) {
+    void* const address = ::dlsym(library, function);
+    REQUIRE(address != nullptr);
+    std::signal(SIGUSR2, reinterpret_cast<void (*)(int)>(address));
+  }
+  ~Handler() { std::signal(SIGUSR2, SIG_DFL); }
 };
 
 }  // namespace
@@ -74,4 +86,24 @@ TEST_CASE("functions of the program itself may handle signals") {
   std::signal(SIGUSR2, [](int) {});
   CHECK(remnants.find() == "");
   std::signal(SIGUSR2, SIG_DFL);
+}
+
+TEST_CASE("functions of libraries that were there before may handle signals, others are found") {
+  std::optional<Remnants> remnants(std::in_place);
+  {
+    const Handler of_before(RTLD_DEFAULT, "gnu_get_libc_version");
+    CHECK(remnants->find() == "");
+  }
+  void* const library = ::dlopen("libresolv.so.2", RTLD_NOW | RTLD_LOCAL);
+  REQUIRE(library != nullptr);
+  {
+    const Handler of_later(library, "ns_sprintrr");
+    CHECK(remnants->find() == "a handler of SIGUSR2");
+  }
+  remnants.emplace();
+  {
+    const Handler of_before(library, "ns_sprintrr");
+    CHECK(remnants->find() == "");
+  }
+  ::dlclose(library);
 }
