@@ -58,6 +58,20 @@ with stride.Simulation("nfc_approach", stop=0.5) as simulation:
     simulation.run()
     assert simulation["channel.distance"] == run.signals["channel.distance"][-1], run.signals["channel.distance"]
 END
+"$work/venv/bin/python" - "$build/units/sensor.fmu" << 'END' || fail "another copy of SystemC is not refused"
+import sys, stride
+
+with stride.Simulation("nfc_approach", stop=0.5) as simulation:
+    simulation.run()
+try:
+    stride.Simulation("nfc_approach", swap={"sensor": sys.argv[1]})
+except stride.RunError as error:
+    assert error.component == "sensor" and "a process can have one only" in str(error), error
+else:
+    sys.exit("no exception")
+with stride.Simulation("nfc_approach", stop=0.5) as simulation:
+    simulation.run()
+END
 clean "$work/venv/bin/python" -c 'import stride.__main__, sys; sys.exit("numpy" in sys.modules)' ||
   fail "the command waits for numpy"
 

@@ -1,7 +1,9 @@
 #define SC_INCLUDE_DYNAMIC_PROCESSES
 #include <algorithm>
+#include <stdexcept>
 #include <vector>
 
+#include <dlfcn.h>
 #include <tlm_core/tlm_2/tlm_quantum/tlm_global_quantum.h>
 
 #include <stride/systemc/kernel.h>
@@ -40,6 +42,22 @@ void collect_clock_events(const std::vector<sc_core::sc_object*>& objects,
   }
 }
 
+std::string file_of(const void* address) {
+  Dl_info info{};
+  return ::dladdr(address, &info) != 0 && info.dli_fname != nullptr ? info.dli_fname
+                                                                    : "the program";
+}
+
+void require_same_systemc(const void* systemc) {
+  if (systemc == &sc_core::sc_curr_simcontext) return;
+  throw std::runtime_error(
+      "its SystemC is " + file_of(systemc) +
+      ", and units that were in this process before have brought another copy, " +
+      file_of(&sc_core::sc_curr_simcontext) +
+      ": a process can have one only; link all units with the same, or run these "
+      "in another process");
+}
+
 }  // namespace
 
 Kernel* Kernel::active_ = nullptr;
@@ -61,7 +79,8 @@ Kernel::Entry::~Entry() {
   if (previous_ == nullptr) restore_stack_bounds();
 }
 
-Kernel::Kernel(Log log) : log_(std::move(log)) {
+Kernel::Kernel(Log log, const void* systemc) : log_(std::move(log)) {
+  require_same_systemc(systemc);
   const auto lock = lock_kernel();
   context_ = std::make_unique<sc_core::sc_simcontext>();
   within([this] { make_alarm(); });

@@ -61,6 +61,12 @@ std::string captured(int descriptor, Function f) {
 
 }  // namespace
 
+TEST_CASE("a device that is linked with another copy of SystemC is refused") {
+  static int other = 0;
+  CHECK_THROWS_WITH(Kernel({}, &other), Contains("a process can have one only") &&
+                                            Contains("units that were in this process before"));
+}
+
 TEST_CASE("time is converted to the picosecond") {
   Device<Blinker> device({}, "blinker", 20.0);
   const Duration odd(123'456'789'012'345);

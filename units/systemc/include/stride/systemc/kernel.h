@@ -38,7 +38,10 @@ class Kernel {
   /// Receives what the device reports as info or warning. Nothing is printed.
   using Log = std::function<void(sc_core::sc_severity, const std::string&)>;
 
-  explicit Kernel(Log log = {});
+  /// `systemc` is where the caller's SystemC is, by its default argument. Throws std::runtime_error
+  /// where that is another copy than this library's, which the loader has taken for one that the
+  /// caller's own needs: two kernels would each have a part of the device.
+  explicit Kernel(Log log = {}, const void* systemc = &sc_core::sc_curr_simcontext);
   ~Kernel();
 
   Kernel(const Kernel&) = delete;
