@@ -22,8 +22,12 @@
  * (stride_progress, stride_log): other calls meanwhile are STRIDE_MISUSE. stride_interrupt() may be
  * called by any thread and by a signal handler. Where units get processes of their own (the setting
  * "isolate"), stride_open() forks the process, and waits before that for the calls of other
- * threads. Different simulations are independent, but for what their units have in common: code of
- * units that run in the process of the caller shares it, also with the caller. Behind a fork() the
+ * threads. What units change of the process when they are initialised, as the working folder, the
+ * environment or handlers of signals, is put back before stride_open() returns: no other thread
+ * changes these meanwhile. The library of a unit stays in memory, with a warning, where threads are
+ * there at its end that were not when it was loaded, since they may run its code.
+ * Different simulations are independent, but for what their units have in common: code of units
+ * that run in the process of the caller shares it, also with the caller. Behind a fork() the
  * simulation is the parent's; in the child nothing may be called with it, and what is, fails with
  * STRIDE_MISUSE.
  *

@@ -20,28 +20,25 @@ static_assert(STRIDE_PARAMETER == static_cast<int>(core::Causality::Parameter) &
               STRIDE_INPUT == static_cast<int>(core::Causality::Input) &&
               STRIDE_INDEPENDENT == static_cast<int>(core::Causality::Independent));
 
-[[noreturn]] void fail_value(const core::Variable& variable, const char* mistake) {
-  core::fail_input({.variable = variable.name}, mistake);
-}
-
 }  // namespace
 
-core::ValueBlock read_elements(const core::Variable& variable, const void* elements) {
+core::ValueBlock read_elements(const core::Variable& variable, const core::Context& context,
+                               const void* elements) {
   core::ValueBlock value(variable.type, variable.size);
   core::visit(value, [&]<class T>(std::span<T> to) {
     for (std::size_t i = 0; i < to.size(); ++i) {
       if constexpr (std::is_same_v<T, std::string>) {
         const char* const text = static_cast<const char* const*>(elements)[i];
-        if (text == nullptr) fail_value(variable, "a text is NULL");
-        if (!core::is_utf8(text)) fail_value(variable, "a text is not UTF-8");
+        if (text == nullptr) core::fail_input(context, "a text is NULL");
+        if (!core::is_utf8(text)) core::fail_input(context, "a text is not UTF-8");
         to[i] = text;
       } else if constexpr (std::is_same_v<T, core::Binary>) {
         const stride_bytes& bytes = static_cast<const stride_bytes*>(elements)[i];
-        if (bytes.size > 0 && bytes.data == nullptr) fail_value(variable, "bytes are NULL");
+        if (bytes.size > 0 && bytes.data == nullptr) core::fail_input(context, "bytes are NULL");
         to[i].assign(bytes.data, bytes.data + bytes.size);
       } else if constexpr (std::is_same_v<T, bool>) {
         const std::uint8_t truth = static_cast<const std::uint8_t*>(elements)[i];
-        if (truth > 1) fail_value(variable, "a Boolean is neither 0 nor 1");
+        if (truth > 1) core::fail_input(context, "a Boolean is neither 0 nor 1");
         to[i] = truth != 0;
       } else {
         to[i] = static_cast<const T*>(elements)[i];

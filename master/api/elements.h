@@ -18,9 +18,10 @@ inline stride_causality causality_of(core::Causality causality) {
   return static_cast<stride_causality>(causality);
 }
 
-/// The elements of the variable. Throws core::Error (Input) where a String is NULL, or a Boolean
-/// neither 0 nor 1.
-core::ValueBlock read_elements(const core::Variable& variable, const void* elements);
+/// The elements of the variable. Throws core::Error (Input), with the context, where a String is
+/// NULL or no UTF-8, bytes are NULL, or a Boolean is neither 0 nor 1.
+core::ValueBlock read_elements(const core::Variable& variable, const core::Context& context,
+                               const void* elements);
 
 /// A value in its C types, which it keeps.
 class CElements {

@@ -126,7 +126,7 @@ core::ValueBlock read_value(const Session& session, std::size_t index, const voi
   const core::Variable& variable = variable_of(session, index, count);
   require(variable.type != stride::core::ValueType::Clock, "a clock has no value");
   require(elements != nullptr || count == 0, "the elements are NULL");
-  return stride::api::read_elements(variable, elements);
+  return stride::api::read_elements(variable, session.context(session.id(index)), elements);
 }
 
 }  // namespace

@@ -81,11 +81,6 @@ void require_same_settings(const recorders::Provenance& before, const recorders:
                    "open this one with the same; what is to change is set from there on");
 }
 
-core::Context context_of(const core::System& system, core::VariableId id) {
-  const std::string component = system.is_output(id) ? "" : system.components()[id.component].name;
-  return {.unit = component, .variable = system.variable(id).name};
-}
-
 }  // namespace
 
 Session::Session(Request request, SessionOptions options)
@@ -172,6 +167,12 @@ void Session::list_variables() {
   }
   firsts_.push_back(ids_.size());
   for (std::size_t i = 0; i < system().outputs().size(); ++i) add(system().output_id(i));
+}
+
+core::Context Session::context(core::VariableId id) const {
+  const std::string component =
+      system().is_output(id) ? "" : system().components()[id.component].name;
+  return {.unit = component, .variable = system().variable(id).name};
 }
 
 std::size_t Session::index(core::VariableId id) const {
@@ -273,8 +274,7 @@ void Session::make_changes() {
 core::ValueBlock Session::get(core::VariableId id) {
   require_under_way();
   if (system().variable(id).type == core::ValueType::Clock) {
-    core::fail_input(context_of(system(), id), "a clock has no value between its ticks",
-                     "look at the messages");
+    core::fail_input(context(id), "a clock has no value between its ticks", "look at the messages");
   }
   make_changes();
   std::optional<core::ValueBlock> value;
@@ -285,30 +285,26 @@ core::ValueBlock Session::get(core::VariableId id) {
 /// Throws core::Error (Input) for a value that is none of the variable.
 void Session::require_value(core::VariableId id, const core::ValueBlock& value) const {
   const core::Variable& variable = system().variable(id);
-  if (core::has_nan(value)) {
-    core::fail_input(context_of(system(), id), "NaN is not a number that it can be set to");
-  }
   if (variable.type != core::ValueType::Enumeration) return;
   for (const std::int64_t number : value.numbers<std::int64_t>()) {
     if (std::ranges::count(variable.items, number, &std::pair<std::string, std::int64_t>::second) >
         0) {
       continue;
     }
-    core::fail_input(context_of(system(), id),
-                     fmt::format("{} is none of the items of its type", number));
+    core::fail_input(context(id), fmt::format("{} is none of the items of its type", number));
   }
 }
 
 void Session::set(core::VariableId id, core::ValueBlock value) {
   require_under_way();
   if (system().is_output(id)) {
-    core::fail_input(context_of(system(), id), "an output of the system cannot be set",
+    core::fail_input(context(id), "an output of the system cannot be set",
                      "set an input of a component");
   }
   scenario::require_settable(system(), id);
   require_value(id, value);
   if (now() >= options_.stop) {
-    core::fail_input(context_of(system(), id), "the run is at its end, so a value has no effect");
+    core::fail_input(context(id), "the run is at its end, so a value has no effect");
   }
   std::erase_if(changes_.sets, [&](const core::Intervention& set) { return set.id == id; });
   changes_.sets.push_back({.id = id, .from = now(), .value = std::move(value)});
@@ -321,7 +317,7 @@ void Session::require_message(const core::SentMessage& message) const {
   const bool is_clock = is_of_component && variable.type == core::ValueType::Clock &&
                         variable.causality == core::Causality::Input;
   if (!is_clock || variable.clock->variability != core::IntervalVariability::Triggered) {
-    core::fail_input(context_of(system(), clock), "it is no input clock that ticks at events",
+    core::fail_input(context(clock), "it is no input clock that ticks at events",
                      "send to a triggered input clock");
   }
   for (const auto& [id, block] : message.values) {
@@ -330,7 +326,7 @@ void Session::require_message(const core::SentMessage& message) const {
                          payload.causality == core::Causality::Input &&
                          payload.belongs_to(variable.reference);
     if (!belongs) {
-      core::fail_input(context_of(system(), id),
+      core::fail_input(context(id),
                        fmt::format("it is no input that belongs to the clock '{}'", variable.name));
     }
     require_value(id, block);
@@ -341,8 +337,7 @@ void Session::send(core::SentMessage message) {
   require_under_way();
   require_message(message);
   if (now() >= options_.stop) {
-    core::fail_input(context_of(system(), message.clock),
-                     "the run is at its end, so a message is not received");
+    core::fail_input(context(message.clock), "the run is at its end, so a message is not received");
   }
   const bool ticks_already = std::ranges::any_of(
       changes_.messages,

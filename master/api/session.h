@@ -57,6 +57,8 @@ class Session {
   core::VariableId id(std::size_t index) const { return ids_.at(index); }
   std::size_t index(core::VariableId id) const;
   std::size_t find(const std::string& name) const;
+  /// For an error about the variable.
+  core::Context context(core::VariableId id) const;
 
   core::ValueBlock get(core::VariableId id);
   void set(core::VariableId id, core::ValueBlock value);
