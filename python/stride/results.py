@@ -27,8 +27,9 @@ _BOOLEANS = {"true": True, "false": False, "1": True, "0": False}
 class Signals(Mapping[str, np.ndarray]):
     """The recorded signals by their names; `time` are the instants [s] of all of them.
 
-    A signal is an array of numbers, of bool, or of objects (str, bytes). There may be several rows at one instant, one
-    for each event at it. Names are those of `stride inspect`; `units` are their units of measure.
+    A signal is an array of numbers, of bool, or of objects (str, bytes), which cannot be written to. There may be
+    several rows at one instant, one for each event at it. Names are those of `stride inspect`; `units` are their units
+    of measure.
     """
 
     def __init__(self, file: Path, types: Mapping[str, str], keeper: Any = None) -> None:
@@ -53,13 +54,13 @@ class Signals(Mapping[str, np.ndarray]):
     @functools.cached_property
     def time(self) -> np.ndarray:
         """[s], not falling."""
-        return np.array(self._columns["time"], dtype=float)
+        return _read_only(np.array(self._columns["time"], dtype=float))
 
     def __getitem__(self, name: str) -> np.ndarray:
         if name not in self._types:
             raise KeyError(f"no signal '{name}' was recorded; there are: {', '.join(self._types) or 'none'}")
         if name not in self._made:
-            self._made[name] = _array(self._columns[name], self._types[name])
+            self._made[name] = _read_only(_array(self._columns[name], self._types[name]))
         return self._made[name]
 
     def __iter__(self) -> Iterator[str]:
@@ -70,6 +71,12 @@ class Signals(Mapping[str, np.ndarray]):
 
     def __repr__(self) -> str:
         return f"<stride.Signals: {', '.join(self._types)}>"
+
+
+def _read_only(array: np.ndarray) -> np.ndarray:
+    """One run may be looked at by many tests."""
+    array.setflags(write=False)
+    return array
 
 
 def _array(texts: Any, type_: str) -> np.ndarray:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import atexit
 import ctypes
 import functools
 import logging
@@ -9,6 +10,8 @@ import math
 import os
 import signal
 import threading
+import time
+import weakref
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
@@ -165,6 +168,7 @@ class Simulation:
             *[c.Setting(name.encode(), None if value is None else value.encode()) for name, value in pairs]
         )
         self._interruption = _Interruption()
+        _open_simulations.add(self)
         self._progress = c.Progress(self._interruption.tell)  # kept as long as the library may call it
         given = c.Options(
             size=ctypes.sizeof(c.Options),
@@ -271,6 +275,8 @@ class Simulation:
             raise InputError(f"a step of {duration} s would go back")
         target = self._library.stride_seconds(float(seconds))
         if duration is not None:
+            if target == 0 < duration:
+                raise InputError(f"a step of {duration} s is shorter than a picosecond, in which stride counts")
             target = min(self.time_ps + target, c.END_OF_TIME)
         return self._advance(target)
 
@@ -377,7 +383,10 @@ class Simulation:
         self._call("stride_send", index, array, len(payload))
 
     def messages(self) -> list[Message]:
-        """What components have sent and received since the last call, in order."""
+        """What components have sent and received since the last call, in order.
+
+        What `send` sends is received at the next step, or where a variable is read, and among them from then on.
+        """
         found = []
         raw = c.Message(size=ctypes.sizeof(c.Message))
         while self._library.stride_next_message(self._open(), ctypes.byref(raw)):
@@ -466,6 +475,8 @@ class _Interruption:
         if hasattr(signal, name)
     )
 
+    is_python_ending = False
+
     def __init__(self) -> None:
         self.is_active = False
         self._raised: Optional[BaseException] = None
@@ -474,6 +485,8 @@ class _Interruption:
     def __enter__(self) -> None:
         if self.is_active:
             raise MisuseError("the simulation is in a step already")
+        if _Interruption.is_python_ending:
+            raise MisuseError("Python is about to end")
         self.is_active = True
         self._raised = None
         if threading.current_thread() is not threading.main_thread():
@@ -502,17 +515,31 @@ class _Interruption:
         return 0 if self._raised is None else 1
 
 
+_open_simulations: weakref.WeakSet[Simulation] = weakref.WeakSet()
+
+
+@atexit.register
+def _end_steps() -> None:
+    """Those of daemon threads, which must not come back to a Python that is no more."""
+    _Interruption.is_python_ending = True
+    for simulation in list(_open_simulations):
+        if simulation._interruption.is_active:
+            simulation._library.stride_interrupt(simulation._handle)
+    while any(simulation._interruption.is_active for simulation in list(_open_simulations)):
+        time.sleep(0.001)
+
+
 # ---- Values ----
 
 
-def _text_bytes(text: str, what: str) -> bytes:
+def _text_bytes(text: str, what: str, **where: Any) -> bytes:
     """Raises InputError for what no text in C can be."""
     try:
         encoded = text.encode()
     except UnicodeEncodeError:
-        raise InputError(f"{what}: {text!r} cannot be written in UTF-8") from None
+        raise InputError(f"{what}: {text!r} cannot be written in UTF-8", **where) from None
     if b"\0" in encoded:
-        raise InputError(f"{what}: a text has no NUL: {text!r}")
+        raise InputError(f"{what}: a text has no NUL: {text!r}", **where)
     return encoded
 
 
@@ -546,10 +573,11 @@ def _elements(variable: Variable, value: Any) -> tuple[Any, int]:
     """The elements in their C type. Raises InputError for what is none of the variable."""
     count = math.prod(variable.shape)
 
+    local_name = variable.name[len(variable.component) + 1 :] if variable.component else variable.name
+    where: dict[str, Any] = {"component": variable.component, "variable": local_name}
+
     def fail(wanted: str) -> InputError:
-        return InputError(
-            f"'{variable.name}' is {wanted}, not {value!r}", component=variable.component, variable=variable.name
-        )
+        return InputError(f"'{variable.name}' is {wanted}, not {value!r}", **where)
 
     if variable.type == "Clock":
         raise fail("a clock, which has no value")
@@ -559,7 +587,8 @@ def _elements(variable: Variable, value: Any) -> tuple[Any, int]:
         if len(flat) != count or not all(isinstance(element, wanted) for element in flat):
             raise fail("a text (str)" if variable.type == "String" else "bytes")
         if variable.type == "String":
-            return (ctypes.c_char_p * count)(*[_text_bytes(element, variable.name) for element in flat]), count
+            texts = [_text_bytes(element, variable.name, **where) for element in flat]
+            return (ctypes.c_char_p * count)(*texts), count
         space: Any = (c.Bytes * count)()
         space.kept = [ctypes.create_string_buffer(bytes(element), len(element) or 1) for element in flat]
         for entry, buffer, element in zip(space, space.kept, flat):

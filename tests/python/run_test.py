@@ -17,6 +17,8 @@ def test_a_run(folder):
     assert run.time[-1] == run.reached == 1
     assert run.signals["first.y"][-1] == pytest.approx(1 - np.exp(-1))
     assert run.signals["first.y"].dtype == np.float64
+    with pytest.raises(ValueError, match="read-only"):
+        run.signals["first.y"][0] = 1
     assert [verdict.name for verdict in run.verdicts][0] == "it does not overshoot"
     assert run.verdicts[0].margin == 0
     assert "first.y" in run.summary

@@ -149,6 +149,8 @@ def test_errors_say_what_and_where(folder):
             sim.step(until=-1)
         with pytest.raises(stride.InputError, match="would go back"):
             sim.step(-1)
+        with pytest.raises(stride.InputError, match="shorter than a picosecond"):
+            sim.step(1e-13)
         with pytest.raises(stride.InputError, match="a number"):
             sim.step("soon")
         with pytest.raises(stride.InputError, match="a number"):
@@ -191,7 +193,6 @@ def test_wrong_options(folder, options, message):
         ("float64", "1", "Float64"),
         ("float64", [1.0], "Float64"),
         ("float64", None, "Float64"),
-        ("float64", math.nan, "NaN"),
         ("float32", 1e300, "Float32"),
         ("matrix", [1.0, 2.0], "shape"),
         ("string", b"x", "text"),
@@ -205,8 +206,9 @@ def test_wrong_options(folder, options, message):
 )
 def test_values_that_are_none_of_a_variable(types, name, value, message):
     with stride.Simulation("types.ssd") as sim:
-        with pytest.raises(stride.InputError, match=message):
+        with pytest.raises(stride.InputError, match=message) as caught:
             sim[f"types.{name}"] = value
+        assert (caught.value.component, caught.value.variable) == ("types", name)
 
 
 def test_messages_that_nobody_receives(types):
@@ -381,6 +383,47 @@ def test_a_fork_is_refused(folder):
         assert "fork" in answer.get(timeout=30)
         child.join()
         sim.run()
+
+
+def test_nan_is_a_value_as_it_is_for_the_program(types):
+    with stride.Simulation("types.ssd") as sim:
+        sim["types.float64"] = math.nan
+        assert math.isnan(sim["types.float64"])
+
+
+def test_handlers_of_the_caller_are_not_taken_for_those_of_units(folder, caplog):
+    with stride.Simulation("test.ssd") as sim:
+        before = signal.signal(signal.SIGUSR1, lambda *_: None)
+        sim.run()
+    signal.signal(signal.SIGUSR1, before)
+    assert [record.message for record in caplog.records] == []
+
+
+def _mapped(library):
+    with open("/proc/self/maps") as maps:
+        return sum(library in line for line in maps)
+
+
+def test_the_libraries_of_units_go_with_them(folder):
+    with stride.Simulation("box_drop", stop=0.1) as sim:
+        sim.run()
+        assert _mapped("mujoco_world.so") > 0
+    assert _mapped("mujoco_world.so") == 0
+
+
+_DAEMON = """
+import stride, threading, time
+sim = stride.Simulation("test.ssd", stop=9e6, step=1e-3)
+threading.Thread(target=sim.run, daemon=True).start()
+while sim.time == 0:
+    time.sleep(0.01)
+print("ends", flush=True)
+"""
+
+
+def test_a_step_of_a_daemon_thread_ends_with_python(folder):
+    ended = subprocess.run([sys.executable, "-c", _DAEMON], capture_output=True, text=True, timeout=120)
+    assert (ended.returncode, ended.stdout) == (0, "ends\n"), ended.stderr
 
 
 _ENDLESS = """
