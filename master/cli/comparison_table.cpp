@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cstddef>
 #include <string>
 #include <system_error>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -54,15 +56,32 @@ std::vector<const compare::Difference*> most_important(const compare::Difference
   return ordered;
 }
 
-/// Numbers in short, unless they are the same in short.
+/// Behind what both begin with, but for a few characters of that.
+std::pair<std::string, std::string> ends_of(const std::string& a, const std::string& b) {
+  constexpr std::ptrdiff_t kKept = 4;
+  const auto [differs, other] = std::ranges::mismatch(a, b);
+  std::ptrdiff_t from = std::max<std::ptrdiff_t>(differs - a.begin() - kKept, 0);
+  while (from > 0 && core::is_within_character(a[static_cast<std::size_t>(from)])) --from;
+  if (from == 0) return {a, b};
+  const auto end = [&](const std::string& text) {
+    return "…" + text.substr(static_cast<std::size_t>(from));
+  };
+  return {end(a), end(b)};
+}
+
+/// In short, unless they are the same in short.
 std::pair<std::string, std::string> shown_values(const compare::Difference& difference) {
   constexpr std::size_t kMostCharacters = 36;
-  const std::string a = short_number(difference.a);
-  const std::string b = short_number(difference.b);
-  if (a != b)
-    return {core::readable_text(a, kMostCharacters), core::readable_text(b, kMostCharacters)};
-  return {core::readable_text(difference.a, kMostCharacters),
-          core::readable_text(difference.b, kMostCharacters)};
+  const auto shortened = [](const std::string& a, const std::string& b) {
+    return std::pair(core::readable_text(a, kMostCharacters),
+                     core::readable_text(b, kMostCharacters));
+  };
+  const auto& [a, b] = std::tie(difference.a, difference.b);
+  auto shown = shortened(short_number(a), short_number(b));
+  if (shown.first == shown.second) shown = shortened(a, b);
+  if (shown.first != shown.second) return shown;
+  const auto [end_a, end_b] = ends_of(a, b);
+  return shortened(end_a, end_b);
 }
 
 std::string extreme_text(const std::optional<compare::Extreme>& extreme) {

@@ -6,28 +6,6 @@
 
 namespace stride::compare {
 
-const char* name(Kind kind) {
-  switch (kind) {
-    case Kind::Message:
-      return "message";
-    case Kind::Event:
-      return "event";
-    case Kind::Signal:
-      return "signal";
-    case Kind::Coverage:
-      return "coverage";
-    case Kind::Check:
-      return "check";
-    case Kind::Verdict:
-      return "verdict";
-    case Kind::Outcome:
-      return "outcome";
-    case Kind::File:
-      break;
-  }
-  return "file";
-}
-
 /// Whether it is the first one so far.
 bool SignalTally::count(std::int64_t time) {
   ++difference_.count;

@@ -134,6 +134,15 @@ TEST_CASE("a table is of a bounded length, and --json has the rest") {
   CHECK(json::parse(read(runs.workspace / "c.json"))["differences"].size() == 30);
 }
 
+TEST_CASE("what both values begin with is left out where it would hide the difference") {
+  const TwoRuns runs;
+  const std::string head = "time,index,component,variable,direction,payload,content\n";
+  const std::string same(50, '7');
+  runs.workspace.scratch().write("a/events.csv", head + "1,0,x,y,sent," + same + "aa,\n");
+  runs.workspace.scratch().write("b/events.csv", head + "1,0,x,y,sent," + same + "bb,\n");
+  CHECK_THAT(runs.compare().out, Contains("  …7777aa  …7777bb  "));
+}
+
 TEST_CASE("what is wrong with the input is an error with its place, and the answer is code 2") {
   const TwoRuns runs;
   CHECK_THAT(runs.error({"--ignore", "frist.y"}),
