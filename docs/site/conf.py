@@ -43,7 +43,7 @@ exclude_patterns = ["build*", "results*", "master", "**/.*", "**/__pycache__"]
 CONTENTS = {
     "README": {
         "Start": "All pages <docs/README>, docs/first-steps, docs/wheel, docs/container, docs/accelerometer",
-        "Scenarios and runs": "docs/scenario, docs/cli, docs/report, docs/checks, docs/coverage, docs/stimuli,"
+        "Scenarios and runs": "docs/scenario, docs/cli, docs/report, docs/compare, docs/checks, docs/coverage, docs/stimuli,"
         " docs/checkpoints, docs/traces, docs/film, docs/hosts, docs/remote, scenarios/README",
         "Many runs": "docs/campaigns, docs/search, docs/distil",
         "Python and C": "docs/python, docs/site/python-api, docs/python-peers, docs/library, docs/site/c-api",

@@ -12,6 +12,7 @@ void add_run(CLI::App& app);
 void add_resume(CLI::App& app);
 void add_check(CLI::App& app);
 void add_inspect(CLI::App& app);
+void add_compare(CLI::App& app);
 void add_complete(CLI::App& app);
 void add_new(CLI::App& app);
 void add_pack(CLI::App& app);

@@ -152,6 +152,8 @@ int parse(CLI::App& app, int argc, char** argv) {
     std::ranges::reverse(words);  // as CLI11 takes them
     app.parse(std::move(words));
     return 0;
+  } catch (const CLI::RuntimeError& end) {  // a command has done its work, and this is its answer
+    return end.get_exit_code();
   } catch (const CLI::ParseError& answer) {
     return app.exit(answer) == 0 ? 0 : kWrongInput;
   }
@@ -194,6 +196,7 @@ void add_all(CLI::App& app) {
   stride::cli::add_resume(app);
   stride::cli::add_campaign(app);
   stride::cli::add_report(app);
+  stride::cli::add_compare(app);
   stride::cli::add_coverage(app);
   stride::cli::add_check(app);
   stride::cli::add_inspect(app);

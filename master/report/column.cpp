@@ -105,6 +105,20 @@ std::size_t Column::size() const {
   return std::visit([](const auto& values) { return values.size(); }, values_);
 }
 
+std::string Column::text(std::size_t row) const {
+  if (const Booleans* booleans = std::get_if<Booleans>(&values_)) {
+    return (*booleans)[row] != 0 ? "true" : "false";
+  }
+  if (const Integers* integers = std::get_if<Integers>(&values_)) {
+    return std::to_string((*integers)[row]);
+  }
+  if (const Doubles* doubles = std::get_if<Doubles>(&values_)) {
+    return text_of((*doubles)[row], info_.type);
+  }
+  const Texts& texts = std::get<Texts>(values_);
+  return texts.distinct()[static_cast<std::size_t>(texts.indices()[row])];
+}
+
 void Column::append(const core::CsvReader::Field& field) {
   if (is_deduced_) deduce(field);
   if (Doubles* doubles = std::get_if<Doubles>(&values_); doubles && core::is_real(info_.type)) {

@@ -62,6 +62,8 @@ class Column {
   bool is_stepped() const;
   const Values& values() const { return values_; }
   std::size_t size() const;
+  /// A value as signals.csv has it, but for quotation marks.
+  std::string text(std::size_t row) const;
 
   /// Throws std::invalid_argument, whose text contains what was expected, for what is not of the
   /// type.

@@ -1,7 +1,6 @@
 #include "master/report/results.h"
 
 #include <cerrno>
-#include <charconv>
 #include <map>
 #include <system_error>
 #include <utility>
@@ -22,41 +21,20 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::uint64_t index_of(const Table& table, std::size_t place) {
-  const std::string_view text = table.field(place).text;
-  std::uint64_t index = 0;
-  const auto [at, error] = std::from_chars(text.data(), text.data() + text.size(), index);
-  if (error != std::errc() || at != text.data() + text.size()) {
-    table.fail(place, fmt::format("expected an integer, found '{}'", text));
-  }
-  return index;
-}
-
 std::vector<RecordedMessage> read_messages(const fs::path& file, std::size_t limit, Notes& notes) {
-  Table table(file);
+  MessageRows rows(file);
   std::vector<RecordedMessage> messages;
-  if (table.columns().empty()) return messages;
-  const std::size_t time = table.place("time");
-  const std::size_t index = table.place("index");
-  const std::size_t component = table.place("component");
-  const std::size_t variable = table.place("variable");
-  const std::size_t direction = table.place("direction");
-  const std::size_t payload = table.place("payload");
-  const std::optional<std::size_t> content = table.find("content");
+  if (rows.table().columns().empty()) return messages;
   std::size_t count = 0;
-  const auto unread = table.for_each_row([&] {
-    if (++count > limit) return true;
-    messages.push_back({table.time(time), index_of(table, index), table.field(component).value(),
-                        table.field(variable).value(), table.field(direction).value(),
-                        table.field(payload).value(),
-                        content ? table.field(*content).value() : std::string()});
+  const auto unread = rows.table().for_each_row([&] {
+    if (++count <= limit) messages.push_back(rows.message());
     return true;
   });
   notes.add_unread(file, unread);
   if (count > limit) {
     notes.add(file, fmt::format("the first {} of {} messages are shown", limit, count));
   }
-  notes.add_cut(file, table.cut());
+  notes.add_cut(file, rows.table().cut());
   return messages;
 }
 

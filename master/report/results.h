@@ -10,21 +10,11 @@
 
 #include "master/coverage/report.h"
 #include "master/recorders/results_folder.h"
+#include "master/report/message_rows.h"
 #include "master/report/run_file.h"
 #include "master/report/signals_file.h"
 
 namespace stride::report {
-
-/// A row of events.csv.
-struct RecordedMessage {
-  std::int64_t time = 0;  ///< [ps]
-  std::uint64_t index = 0;
-  std::string component;
-  std::string variable;
-  std::string direction;
-  std::string payload;
-  std::string content;
-};
 
 /// The rows of activity.csv with one component and kind.
 struct UnitActivities {

@@ -22,18 +22,6 @@ Column deduced_column(const std::string& heading) {
   return Column(heading.substr(0, at), heading.substr(at + 2, heading.size() - at - 3));
 }
 
-std::vector<Column> make_columns(std::span<const std::string> headings,
-                                 std::span<const SignalInfo> infos) {
-  std::map<std::string, const SignalInfo*> known;
-  for (const SignalInfo& info : infos) known.emplace(core::with_unit(info.name, info.unit), &info);
-  std::vector<Column> columns;
-  for (const std::string& heading : headings) {
-    const auto found = known.find(heading);
-    columns.push_back(found == known.end() ? deduced_column(heading) : Column(*found->second));
-  }
-  return columns;
-}
-
 /// At least as many as there are, the header left out; 0 where the file is so small that it does
 /// not matter.
 std::size_t count_rows(const std::filesystem::path& file, std::size_t limit) {
@@ -62,7 +50,7 @@ class SignalsReader {
     const std::span<const std::string> headings = table_.columns();
     if (headings[0] != "time") table_.fail(0, "expected the column 'time'");
     const std::size_t count = std::min(headings.size() - 1, limits.columns);
-    signals_.columns = make_columns(headings.subspan(1, count), infos);
+    signals_.columns = signal_columns(headings.subspan(1, count), infos);
     signals_.left_out = headings.size() - 1 - count;
     thinner_ = Thinner(count_rows(file, limits.values), count, limits.values);
     signals_.thinned = thinner_.block();
@@ -108,6 +96,18 @@ class SignalsReader {
 };
 
 }  // namespace
+
+std::vector<Column> signal_columns(std::span<const std::string> headings,
+                                   std::span<const SignalInfo> infos) {
+  std::map<std::string, const SignalInfo*> known;
+  for (const SignalInfo& info : infos) known.emplace(core::with_unit(info.name, info.unit), &info);
+  std::vector<Column> columns;
+  for (const std::string& heading : headings) {
+    const auto found = known.find(heading);
+    columns.push_back(found == known.end() ? deduced_column(heading) : Column(*found->second));
+  }
+  return columns;
+}
 
 Signals read_signals(const std::filesystem::path& file, std::span<const SignalInfo> infos,
                      const SignalLimits& limits, Notes& notes) {

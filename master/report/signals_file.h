@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "master/report/column.h"
@@ -23,16 +24,21 @@ struct Signals {
   std::optional<std::size_t> thinned;  ///< rows of each block of which only the extremes were kept
 };
 
+/// The columns of signals.csv behind the time. `infos`: what run.json contains about them; of
+/// others the type follows from their fields.
+std::vector<Column> signal_columns(std::span<const std::string> headings,
+                                   std::span<const SignalInfo> infos);
+
 struct SignalLimits {
   std::size_t columns = 10'000;
   std::size_t values = 20'000'000;
 };
 
-/// Reads signals.csv. `infos`: what run.json contains about its columns; of others the type follows
-/// from their fields. Columns above the limit are not read. More values than the limit are thinned
-/// while they are read, so that there are never more than three times as many in memory, however
-/// long the file is; where the extremes of all columns alone, with their rows, are more than the
-/// limit, twice those. Adds to the notes what was cut off or left out. Throws core::Error (Input).
+/// Reads signals.csv. `infos`: as of signal_columns(). Columns above the limit are not read. More
+/// values than the limit are thinned while they are read, so that there are never more than three
+/// times as many in memory, however long the file is; where the extremes of all columns alone, with
+/// their rows, are more than the limit, twice those. Adds to the notes what was cut off or left
+/// out. Throws core::Error (Input).
 Signals read_signals(const std::filesystem::path& file, std::span<const SignalInfo> infos,
                      const SignalLimits& limits, Notes& notes);
 

@@ -37,6 +37,8 @@ class Table {
   std::optional<Unread> for_each_row(const std::function<bool()>& take);
   const std::vector<core::CsvReader::Field>& fields() const { return reader_.fields(); }
   const core::CsvReader::Field& field(std::size_t place) const { return fields()[place]; }
+  /// Where the present row begins, counted from 1.
+  std::size_t line() const { return reader_.line(); }
   /// The field as a time [ps].
   std::int64_t time(std::size_t place) const;
 

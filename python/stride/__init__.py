@@ -3,6 +3,7 @@
     run = stride.run("nfc_approach")                     # a run, to its end
     run.signals["sensor.capacitor.voltage"]              # a numpy array
     run.verdicts                                         # of units and checks
+    stride.compare(run, "before")                        # where it differs from another one, and why
 
     with stride.Simulation("x.ssd") as sim:              # step by step
         sim.step(until=1.5)
@@ -22,12 +23,17 @@ if TYPE_CHECKING:
     from ._errors import Error, InputError, MisuseError, RunError
     from ._installed import program
     from ._program import Campaign, campaign, run
+    from .comparison import Comparison, Difference, Extreme, InputDifference, compare
     from .results import Run, Signals
     from .simulation import Message, Simulation, Variable, Verdict
 
 __all__ = [
     "Campaign",
+    "Comparison",
+    "Difference",
     "Error",
+    "Extreme",
+    "InputDifference",
     "InputError",
     "Message",
     "MisuseError",
@@ -38,6 +44,7 @@ __all__ = [
     "Variable",
     "Verdict",
     "campaign",
+    "compare",
     "program",
     "run",
 ]
@@ -47,6 +54,7 @@ _MODULES = {
     "_errors": ("Error", "InputError", "MisuseError", "RunError"),
     "_installed": ("program",),
     "_program": ("Campaign", "campaign", "run"),
+    "comparison": ("Comparison", "Difference", "Extreme", "InputDifference", "compare"),
     "results": ("Run", "Signals"),
     "simulation": ("Message", "Simulation", "Variable", "Verdict"),
 }

@@ -58,6 +58,20 @@ def output_of(arguments: list[str], folder: Optional[PathLike] = None) -> str:
     return output
 
 
+def answer_of(arguments: list[str], file: Path) -> str:
+    """What the program prints of a question whose answer may be no, with code 1, and is written to a file.
+
+    Raises InputError where the question is wrong, and RunError where there is no answer.
+    """
+    code, output, messages = _call(arguments)
+    if code == 2:
+        raise _failure(messages, InputError)
+    _warn(messages)
+    if code not in (0, 1) or not file.is_file():
+        raise _failure(messages, RunError)
+    return output
+
+
 def _failure(messages: str, kind: type[AnyError]) -> AnyError:
     """The error among the messages."""
     before, found, error = messages.partition(_ERROR)

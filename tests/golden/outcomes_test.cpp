@@ -45,6 +45,15 @@ const ScenarioRun& two_tags() {
 
 }  // namespace
 
+TEST_CASE("of a run that is not as its golden results it is said where it differs first") {
+  const ScenarioRun run(
+      "nfc_far", {"--no-trace", "--no-idle-skip", "--set", "sensor.power.capacitance=0.0004"});
+  const std::string differences = golden_differences("nfc_far", run);
+  CHECK_THAT(differences, Catch::Matchers::StartsWith(
+                              "\ndiffer first at t = 0 s in signal sensor.capacitor.charge\n"));
+  CHECK_THAT(differences, Catch::Matchers::Contains("  signal  sensor.capacitor.voltage  "));
+}
+
 TEST_CASE("nfc_far: no message arrives, as the program expects") {
   const ScenarioRun run("nfc_far", {"--no-trace", "--no-idle-skip"});
   CHECK(golden_differences("nfc_far", run) == "");

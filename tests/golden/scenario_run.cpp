@@ -4,53 +4,11 @@
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
-#include <map>
 #include <sstream>
 #include <stdexcept>
 
 namespace stride::tests {
-namespace {
-
 namespace fs = std::filesystem;
-
-struct Tolerance {
-  double absolute, relative;
-  bool allows(double value, double expected) const {
-    return std::abs(value - expected) <= absolute + relative * std::abs(expected);
-  }
-};
-
-std::map<std::string, Tolerance> read_tolerances(const fs::path& path, const Csv& expected) {
-  const Csv file(path);
-  std::map<std::string, Tolerance> tolerances;
-  for (std::size_t i = 0; i < file.size(); ++i) {
-    const std::string& signal = file.row(i)[0];
-    if (!expected.has(signal)) throw std::runtime_error(path.string() + ": no signal " + signal);
-    tolerances[signal] = {file.number(i, 1), file.number(i, 2)};
-  }
-  return tolerances;
-}
-
-std::string signal_differences(const fs::path& golden, const Csv& signals) {
-  const Csv expected(golden / "signals.csv");
-  if (signals.titles() != expected.titles()) return "other signals are recorded\n";
-  auto tolerances = read_tolerances(golden / "tolerances.csv", expected);
-  std::ostringstream differences;
-  for (std::size_t i = 0; i < expected.size(); ++i) {
-    const std::string& time = expected.row(i).front();
-    const std::size_t row = signals.row_at(time);
-    for (std::size_t k = 1; k < expected.titles().size(); ++k) {
-      const std::string& title = expected.titles()[k];
-      const Tolerance tolerance = tolerances[title];  // zeros where there is none
-      if (tolerance.allows(signals.number(row, k), expected.number(i, k))) continue;
-      differences << "at " << time << " s " << title << " is " << signals.row(row)[k]
-                  << ", expected " << expected.row(i)[k] << "\n";
-    }
-  }
-  return differences.str();
-}
-
-}  // namespace
 
 std::set<std::string> golden_scenarios() {
   std::set<std::string> found;
@@ -137,11 +95,9 @@ std::vector<std::string> ScenarioRun::payloads(const std::string& component,
 
 std::string golden_differences(const std::string& scenario, const ScenarioRun& run) {
   const fs::path golden = scenario_folder(scenario) / "golden";
-  std::string differences = signal_differences(golden, run.signals());
-  if (text_of(run.file("events.csv")) != text_of(golden / "events.csv")) {
-    differences += "the messages are others than those in " + (golden / "events.csv").string();
-  }
-  return differences;
+  const Outcome outcome =
+      run_program({"compare", run.file("").string(), golden.string(), "--golden"});
+  return outcome.exit_code == 0 ? "" : "\n" + outcome.out + outcome.err;
 }
 
 }  // namespace stride::tests

@@ -58,8 +58,8 @@ class ScenarioRun {
   std::unique_ptr<Csv> events_;
 };
 
-/// The differences of a run of this scenario from its golden results, one on a line; empty if there
-/// are none. Messages are compared byte by byte, signals within tolerances.csv, at the instants
+/// What `stride compare --golden` prints of a run of this scenario and its golden results; empty if
+/// they are equal. Messages are compared exactly, signals within tolerances.csv, at the instants
 /// that the golden file has.
 std::string golden_differences(const std::string& scenario, const ScenarioRun& run);
 

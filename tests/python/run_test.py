@@ -54,6 +54,29 @@ def test_signals_of_each_type(types):
         run.signals["x"]
 
 
+def test_runs_are_compared(folder):
+    a = stride.run("test.ssd", set={"first.u": 1})
+    assert stride.compare(a, a)
+    b = stride.run("test.ssd", out="b", set={"first.u": 1, "second.time_constant": 0.5})
+    comparison = stride.compare(a, "b", only=["second.y"])
+    assert not comparison and not comparison.equal
+    assert (comparison.first.kind, comparison.first.name) == ("signal", "second.y")
+    difference = next(each for each in comparison.differences if each.kind == "signal")
+    greatest = np.abs(a.signals["second.y"] - b.signals["second.y"]).max()
+    assert difference.absolute.value == greatest
+    assert [(each.kind, each.name, each.b) for each in comparison.inputs] == [
+        ("option", "--set", "second.time_constant=0.5")
+    ]
+    assert comparison.summary.startswith("differ first at t = ")
+    assert stride.compare(a, "b", tolerance={"second.y": 1})
+    assert stride.compare(a, a).first is None
+
+
+def test_what_cannot_be_compared(folder):
+    with pytest.raises(stride.InputError, match="this is not a folder"):
+        stride.compare("x", "y")
+
+
 def test_pandas(folder):
     pandas = pytest.importorskip("pandas")
     table = stride.run("test.ssd", set={"first.u": 1}).to_pandas()

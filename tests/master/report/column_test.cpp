@@ -83,6 +83,16 @@ TEST_CASE("Booleans and texts") {
   CHECK(texts(of(ValueType::Binary, {"00ff", "0a", "00ff"})) == Words{"00ff", "0a", "00ff"});
 }
 
+TEST_CASE("a value has the text of the file, in whatever form it is held") {
+  CHECK(of(ValueType::Float64, {"0.1", "-0", "nan"}).text(1) == "-0");
+  CHECK(of(ValueType::Float64, {"0.1", "-0", "nan"}).text(2) == "nan");
+  CHECK(of(ValueType::Boolean, {"false", "true"}).text(1) == "true");
+  CHECK(of(ValueType::Int32, {"-7"}).text(0) == "-7");
+  CHECK(of(ValueType::UInt32, {"7", "4294967295"}).text(1) == "4294967295");
+  CHECK(of(ValueType::UInt64, {"7", "18446744073709551615"}).text(0) == "7");
+  CHECK(of(ValueType::String, {"a", "b", "a"}).text(2) == "a");
+}
+
 TEST_CASE("a signal that does not change continuously is stepped") {
   CHECK_FALSE(of(ValueType::Float64, {}).is_stepped());
   CHECK(of(ValueType::Int32, {}).is_stepped());

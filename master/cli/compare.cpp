@@ -1,0 +1,146 @@
+// stride compare: two results side by side.
+#include <filesystem>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include "master/campaign/plan_folder.h"
+#include "master/cli/commands.h"
+#include "master/cli/comparison_table.h"
+#include "master/cli/exit.h"
+#include "master/cli/output.h"
+#include "master/cli/result_folders.h"
+#include "master/compare/comparison_json.h"
+#include "master/report/results.h"
+#include "master/results/output_paths.h"
+#include "master/util/error.h"
+#include "master/util/input_file.h"
+#include "master/util/number_text.h"
+#include "master/util/time_text.h"
+
+namespace stride::cli {
+namespace {
+
+struct CompareArguments {
+  std::filesystem::path a, b;
+  std::string absolute = "0", relative = "0";
+  std::string time_tolerance;  ///< empty: none
+  std::vector<std::string> tolerances;
+  std::vector<std::string> only, ignored;
+  std::filesystem::path json;  ///< empty: none
+  bool is_golden = false;
+};
+
+/// What parse(text) returns.
+template <class Parse>
+auto parsed(const char* option, const std::string& text, Parse&& parse) {
+  try {
+    return parse(text);
+  } catch (const std::invalid_argument& mistake) {
+    core::fail_input({}, fmt::format("{} {}: {}", option, text, mistake.what()));
+  }
+}
+
+compare::Settings settings_of(const CompareArguments& arguments) {
+  compare::Settings settings{
+      .only = arguments.only, .ignored = arguments.ignored, .is_golden = arguments.is_golden};
+  settings.tolerance = {parsed("--absolute", arguments.absolute, core::parse_at_least_zero),
+                        parsed("--relative", arguments.relative, core::parse_at_least_zero)};
+  if (!arguments.time_tolerance.empty()) {
+    settings.time_tolerance =
+        parsed("--time-tolerance", arguments.time_tolerance, core::parse_seconds).count();
+  }
+  for (const std::string& text : arguments.tolerances) {
+    settings.tolerances.push_back(compare::parse_tolerance(text));
+  }
+  return settings;
+}
+
+/// A campaign is many runs.
+void refuse_campaign(const std::filesystem::path& folder) {
+  for (const char* file : {campaign::kPlanDescription, campaign::kSearchDescription}) {
+    if (!core::path_exists(folder / file)) continue;
+    core::fail_input({.where = {folder.string(), 0}}, "this is a folder of many runs",
+                     "compare the results of one case with each other: stride compare "
+                     "A/cases/000/000017 B/cases/000/000017");
+  }
+}
+
+void check_output_path(const CompareArguments& arguments) {
+  if (arguments.json.empty()) return;
+  const results::OutputPath output{"--json " + arguments.json.string(), arguments.json};
+  for (const std::filesystem::path& folder : {arguments.a, arguments.b}) {
+    refuse_result_folders(folder, output);
+    results::refuse_kept_paths({&output, 1},
+                               results::kept_results(folder, report::result_files(folder)));
+  }
+}
+
+void compare_folders(const CompareArguments& arguments) {
+  refuse_campaign(arguments.a);
+  refuse_campaign(arguments.b);
+  const compare::Settings settings = settings_of(arguments);
+  check_output_path(arguments);
+  const compare::Comparison comparison =
+      compare::compare_results(arguments.a, arguments.b, settings);
+  print_warnings(comparison.notes);
+  print_text("{}", comparison_text(comparison));
+  if (!arguments.json.empty()) compare::write_comparison(arguments.json, comparison, settings);
+  if (!comparison.differences.empty()) throw CLI::RuntimeError(kRunFailed);
+}
+
+}  // namespace
+
+void add_compare(CLI::App& app) {
+  CLI::App* command =
+      app.add_subcommand("compare", "Show where two results differ first, and in what");
+  const auto arguments = std::make_shared<CompareArguments>();
+  command->add_option("A", arguments->a, "The results of a run")->required()->type_name("FOLDER");
+  command
+      ->add_option("B", arguments->b,
+                   "Those to compare them with, to which relative differences are")
+      ->required()
+      ->type_name("FOLDER");
+  command
+      ->add_option("--absolute", arguments->absolute,
+                   "Reals may differ by so much, in their units of measure; 0 otherwise")
+      ->type_name("NUMBER");
+  command
+      ->add_option("--relative", arguments->relative,
+                   "Reals may differ by so much of the value in B in addition; 0 otherwise")
+      ->type_name("NUMBER");
+  command
+      ->add_option("--tolerance", arguments->tolerances,
+                   "Likewise of the matching signals, instead; may be given several times")
+      ->type_name("SIGNAL=ABSOLUTE[,RELATIVE]")
+      ->allow_extra_args(false);
+  command
+      ->add_option("--time-tolerance", arguments->time_tolerance,
+                   "Instants may differ by so much, and signals are compared as curves, at the "
+                   "instants of both runs; 0 for runs that step differently")
+      ->type_name("SECONDS");
+  command
+      ->add_option("--only", arguments->only,
+                   "Compare the matching signals and messages alone; may be given several times")
+      ->type_name("GLOB")
+      ->allow_extra_args(false);
+  command
+      ->add_option("--ignore", arguments->ignored,
+                   "Leave the matching signals and messages out; may be given several times")
+      ->type_name("GLOB")
+      ->allow_extra_args(false);
+  command->add_flag("--golden", arguments->is_golden,
+                    "B is kept as a reference: compare what it has, at its instants, within its "
+                    "tolerances.csv");
+  command->add_option("--json", arguments->json, "Write all differences to this file")
+      ->type_name("FILE");
+  command->footer("Exit codes: 0 they are equal, 1 they differ, 2 the input was wrong.");
+  command->callback([arguments] { compare_folders(*arguments); });
+}
+
+}  // namespace stride::cli

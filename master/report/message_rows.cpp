@@ -1,0 +1,45 @@
+#include "master/report/message_rows.h"
+
+#include <charconv>
+#include <string_view>
+#include <system_error>
+
+#include <fmt/format.h>
+
+namespace stride::report {
+namespace {
+
+std::uint64_t index_of(const Table& table, std::size_t place) {
+  const std::string_view text = table.field(place).text;
+  std::uint64_t index = 0;
+  const auto [at, error] = std::from_chars(text.data(), text.data() + text.size(), index);
+  if (error != std::errc() || at != text.data() + text.size()) {
+    table.fail(place, fmt::format("expected an integer, found '{}'", text));
+  }
+  return index;
+}
+
+}  // namespace
+
+MessageRows::MessageRows(const std::filesystem::path& file) : table_(file) {
+  if (table_.columns().empty()) return;
+  time_ = table_.place("time");
+  index_ = table_.place("index");
+  component_ = table_.place("component");
+  variable_ = table_.place("variable");
+  direction_ = table_.place("direction");
+  payload_ = table_.place("payload");
+  content_ = table_.find("content");
+}
+
+RecordedMessage MessageRows::message() const {
+  return {table_.time(time_),
+          index_of(table_, index_),
+          table_.field(component_).value(),
+          table_.field(variable_).value(),
+          table_.field(direction_).value(),
+          table_.field(payload_).value(),
+          content_ ? table_.field(*content_).value() : std::string()};
+}
+
+}  // namespace stride::report
