@@ -11,7 +11,7 @@ quick=no
 install_packages "${packages_build[@]}" "${packages_test[@]}"
 
 # some tests wait for a network or for a time
-parallel=$(($(nproc) + 1))
+parallel=$(($(nproc) + 2))
 
 section() { printf '\n== %s (after %d min %02d s)\n' "$*" $((SECONDS / 60)) $((SECONDS % 60)); }
 

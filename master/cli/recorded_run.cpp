@@ -120,6 +120,10 @@ RecordedRun::RecordedRun(const RunSetup& setup, std::vector<std::unique_ptr<core
   if (!setup_.capture.is_empty()) simulation_.add_observer(setup_.capture);
   if (!setup_.display.quiet) simulation_.add_observer(summary_, summary_.signals());
   if (setup_.display.progress != ProgressStyle::None) simulation_.add_observer(progress_);
+  if (setup_.display.real_time) {
+    real_time_.emplace(*setup_.display.real_time, *setup_.options.interrupted);
+    simulation_.add_observer(*real_time_);
+  }
   if (has_begun_) announce();
 }
 
@@ -172,6 +176,7 @@ void RecordedRun::run_rest(std::vector<core::Intervention> interventions,
   records_.continue_in_copies(interventions);
   setup_.capture.continue_in_copies(stimuli);
   simulation_.add_interventions(std::move(interventions));
+  if (real_time_) real_time_->restart();
   announce();
   execute([&] { simulation_.run_rest(); });
 }
@@ -248,6 +253,7 @@ void RecordedRun::conclude() {
     if (page_failure) std::rethrow_exception(page_failure);
   };
   if (!setup_.display.quiet) print_summary();
+  tell_real_time();
   const bool is_good = simulation_.statistics().end != core::RunEnd::Interrupted &&
                        failures_text(verdicts()).empty();
   if (!is_good) warn_of_failure(rethrow_page_failure);
@@ -280,6 +286,15 @@ void RecordedRun::write_page() const {
   const std::filesystem::path page = records_.write_page();
   if (page.empty() || !setup_.display.open_report) return;
   warn_of_failure([&] { open_in_browser(page); });
+}
+
+void RecordedRun::tell_real_time() const {
+  if (!real_time_) return;
+  if (real_time_->is_late()) {
+    spdlog::warn("the run was slower than it should be by --realtime: {}", real_time_->text());
+  } else if (!setup_.display.quiet) {
+    print_text("{}\n", real_time_->text());
+  }
 }
 
 void RecordedRun::require_end() const {

@@ -15,6 +15,7 @@
 #include "master/capture/capture.h"
 #include "master/checkpoint/checkpoint_file.h"
 #include "master/cli/progress.h"
+#include "master/cli/real_time.h"
 #include "master/cli/run_arguments.h"
 #include "master/cli/summary.h"
 #include "master/cli/test_report.h"
@@ -29,6 +30,8 @@ struct RunDisplay {
   ProgressStyle progress = ProgressStyle::Auto;
   bool quiet = false;        ///< no summary
   bool open_report = false;  ///< in a browser, when the run is over
+  std::optional<double>
+      real_time{};  ///< simulated seconds in one of the wall clock; none: no limit
 };
 
 /// What a run is made from, and must outlive it.
@@ -98,6 +101,7 @@ class RecordedRun {
   void announce() const;
   void write_statistics(std::optional<std::string> error);
   void write_page() const;
+  void tell_real_time() const;
   void print_summary() const;
   void require_end() const;
   void warn_of_verdicts() const;
@@ -110,6 +114,7 @@ class RecordedRun {
   std::optional<std::string> failure_{};
   Summary summary_;
   Progress progress_;
+  std::optional<RealTime> real_time_{};
 };
 
 }  // namespace stride::cli

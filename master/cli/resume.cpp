@@ -130,6 +130,7 @@ void change(RunArguments& arguments, Resumption& resumption, const RunArguments&
   if (!changes.junit.empty()) arguments.junit = changes.junit;
   if (changes.threads > 1) arguments.threads = changes.threads;
   arguments.progress = changes.progress;
+  arguments.real_time = changes.real_time;
   arguments.quiet = changes.quiet;
   arguments.open = changes.open;
 }

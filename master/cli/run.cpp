@@ -31,6 +31,7 @@ RunArguments full_run(const RunArguments& arguments) {
   full.promise_failure.reset();
   full.captures.clear();
   full.junit.clear();
+  full.real_time.reset();
   full.scenario.film.clear();
   full.no_trace = full.no_report = full.quiet = true;
   full.open = full.check_idle = false;

@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "master/cli/real_time.h"
 #include "master/scenario/scenario.h"
 #include "master/settings/scenario_options.h"
 #include "master/util/error.h"
@@ -54,6 +55,13 @@ void add_display_options(CLI::App& command, RunArguments& arguments) {
           "How to show progress: automatically (on a terminal a line that is rewritten, elsewhere "
           "a line now and then), in plain lines, in JSON objects for programs, or not at all")
       ->type_name("auto|plain|json|none");
+  command
+      .add_option_function<std::string>(
+          "--realtime",
+          [&](const std::string& text) { arguments.real_time = parse_real_time_factor(text); },
+          "Let the run wait for the wall clock where it is ahead of it; 1 is real time, 2 twice as "
+          "fast")
+      ->type_name("FACTOR");
   command.add_flag("--open", arguments.open, "Open the report in a browser when the run is over");
   command.add_flag("--quiet,-q", arguments.quiet, "Print nothing but warnings and errors");
 }

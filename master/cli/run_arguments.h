@@ -48,6 +48,8 @@ struct RunArguments {
   std::shared_ptr<const Resumption> resumed{};  ///< null: the run begins at its start
   std::size_t threads = 1;
   std::optional<ProgressStyle> progress;
+  std::optional<double>
+      real_time{};  ///< simulated seconds in one of the wall clock; none: no limit
   bool no_trace = false;
   bool no_report = false;
   bool open = false;  ///< the report

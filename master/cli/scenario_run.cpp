@@ -326,7 +326,7 @@ ScenarioRun::ScenarioRun(const RunArguments& arguments, Records& records)
       unit_folders_(results_.target().folder, loaded_.component_names()),
       units_(arguments, loaded_, results_.target().folder, options_),
       capture_(begin()),
-      display_{progress_style(arguments), arguments.quiet, arguments.open},
+      display_{progress_style(arguments), arguments.quiet, arguments.open, arguments.real_time},
       recorded_({loaded_, options_, provenance_, results_.target(), display_, capture_,
                  records.tests, arguments.resumed.get(), &checkpoints_},
                 units_.take(capture_, options_)),

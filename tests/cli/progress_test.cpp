@@ -121,3 +121,25 @@ TEST_CASE("a style of progress that there is not") {
              Contains("--progress bar: there is no such style") &&
                  Contains("it is auto, plain, json or none"));
 }
+
+TEST_CASE("a run in real time takes its time, and has the same results") {
+  const Workspace workspace = resting();
+  REQUIRE(workspace.run({"--quiet", "--stop", "0.4"}).exit_code == 0);
+  const std::string signals = workspace.result("signals.csv");
+  const Outcome outcome = workspace.run({"--progress=json", "--stop", "0.4", "--realtime", "2"});
+  CHECK(outcome.exit_code == 0);
+  CHECK(workspace.result("signals.csv") == signals);
+  std::string lines = outcome.err;
+  if (const std::size_t warning = lines.find("stride: "); warning != std::string::npos) {
+    lines.resize(warning);  // on a machine that is busy
+  }
+  // from below: how long a machine takes is its own affair
+  CHECK(objects(lines).back()["wall_time"] >= 0.2);
+  CHECK_THAT(outcome.out + outcome.err, Contains("2 x real time: "));
+}
+
+TEST_CASE("a factor of real time that is none is refused") {
+  const Outcome outcome = resting().run({"--realtime", "0"});
+  CHECK(outcome.exit_code == 2);
+  CHECK_THAT(outcome.err, Contains("--realtime 0: expected") && Contains("above 0"));
+}
