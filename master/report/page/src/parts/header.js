@@ -1,5 +1,6 @@
 // The top of the page: the scenario of the run, its outcome, and its numbers.
 import { h } from "../dom.js";
+import { heading } from "./heading.js";
 import { keyNumbers } from "./numbers.js";
 import { summary, timeLink, verdictTable } from "./verdicts.js";
 
@@ -8,21 +9,24 @@ function banner({ kind, text, first }, view) {
   return h(`p.banner.${kind}`, { role: "status" }, h("strong", {}, text), ...where);
 }
 
-function outcomeText(run) {
-  const reached = Number.isFinite(run.reached) ? ` at ${run.reached} s` : "";
+function outcomeText(run, hasFailed) {
+  const reached = Number.isFinite(run.reached) ? `at ${run.reached} s` : "";
   if (!run.outcome) return "without run.json";
-  return run.outcome === "completed" ? "completed" : `${run.outcome}${reached}`;
+  if (run.outcome === "completed") return hasFailed ? "" : "completed";
+  return run.outcome === "failed" ? reached : `${run.outcome} ${reached}`;
 }
 
 export function header({ report, view }) {
   const { run } = report;
+  const verdict = summary(run);
+  const hasFailed = verdict.kind === "bad";
   const numbers = keyNumbers(report).map(([what, text]) => h("div", {}, h("dt", {}, what), h("dd", {}, text)));
   return h(
     "header",
     {},
-    h("h1", {}, run.system ?? "A run", " ", h("span.outcome", {}, outcomeText(run))),
+    heading(run.system ?? "A run", hasFailed, outcomeText(run, hasFailed)),
     h("p.origin", {}, run.scenario ?? "", report.version ? ` · stride ${report.version}` : ""),
-    banner(summary(run), view),
+    banner(verdict, view),
     run.error ? h("pre.error", {}, run.error) : null,
     verdictTable(run, view),
     h("dl.numbers", {}, ...numbers),

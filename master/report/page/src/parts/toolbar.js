@@ -40,9 +40,11 @@ export class Toolbar {
     this.time.textContent = isThere ? `t = ${rowTimeText(report, row)} s` : "no cursor";
     const count = report.times.length.toLocaleString("en");
     this.row.textContent = isThere ? `sample ${(row + 1).toLocaleString("en")} of ${count}` : "";
-    this.shown.textContent = view.isWhole ? "the whole run" : `${spanTexts(view).join(" to ")} s`;
+    this.shown.textContent = view.isWhole ? "the whole run" : `${spanTexts(view).join(" to ")} s of ${wholeText(view)}`;
   }
 }
+
+const wholeText = ({ whole }) => `${spanTexts(whole).join(" to ")} s`;
 
 /** Both ends of the view, with enough digits to distinguish them. */
 function spanTexts({ from, until }) {

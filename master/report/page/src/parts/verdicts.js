@@ -23,10 +23,17 @@ export function judgements(run) {
   return [...checks, ...units].sort((a, b) => rank(a) - rank(b));
 }
 
-/** The time of the first failure [s] of each failed one. */
+/** The time of the first failure [s] of each failed one, and the end of a run that failed. */
 export function failureTimes(run) {
   const failed = judgements(run).filter(({ passed, time }) => passed === false && time !== null);
-  return failed.map(({ time }) => time);
+  const end = run.outcome === "failed" && Number.isFinite(run.reached) ? [run.reached] : [];
+  return [...failed.map(({ time }) => time), ...end];
+}
+
+/** The first instant of failure [s]; null if nothing failed, or it is not known when. */
+export function firstFailure(run) {
+  const times = failureTimes(run);
+  return times.length === 0 ? null : Math.min(...times);
 }
 
 /**

@@ -48,7 +48,8 @@ export class Legend {
       isStates ? null : h("span.swatch", { style: swatch(this.pane.firstColor, index) }),
       h("span.signal-name", {}, breakable(column.name)),
     );
-    return { column, value, element: h("li", {}, button, value) };
+    const checks = this.pane.limits.get(column).filter(({ name }) => name !== "");
+    return { column, value, element: h("li", {}, button, value, ...checks.map(checkNote)) };
   }
 
   #toggle(column) {
@@ -76,6 +77,10 @@ export class Legend {
     return button;
   }
 }
+
+/** The line of a check's limits, and its name. */
+const checkNote = ({ name, isFailed }) =>
+  h(`span.checked${isFailed ? ".broken" : ""}`, { title: name }, isFailed ? `✗ ${name}` : name);
 
 const swatch = (firstColor, index) => ({
   borderTopColor: `var(${curveColor(firstColor + index)})`,

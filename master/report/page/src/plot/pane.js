@@ -3,7 +3,7 @@
 import uPlot from "uplot";
 import { color, curveColor, curveDash } from "./colors.js";
 import { kGutter } from "./layout.js";
-import { drawLimits, limitsOf, shadeViolations, withLimits } from "./limits.js";
+import { drawLimits, limitsOf, shadeBeyond, shadeViolations, withLimits } from "./limits.js";
 import { timeTicks } from "./ruler.js";
 import {
   finiteExtremes,
@@ -39,7 +39,7 @@ export class Pane {
     this.report = report;
     this.view = view;
     this.columns = columns;
-    this.limits = columns.map((column) => limitsOf(report, column));
+    this.limits = new Map(columns.map((column) => [column, limitsOf(report, column)]));
     this.firstColor = firstColor;
     this.hidden = new Set();
     this.highlighted = null;
@@ -195,14 +195,16 @@ export class Pane {
     return color(curveColor(this.firstColor + index)) + (isFaint ? "40" : "");
   }
 
-  #shade({ ctx, bbox }) {
+  #shade({ ctx, bbox, scales }) {
     shadeIntervals(ctx, this.report.idle, this.view, bbox, color("--idle-shade"));
-    shadeViolations(ctx, this.#shownLimits(), this.view, bbox, color("--bad-ground"));
+    const limits = this.#shownLimits();
+    shadeViolations(ctx, limits, this.view, bbox, { ground: color("--bad-ground"), bad: color("--bad") });
+    shadeBeyond(ctx, limits, bbox, places(bbox, scales, this.isLogarithmic), color("--bad"));
   }
 
   /** Of the curves that are not hidden. */
   #shownLimits() {
-    return this.limits.filter((_, index) => !this.hidden.has(this.columns[index])).flat();
+    return this.columns.filter((column) => !this.hidden.has(column)).flatMap((column) => this.limits.get(column));
   }
 
   #drawLimits({ ctx, bbox, scales }) {

@@ -257,6 +257,7 @@ class PageTest(unittest.TestCase):
         browser = self.open_run(run)
         self.assertIn("1 of 2 failed: level stays low", browser.one(".banner").text)
         self.assertIn("tank.level = 1.04 m", browser.one(".verdicts").text)
+        browser.press(Keys.ESCAPE, "0")
         left, right = browser.plot_box()
         line = browser.run("return [...document.querySelectorAll('.failure-line')].map("
                            "(line) => line.getBoundingClientRect().left)")
@@ -264,6 +265,32 @@ class PageTest(unittest.TestCase):
         self.assertAlmostEqual(line[0], left + 0.75 * (right - left), delta=1.5)
         browser.one(".banner .time-link").click()
         self.assertEqual(browser.run("return stride.view.cursor"), 7.5)
+
+    def test_what_failed_says_so_and_opens_where_it_did(self):
+        run = Run()
+        check = {"kind": "always", "passed": False, "text": "", "values": []}
+        run.run["checks"] = [{**check, "name": "late", "time": 9}, {**check, "name": "early", "time": 7.5}]
+        browser = self.open_run(run)
+        self.assertEqual(browser.one("h1").text, "tank <1> FAILED")
+        self.assertEqual(browser.driver.title, "FAILED: tank <1> – stride report")
+        self.assertEqual(browser.run("return [stride.view.cursor, stride.view.isHeld]"), [7.5, True])
+        self.assertEqual(browser.view(), (6.5, 8.5))
+        self.assertEqual(browser.one(".shown-time").text, "6.500 to 8.500 s of 0.00 to 10.00 s")
+        browser.press(Keys.ESCAPE, "0")
+        self.assertEqual(browser.view(), (0, 10))
+        self.assertEqual(self.open_run().driver.title, "tank <1> – stride report")
+
+    def test_limits_of_a_signal_without_a_plot_are_seen(self):
+        run = Run()
+        run.plots = run.plots[:1]
+        run.run["checks"] = [
+            {"name": "power stays low", "kind": "final", "passed": False, "text": "", "time": 10, "values": [],
+             "limits": {"signal": "pump.power", "from": None, "to": None, "max": 300}}]
+        browser = self.open_run(run)
+        self.assertEqual(browser.texts(".stack-body > .pane h3"), ["Failed checks", "Tank"])
+        self.assertEqual(browser.texts(".checked.broken"), ["✗ power stays low"])
+        line, _, _ = browser.run(PANE_COLOURS, 0)
+        self.assertGreater(line[1], 0.99)
 
     def test_limits_are_lines_and_violations_shades(self):
         run = Run()
@@ -279,6 +306,7 @@ class PageTest(unittest.TestCase):
         self.assertEqual(links, ["-100.3 W", "7.5 s", "-inf", "2 s"])
         browser.run("document.querySelector('.verdicts td .time-link').click()")
         self.assertEqual(browser.run("return stride.view.cursor"), 10)
+        browser.press(Keys.ESCAPE, "0")
         line, shade, good = browser.run(PANE_COLOURS, 1)
         self.assertAlmostEqual(line[0], 0.5, delta=0.02)
         self.assertAlmostEqual(line[1], 1, delta=0.02)
@@ -291,6 +319,8 @@ class PageTest(unittest.TestCase):
         run = Run()
         run.run.update(outcome="failed", error="tank.ssd:7: pump: no <water>", reached=3.5)
         browser = self.open_run(run)
+        self.assertEqual(browser.one("h1").text, "tank <1> FAILED at 3.5 s")
+        self.assertEqual(browser.run("return stride.view.cursor"), 3.5)
         self.assertIn("The run failed", browser.one(".banner").text)
         self.assertEqual(browser.one(".error").text, "tank.ssd:7: pump: no <water>")
 

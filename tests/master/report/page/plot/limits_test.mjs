@@ -20,7 +20,15 @@ test("limits are those of the checks of this signal, with their interval", () =>
   const checks = [check("always", { min: 1, below: 5, to: 2 }, true), check("count", { signal: "c" }), { kind: "answer" }];
   const found = limits(checks, [1, 2, 3, 9]);
   assert.equal(found.length, 1);
-  assert.deepEqual({ ...found[0], violated: found[0].violated.count }, { isFailed: false, lines: [1, 5], from: 0, until: 2, violated: 0 });
+  assert.deepEqual({ ...found[0], violated: found[0].violated.count }, {
+    name: "",
+    isFailed: false,
+    lines: [1, 5],
+    allowed: { least: 1, most: 5 },
+    from: 0,
+    until: 2,
+    violated: 0,
+  });
   assert.deepEqual(limits([check("always", { equals: 3, tolerance: 1 })], [3])[0].lines, [2, 4]);
   assert.deepEqual(limits([check("never", { equals: 3 })], [4])[0].lines, [3]);
   assert.deepEqual(limits([check("always", { equals: true })], [1], { type: "Boolean", isState: true })[0].lines, []);
@@ -38,13 +46,20 @@ test("always is violated from a sample that is not within the limits until the n
   assert.deepEqual(violated(check("always", { min: 3 }, null), [0, 0]), []);
 });
 
-test("never is violated where the condition holds, eventually in its whole interval, final nowhere", () => {
+test("never is violated where the condition holds, eventually in its whole interval, final at its instant", () => {
   assert.deepEqual(violated(check("never", { min: 3 }), [4, 2, 3, 1]), [
     [0, 1],
     [2, 3],
   ]);
   assert.deepEqual(violated(check("eventually", { min: 3, from: 1 }), [0, 1, 2]), [[1, 2]]);
-  assert.deepEqual(violated(check("final", { min: 3 }), [0, 1, 2]), []);
+  assert.deepEqual(violated(check("final", { min: 3 }), [0, 1, 2]), [[2, 2]]);
+});
+
+test("what a check allows is between its limits; never allows what is outside of them", () => {
+  const allowed = (kind, condition) => limits([check(kind, condition)], [1])[0].allowed;
+  assert.deepEqual(allowed("always", { min: 1, above: 2 }), { least: 2, most: Infinity });
+  assert.deepEqual(allowed("final", { equals: 3, tolerance: 1, max: 3.5 }), { least: 2, most: 3.5 });
+  assert.equal(allowed("never", { min: 1 }), null);
 });
 
 test("each type is compared as what it is", () => {
@@ -57,6 +72,7 @@ test("each type is compared as what it is", () => {
 test("the range of a pane has limits in it that are near", () => {
   const lines = (...lines) => [{ lines }];
   assert.deepEqual(withLimits({ least: 1, most: 3 }, lines(4, 5.5, -2)), { least: 1, most: 4 });
+  assert.deepEqual(withLimits({ least: 1, most: 3 }, [{ lines: [50], isFailed: true }]), { least: 1, most: 50 });
   assert.deepEqual(withLimits({ least: 2, most: 2 }, lines(0.5)), { least: 0.5, most: 2 });
   assert.deepEqual(withLimits({ least: Infinity, most: -Infinity }, lines(1)), { least: Infinity, most: -Infinity });
 });
