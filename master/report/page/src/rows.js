@@ -1,5 +1,4 @@
 // The rows under the time axis, and the values that each shows at the cursor.
-import { rowAtCursor } from "./cursor.js";
 import { h } from "./dom.js";
 import { ActivityLane } from "./lanes/activity_lane.js";
 import { FilmStrip } from "./lanes/film.js";
@@ -40,13 +39,12 @@ function addPane(context, stack, group, firstColor, parent) {
   const Kind = group.isStates ? StatesPane : Pane;
   const pane = new Kind(context, group.columns, firstColor);
   const entry = { pane, draw: (width) => pane.draw(width) };
-  const legend = new Legend(group, pane, () => stack.redrawRow(entry));
+  const legend = new Legend(context, group, pane, () => stack.redrawRow(entry));
   entry.element = row(pane.box, legend.box);
   entry.element.classList.add("pane");
   stack.add(entry, parent);
-  const update = () => legend.update(rowAtCursor(context));
-  context.view.addEventListener("cursor", update);
-  update();
+  for (const name of ["cursor", "view"]) context.view.addEventListener(name, () => legend.update());
+  legend.update();
 }
 
 function addPanes(context, stack) {
@@ -78,7 +76,10 @@ function addActivity(context, stack) {
   stack.body.append(h("h3.lanes-head", {}, "What the units did", activityKey()));
   for (const component of report.units) {
     const lane = new ActivityLane(context, component);
-    stack.add({ element: row(lane.box, h("span.lane-summary", {}, lane.summary)), draw: (width) => lane.draw(width) });
+    stack.add({
+      element: row(lane.box, h("div.lane-summary.clipped", { title: lane.summary }, lane.summary)),
+      draw: (width) => lane.draw(width),
+    });
   }
 }
 

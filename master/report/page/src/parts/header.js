@@ -4,9 +4,13 @@ import { heading } from "./heading.js";
 import { keyNumbers } from "./numbers.js";
 import { summary, timeLink, verdictTable } from "./verdicts.js";
 
-function banner({ kind, text, first }, view) {
-  const where = first ? [" – first at ", timeLink(view, first.time), `: ${first.text}`] : [];
-  return h(`p.banner.${kind}`, { role: "status" }, h("strong", {}, text), ...where);
+/** One line; what is cut off has its place in the table below. */
+function banner({ kind, text, failed = [], first }, view) {
+  const names = failed.map(({ name }) => name).join(", ");
+  const why = first ? [" – first at ", timeLink(view, first.time), `: ${first.name}: ${first.text}`] : [];
+  const which = failed.length > 0 && !first ? `: ${names}` : "";
+  const title = [names, first?.text].filter(Boolean).join(": ");
+  return h(`p.banner.clipped.${kind}`, { role: "status", title }, h("strong", {}, text), which, ...why);
 }
 
 function outcomeText(run, hasFailed) {

@@ -39,7 +39,8 @@ export class Toolbar {
     const isThere = row >= 0 && row < report.times.length;
     this.time.textContent = isThere ? `t = ${rowTimeText(report, row)} s` : "no cursor";
     const count = report.times.length.toLocaleString("en");
-    this.row.textContent = isThere ? `sample ${(row + 1).toLocaleString("en")} of ${count}` : "";
+    const values = view.cursor === null ? "values of the time that is shown" : "";
+    this.row.textContent = isThere ? `sample ${(row + 1).toLocaleString("en")} of ${count}` : values;
     this.shown.textContent = view.isWhole ? "the whole run" : `${spanTexts(view).join(" to ")} s of ${wholeText(view)}`;
   }
 }

@@ -143,6 +143,23 @@ class PageTest(unittest.TestCase):
         else:
             self.assertEqual(float(text), value)
 
+    def test_without_a_cursor_there_are_the_last_value_and_the_extremes_of_what_is_shown(self):
+        run = Run()
+        browser = self.open_run(run)
+        _, values = browser.values()
+        level = run.columns["tank.level"][0]
+        expected = {"last": level[-1], "min": min(level), "max": max(level)}
+        found = dict(part.split(" ") for part in values["tank.level"].removesuffix(" m").split(", "))
+        self.assertEqual({name: float(text) for name, text in found.items()}, expected)
+        self.assertEqual((values["pump.on"], values["pump.mode"]), ("last: false", "last: full <power>"))
+        browser.run("stride.view.show(5, 6); stride.view.flush()")
+        _, values = browser.values()
+        first, last = run.row_at(5), run.row_at(6)
+        self.assertEqual(values["pump.count"], f"last {int(run.times[last] / SECOND)}, min "
+                         f"{int(run.times[first] / SECOND)}, max {int(run.times[last] / SECOND)}")
+        self.assertEqual(values["pump.on"], "last: true")
+        self.assertEqual(browser.put_cursor(5)[1]["pump.on"], "true")
+
     def test_the_mouse_moves_the_cursor_and_a_click_holds_it(self):
         run = Run()
         browser = self.open_run(run)
@@ -255,7 +272,7 @@ class PageTest(unittest.TestCase):
              "line": 12, "values": [{"signal": "tank.level", "value": 1.04, "unit": "m"}]},
             {"name": "answered", "kind": "answer", "passed": True, "text": "", "time": None, "values": []}]
         browser = self.open_run(run)
-        self.assertIn("1 of 2 failed: level stays low", browser.one(".banner").text)
+        self.assertEqual(browser.one(".banner").text, "1 of 2 failed – first at 7.5 s: level stays low: 1.04 m is above 1 m")
         self.assertIn("tank.level = 1.04 m", browser.one(".verdicts").text)
         browser.press(Keys.ESCAPE, "0")
         left, right = browser.plot_box()
@@ -408,6 +425,28 @@ class PageTest(unittest.TestCase):
         self.assertNotEqual(light, dark)
         browser.press("d")
         self.assertEqual(browser.run(ground), light)
+
+    def test_long_texts_are_one_line_until_they_have_the_focus(self):
+        run = Run()
+        long = "it was expected that " * 40
+        run.columns["pump.mode"] = ([long] * len(run.times), "", "String")
+        run.columns["pump." + "subsystem." * 20 + "mode"] = ([1.5] * len(run.times), "W", "Float64")
+        run.plots[1][1].append("pump." + "subsystem." * 20 + "mode")
+        run.run["checks"] = [{"name": long, "kind": "always", "passed": passed, "text": long, "time": 7.5 if i else None,
+                              "values": [{"signal": "pump.mode", "value": long}]}
+                             for i, passed in enumerate([True, False])]
+        for width in (1400, 480):
+            browser = self.open_run(run, width=width)
+            self.assertLessEqual(browser.run("return document.documentElement.scrollWidth"), width)
+            self.assertEqual(browser.run("return document.querySelector('.verdicts').clientWidth"),
+                             browser.run("return document.querySelector('header').clientWidth"))
+            heights = browser.run("return ['.banner', '.because > div', '.verdicts th[scope=row]', '.value', '.signal'].map("
+                                  "(part) => Math.max(...[...document.querySelectorAll(part)].map((e) => e.clientHeight)))")
+            self.assertLess(max(heights), 60, heights)
+        because = browser.one(".because > div")
+        self.assertEqual(because.get_attribute("title").strip(), long.strip())
+        because.click()
+        self.assertGreater(because.size["height"], 100)
 
     def test_texts_have_enough_contrast(self):
         for dark in (False, True):
