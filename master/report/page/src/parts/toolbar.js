@@ -1,5 +1,6 @@
 // Above the time axis: the exact time of the row at the cursor, and buttons for the actions of the keys.
 import { rowAtCursor } from "../cursor.js";
+import { briefText } from "../data/number_text.js";
 import { rowTimeText } from "../data/report.js";
 import { h } from "../dom.js";
 import { ticks, timeTickTexts } from "../plot/ticks.js";
@@ -45,7 +46,7 @@ export class Toolbar {
   }
 }
 
-const wholeText = ({ whole }) => `${spanTexts(whole).join(" to ")} s`;
+const wholeText = ({ whole }) => `${briefText(whole.from)} to ${briefText(whole.until)} s`;
 
 /** Both ends of the view, with enough digits to distinguish them. */
 function spanTexts({ from, until }) {

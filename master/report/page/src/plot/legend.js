@@ -15,11 +15,11 @@ export class Legend {
     this.context = context;
     this.pane = pane;
     this.entries = group.columns.map((column, index) => this.#entry(column, index, group.isStates, changed));
-    const scale = pane.canBeLogarithmic ? this.#scaleButton(changed) : null;
+    const buttons = group.isStates ? [] : this.#scaleButtons(changed);
     this.box = h(
       "div.legend",
       {},
-      h("div.legend-head", {}, h("h3.clipped", { title: group.title }, group.title), scale),
+      h("div.legend-head", {}, h("h3.clipped", { title: group.title }, group.title), h("span.scales", {}, ...buttons)),
       h("ul", {}, ...this.entries.map((entry) => entry.element)),
     );
   }
@@ -51,6 +51,8 @@ export class Legend {
         },
         onmouseenter: () => this.pane.highlight(column),
         onmouseleave: () => this.pane.highlight(null),
+        onfocus: () => this.pane.highlight(column),
+        onblur: () => this.pane.highlight(null),
       },
       isStates ? null : h("span.swatch", { style: swatch(this.pane.firstColor, index) }),
       h("span.signal-name", {}, h("bdi", {}, column.name)),
@@ -65,21 +67,30 @@ export class Legend {
     return !hidden.has(column);
   }
 
-  #scaleButton(changed) {
+  #scaleButtons(changed) {
+    const { pane } = this;
+    const own = this.#switch("own scale", "Each curve on its own scale", "hasOwnScales", changed);
+    const log = this.#switch("log", "Logarithmic or linear axis", "isLogarithmic", changed);
+    return [pane.columns.length > 1 ? own : null, pane.canBeLogarithmic ? log : null].filter(Boolean);
+  }
+
+  /** A button that switches a property of the pane. */
+  #switch(text, title, property, changed) {
+    const { pane } = this;
     const button = h(
       "button.scale",
       {
         type: "button",
-        title: "Logarithmic or linear axis",
-        "aria-label": "logarithmic axis",
-        "aria-pressed": String(this.pane.isLogarithmic),
+        title,
+        "aria-label": title,
+        "aria-pressed": String(pane[property]),
         onclick: () => {
-          this.pane.setLogarithmic(!this.pane.isLogarithmic);
-          button.setAttribute("aria-pressed", String(this.pane.isLogarithmic));
+          pane[property] = !pane[property];
+          button.setAttribute("aria-pressed", String(pane[property]));
           changed();
         },
       },
-      "log",
+      text,
     );
     return button;
   }

@@ -83,15 +83,28 @@ function violations({ kind, passed, limits }, column, seconds, { from, until }) 
 
 /**
  * The range of values that a pane shows, with the limits that have failed, and those that are no further away than the
- * values are apart.
+ * values are apart; on a logarithmic axis no further than a decade.
  */
-export function withLimits(extremes, limits) {
-  const { least, most } = extremes;
+export function withLimits(extremes, limits, isLogarithmic = false) {
+  const { least, most, leastPositive } = extremes;
   if (!(least <= most)) return extremes;
-  const reach = most - least || Math.max(Math.abs(least), Math.abs(most)) || 1;
-  const isNear = (line) => line >= least - reach && line <= most + reach;
+  const isNear = (isLogarithmic ? nearDecades : near)(extremes);
   const shown = limits.flatMap(({ lines, isFailed }) => lines.filter((line) => isFailed || isNear(line)));
-  return { ...extremes, least: Math.min(least, ...shown), most: Math.max(most, ...shown) };
+  return {
+    least: Math.min(least, ...shown),
+    most: Math.max(most, ...shown),
+    leastPositive: Math.min(leastPositive, ...shown.filter((line) => line > 0)),
+  };
+}
+
+function near({ least, most }) {
+  const reach = most - least || Math.max(Math.abs(least), Math.abs(most)) || 1;
+  return (line) => line >= least - reach && line <= most + reach;
+}
+
+/** No further than a decade, and zero where there are zeros. */
+function nearDecades({ least, most, leastPositive }) {
+  return (line) => (line > 0 ? line >= leastPositive / 10 && line <= most * 10 : line >= least);
 }
 
 /** @param {{ground: string, bad: string}} colors behind violations, and where they begin */
@@ -137,7 +150,7 @@ export function shadeBeyond(context, limits, { left, top, width, height }, place
 
 /**
  * @param {{left: number, top: number, width: number, height: number}} box of the drawing [device px]
- * @param {{x: (time: number) => number, y: (value: number) => number}} place
+ * @param {{x: (time: number) => number, y: (value: number) => number, has: (value: number) => boolean}} place
  * @param {(limits: Limits) => string} colorOf
  */
 export function drawLimits(context, limits, box, place, colorOf) {
@@ -151,7 +164,7 @@ export function drawLimits(context, limits, box, place, colorOf) {
   for (const each of limits) {
     context.strokeStyle = colorOf(each);
     context.beginPath();
-    for (const line of each.lines) {
+    for (const line of each.lines.filter(place.has)) {
       const y = Math.round(place.y(line)) + 0.5;
       const right = place.x(each.until);
       context.moveTo(Math.min(place.x(each.from), right - kShortest * ratio), y);

@@ -238,6 +238,54 @@ class PageTest(unittest.TestCase):
         for x in columns:
             self.assertAlmostEqual(x, place, delta=3)
 
+    def ink(self, curve, begin, end):
+        """The least and the greatest height in the first pane at which a curve is, from the top [px], between two shares
+        of its width."""
+        return self.browser.run("""
+            const [curve, begin, end] = arguments;
+            const canvas = document.querySelector('.pane canvas');
+            const { width, height } = canvas;
+            const pixels = canvas.getContext('2d').getImageData(0, 0, width, height).data;
+            const hex = getComputedStyle(document.documentElement).getPropertyValue(curve).trim();
+            const wanted = [1, 3, 5].map((i) => parseInt(hex.slice(i, i + 2), 16));
+            const found = [];
+            for (let x = Math.round(96 + begin * (width - 96)); x < 96 + end * (width - 96); ++x)
+              for (let y = 0; y < height; ++y) {
+                const pixel = pixels.slice(4 * (y * width + x), 4 * (y * width + x) + 4);
+                const distance = wanted.reduce((sum, part, i) => sum + Math.abs(pixel[i] - part), 0);
+                if (distance < 300 && pixel[3] > 100) found.push(y);
+              }
+            return [Math.min(...found), Math.max(...found)]""", curve, begin, end)
+
+    def test_zero_has_a_place_of_its_own_on_a_logarithmic_axis(self):
+        rows = 300
+        values = [1e-6 if i < 130 else 0 if i < 200 else 1e-2 for i in range(rows)]
+        data = page_data.report(range(0, rows * SECOND, SECOND), [page_data.column("a.load", values, "W", stepped=True)],
+                                [("A", ["a.load"])])
+        browser = self.open(data)
+        self.assertEqual(browser.one(".scale").get_attribute("aria-pressed"), "true")
+        small, zero, large = (self.ink("--curve-1", share, share + 0.1) for share in (0.1, 0.5, 0.9))
+        self.assertGreater(zero[0] - small[1], 8)
+        self.assertGreater(small[0] - large[1], 60)
+        browser.one(".scale").click()
+        browser.settle()
+        self.assertLess(abs(self.ink("--curve-1", 0.5, 0.6)[0] - self.ink("--curve-1", 0.1, 0.2)[0]), 2)
+
+    def test_curves_of_different_sizes_can_have_their_own_scales(self):
+        rows = 300
+        columns = [page_data.column(f"a.{size:g}", [size * math.sin(i / 10) for i in range(rows)], "W")
+                   for size in (1e5, 1e-3)]
+        data = page_data.report(range(0, rows * SECOND, SECOND), columns, [("A", ["a.100000", "a.0.001"])])
+        browser = self.open(data)
+        self.assertEqual(browser.texts(".scale"), ["own scale", "log"])
+        top, bottom = self.ink("--curve-2", 0, 1)
+        self.assertLess(bottom - top, 5)
+        browser.one(".scale").click()
+        browser.settle()
+        top, bottom = self.ink("--curve-2", 0, 1)
+        self.assertGreater(bottom - top, 90)
+        self.assertEqual(browser.one(".scale").get_attribute("aria-pressed"), "true")
+
     # parts
 
     def test_marks_of_messages_tell_how_many_they_are(self):
@@ -292,7 +340,7 @@ class PageTest(unittest.TestCase):
         self.assertEqual(browser.driver.title, "FAILED: tank <1> – stride report")
         self.assertEqual(browser.run("return [stride.view.cursor, stride.view.isHeld]"), [7.5, True])
         self.assertEqual(browser.view(), (6.5, 8.5))
-        self.assertEqual(browser.one(".shown-time").text, "6.500 to 8.500 s of 0.00 to 10.00 s")
+        self.assertEqual(browser.one(".shown-time").text, "6.500 to 8.500 s of 0 to 10 s")
         browser.press(Keys.ESCAPE, "0")
         self.assertEqual(browser.view(), (0, 10))
         self.assertEqual(self.open_run().driver.title, "tank <1> – stride report")
