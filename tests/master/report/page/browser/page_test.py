@@ -43,7 +43,7 @@ class Run:
         }
         self.plots = [("Tank", ["tank.level", "tank.limit"]),
                       ("Pump", ["pump.power", "pump.count", "pump.on", "pump.mode"])]
-        self.messages = [message(1, "pump", "start"), message(1, "tank", "start", "received"),
+        self.messages = [message(1, "pump", "start"), message(1, "tank", "start", "received", "receive.frame"),
                          message(1.001, "pump", "faster"), message(6.5, "pump", "a </script> & <b>"),
                          message(9, "tank", "")]
         self.units = [{"name": "tank", "model": "tank", "calls": 12, "steps": 10, "events": 1, "rejections": 2,
@@ -294,12 +294,38 @@ class PageTest(unittest.TestCase):
         lanes = browser.run("return [...document.querySelectorAll('.message-lane')].map((lane) => "
                             "[...lane.querySelectorAll('.message')].map((mark) => mark.textContent))")
         self.assertEqual(lanes, [["start+1", "a </script> & <b>"], ["start", "0102"]])
-        self.assertEqual(len(browser.all(".messages tbody tr")), 5)
+        cells = browser.run("return [...document.querySelectorAll('.messages tbody tr')].map((row) => "
+                            "[...row.cells].slice(0, 4).map((cell) => cell.textContent))")
+        self.assertEqual(cells[0], ["1", "pump.transmit.frame", "tank.receive.frame", "start"])
+        self.assertEqual(cells[1], ["1.001", "pump.transmit.frame", "–", "faster"])
+        self.assertEqual(len(cells), 4)
         browser.one(".filter input").send_keys("pump sent")
         self.assertEqual(len(browser.all(".messages tbody tr")), 3)
-        self.assertEqual(browser.one(".count").text, "3 of 5")
+        self.assertEqual(browser.one(".count").text, "3 of 4")
         browser.all(".messages tbody tr")[2].click()
         self.assertEqual(browser.run("return stride.view.cursor"), 6.5)
+
+    def test_a_crowd_of_messages_is_bars_that_open_on_zoom(self):
+        run = Run()
+        run.messages = [message(2 + i / 200, "pump", f"number {i}") for i in range(1000)]
+        browser = self.open_run(run)
+        browser.wait_for("return document.querySelector('.crowd')")
+        self.assertEqual((len(browser.all(".crowd")), len(browser.all(".message"))), (1, 0))
+        left, right = browser.plot_box()
+        crowd = browser.one(".crowd").rect
+        self.assertAlmostEqual(crowd["x"], left + 0.2 * (right - left), delta=5)
+        self.assertAlmostEqual(crowd["width"], 0.5 * (right - left), delta=9)
+        browser.run("document.querySelector('.crowd').focus()")
+        self.assertEqual(browser.texts(".tip div")[0], "1,000 messages from 2 s to 6.995 s: 1,000 sent")
+        for _ in range(3):
+            crowd = browser.one(".crowd, .message").rect
+            browser.click_at(round(crowd["x"] + crowd["width"] / 2), round(crowd["y"] + crowd["height"] / 2))
+            if not browser.all(".crowd"):
+                break
+        self.assertEqual(browser.all(".crowd"), [])
+        start, end = browser.view()
+        self.assertLess(end - start, 0.2)
+        self.assertEqual(len(browser.all(".message")), sum(start <= 2 + i / 200 <= end for i in range(1000)))
 
     def test_a_mark_tells_all_on_focus(self):
         browser = self.open_run()
