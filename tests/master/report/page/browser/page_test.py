@@ -487,6 +487,29 @@ class PageTest(unittest.TestCase):
         idle = browser.run("return [[...stride.report.idle.from], [...stride.report.idle.until]]")
         self.assertEqual(idle, [[1], [2]])
 
+    def test_an_early_return_is_where_the_unit_stopped(self):
+        run = Run()
+        data = run.data()
+        data["activity"] = [page_data.activity("tank", "early return", [(2 * SECOND, 5 * SECOND)]),
+                            page_data.activity("tank", "rejection", [(8 * SECOND, 9 * SECOND)])]
+        browser = self.open(data)
+        browser.run("document.querySelector('.activity-lane').scrollIntoView()")
+        browser.settle()
+        early, rejected = browser.run("""
+            const canvas = document.querySelector('.activity-lane canvas');
+            const pixels = canvas.getContext('2d').getImageData(0, 4, canvas.width, 1).data;
+            return ['--early-return', '--bad'].map((name) => {
+              const hex = getComputedStyle(document.documentElement).getPropertyValue(name).trim();
+              const wanted = [1, 3, 5].map((i) => parseInt(hex.slice(i, i + 2), 16));
+              const found = [];
+              for (let x = 0; x < canvas.width; ++x)
+                if (wanted.every((part, i) => pixels[4 * x + i] === part)) found.push(x / canvas.width);
+              return found;
+            })""")
+        self.assertEqual((len(early), len(rejected)), (1, 1))
+        self.assertAlmostEqual(early[0], 0.5, delta=0.003)
+        self.assertAlmostEqual(rejected[0], 0.8, delta=0.003)
+
     # looks
 
     def test_light_and_dark(self):
