@@ -20,6 +20,9 @@ SECOND = 10**12
 PIXEL = ("data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAQAAAC1HAwCAAAAC0lEQVR42mNk+M8AAAICAQB"
          "7CYF4AAAAAElFTkSuQmCC")
 
+SQUARE = ("data:image/svg+xml,<svg xmlns='http://www.w3.org/2000/svg' width='600' height='600'>"
+          "<rect width='600' height='600' fill='teal'/></svg>")
+
 
 def message(seconds, component, content, direction="sent", variable="transmit.frame", payload="0102"):
     return {"time": str(round(seconds * SECOND)), "index": 1, "component": component, "variable": variable,
@@ -350,7 +353,7 @@ class PageTest(unittest.TestCase):
         self.assertIn("tank.level = 1.04 m", browser.one(".verdicts").text)
         browser.press(Keys.ESCAPE, "0")
         left, right = browser.plot_box()
-        line = browser.run("return [...document.querySelectorAll('.failure-line')].map("
+        line = browser.run("return [...document.querySelectorAll('.stack-overlay .failure-line')].map("
                            "(line) => line.getBoundingClientRect().left)")
         self.assertEqual(len(line), 1)
         self.assertAlmostEqual(line[0], left + 0.75 * (right - left), delta=1.5)
@@ -440,6 +443,41 @@ class PageTest(unittest.TestCase):
         browser.press(Keys.ARROW_RIGHT)
         self.assertTrue(browser.one(".film-picture img").get_attribute("src").endswith("#5"))
         self.assertEqual(browser.one(".film-track").get_attribute("aria-valuenow"), "5")
+
+    def test_the_film_stays_in_sight_and_its_pictures_follow_the_zoom(self):
+        run = Run()
+        run.films = [{"component": name, "times": page_data.pack("int64", [i * SECOND // 10 for i in range(101)]),
+                      "frames": [f"{PIXEL}#{i}" for i in range(101)]} for name in ("world", "other")]
+        browser = self.open_run(run, height=600)
+        browser.run("window.scrollTo(0, document.querySelector('.stack').offsetTop + 500)")
+        browser.settle()
+        places = browser.run("return [...document.querySelectorAll('.film-track, .film-picture')].map((part) => "
+                             "{ const { top, bottom } = part.getBoundingClientRect(); return [top, bottom]; })")
+        self.assertEqual(len(places), 4)
+        for top, bottom in places:
+            self.assertGreaterEqual(top, 0)
+            self.assertLess(bottom, 300)
+        pictures = ("return [...document.querySelector('.film-track').children].map((picture) => "
+                    "Number(picture.src.split('#')[1]))")
+        whole = browser.run(pictures)
+        self.assertGreater(whole[-1] - whole[0], 80)
+        browser.run("stride.view.show(2, 3); stride.view.flush()")
+        browser.settle()
+        near = browser.run(pictures)
+        self.assertEqual(len(near), len(whole))
+        self.assertTrue(all(20 <= picture < 30 for picture in near) and near == sorted(near), near)
+        self.assertGreater(near[-1], near[0])
+
+    def test_the_picture_of_a_film_can_be_enlarged(self):
+        run = Run()
+        run.films = [{"component": "world", "times": page_data.pack("int64", [0]), "frames": [SQUARE]}]
+        browser = self.open_run(run)
+        height = "return document.querySelector('.film-picture img').clientHeight"
+        small = browser.run(height)
+        browser.one(".enlarge").click()
+        self.assertGreater(browser.run(height), 2 * small)
+        browser.one(".enlarge").click()
+        self.assertEqual(browser.run(height), small)
 
     def test_a_film_is_scrubbed_by_dragging(self):
         run = Run()
