@@ -2,6 +2,7 @@
 import { h } from "../dom.js";
 import { heading } from "./heading.js";
 import { keyNumbers } from "./numbers.js";
+import { origin } from "./origin.js";
 import { summary, timeLink, verdictTable } from "./verdicts.js";
 
 /** One line; what is cut off has its place in the table below. */
@@ -29,7 +30,7 @@ export function header({ report, view }) {
     "header",
     {},
     heading(run.system ?? "A run", hasFailed, outcomeText(run, hasFailed)),
-    h("p.origin", {}, run.scenario ?? "", report.version ? ` · stride ${report.version}` : ""),
+    origin(report),
     banner(verdict, view),
     run.error ? h("pre.error", {}, run.error) : null,
     verdictTable(run, view),

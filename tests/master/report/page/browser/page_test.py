@@ -510,8 +510,16 @@ class PageTest(unittest.TestCase):
             "version": "1.2", "date": "2026-11-25T23:59:59Z", "host": "left <b>",
             "commands": [{"text": "stride run 'a tank.ssd'", "words": [], "folder": "/home/a"},
                          {"text": "stride run 'a tank.ssd' --resume", "words": [], "folder": "/home/b"}],
+            "swaps": ["tank=mine.fmu"], "values": ["pump.power=3"],
             "sources": [{"what": "the scenario", "path": "a tank.ssd", "sha256": "0123456789abcdef"}]}
         browser = self.open_run(run)
+        top = browser.run("const [names, texts] = ['dt', 'dd'].map((tag) => [...document.querySelectorAll('.origin > ' + tag)]"
+                          ".map((e) => e.textContent)); return names.map((name, i) => [name, texts[i]])")
+        self.assertEqual(top, [
+            ["scenario", "tank.ssd"], ["began", "2026-11-25 23:59:59 UTC on left <b>"],
+            ["by", "stride run 'a tank.ssd'"], ["and then", "stride run 'a tank.ssd' --resume"],
+            ["settings", "0 to 10 s"], ["swapped", "tank=mine.fmu"], ["set", "pump.power=3"],
+            ["versions", "stride 1.2, page by stride test"]])
         browser.one(".made-from summary").click()
         text = browser.one(".made-from").text
         for words in ["stride 1.2 began it at 2026-11-25T23:59:59Z on left <b> by", "stride run 'a tank.ssd' in /home/a",
