@@ -65,10 +65,9 @@ nlohmann::ordered_json to_json(const Provenance& provenance) {
                         {"words", command.words},
                         {"folder", command.folder.string()}});
   }
-  return {{"version", provenance.version},
-          {"date", provenance.date},
-          {"host", provenance.host},
-          {"commands", std::move(commands)},
+  return {{"version", provenance.version}, {"date", provenance.date},
+          {"host", provenance.host},       {"commands", std::move(commands)},
+          {"swaps", provenance.swaps},     {"values", provenance.values},
           {"sources", std::move(sources)}};
 }
 
@@ -79,6 +78,8 @@ Provenance provenance_of(const nlohmann::ordered_json& json) {
     provenance.commands.push_back({command.at("words").get<std::vector<std::string>>(),
                                    command.at("folder").get<std::string>()});
   }
+  provenance.swaps = json.value("swaps", std::vector<std::string>{});
+  provenance.values = json.value("values", std::vector<std::string>{});
   for (const nlohmann::ordered_json& source : json.at("sources")) {
     provenance.sources.push_back(
         {source.at("what"), source.at("path").get<std::string>(), source.at("sha256")});

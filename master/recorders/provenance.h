@@ -36,6 +36,10 @@ struct Provenance {
   /// That of the run, and of each time that it was resumed.
   std::vector<Command> commands{};
   std::vector<Source> sources{};
+  /// What was other than the scenario has it: units, "component=FILE", and start values,
+  /// "component.variable=value".
+  std::vector<std::string> swaps{};
+  std::vector<std::string> values{};
 };
 
 /// Throws core::Error (Input) for what cannot be read.

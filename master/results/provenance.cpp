@@ -27,7 +27,9 @@ recorders::Provenance provenance_of(const scenario::LoadedScenario& loaded,
   recorders::Provenance made{.version = STRIDE_VERSION,
                              .date = utc_text(std::time(nullptr)),
                              .host = core::host_name(),
-                             .commands = {std::move(command)}};
+                             .commands = {std::move(command)},
+                             .swaps = loaded.changes().swaps,
+                             .values = loaded.changes().values};
   const auto add_source = [&](recorders::Source source) {
     if (std::ranges::find(made.sources, source) == made.sources.end()) {
       made.sources.push_back(std::move(source));

@@ -56,6 +56,15 @@ std::vector<ssp::ParameterValue> set_values(const ScenarioRequest& request) {
   return values;
 }
 
+ScenarioChanges changes_of(const ScenarioRequest& request) {
+  ScenarioChanges changes{.swaps = request.swaps, .values = {}};
+  for (const ssp::ParameterValue& parameter : request.parameters) {
+    changes.values.push_back(parameter.name + "=" + parameter.value);
+  }
+  changes.values.insert(changes.values.end(), request.sets.begin(), request.sets.end());
+  return changes;
+}
+
 /// Where a unit was looked for: that of a linked scenario also beside what the link leads to.
 std::string shown_places(const Scenario& scenario, const std::filesystem::path& source) {
   std::string shown = scenario.files->shown(source);
@@ -147,7 +156,8 @@ std::vector<std::shared_ptr<importer::Fmu>> load_fmus(const Scenario& scenario, 
 }
 
 LoadedScenario::LoadedScenario(const ScenarioRequest& request)
-    : scenario_(read_scenario(request.scenario, {find_unit, set_values(request), request.files})) {
+    : changes_(changes_of(request)),
+      scenario_(read_scenario(request.scenario, {find_unit, set_values(request), request.files})) {
   for (const std::string& text : request.swaps) swap(text);
   if (scenario_.system.components.empty()) {
     core::fail_input(of_file(), "the system has no component, so there is nothing to simulate");

@@ -62,6 +62,12 @@ struct ScenarioRequest {
   std::string film;  ///< seconds between its pictures, or kUnspecifiedFilmInterval; empty = none
 };
 
+/// What a request changes in the scenario as it is written.
+struct ScenarioChanges {
+  std::vector<std::string> swaps;   ///< "component=FILE"
+  std::vector<std::string> values;  ///< at the start, "component.variable=value"
+};
+
 /// The scenario with each component's FMU, and the system built from them. Throws core::Error
 /// (Input) for every mistake in the input.
 class LoadedScenario {
@@ -78,6 +84,7 @@ class LoadedScenario {
   /// description is known here.
   bool stays_elsewhere(std::size_t component) const;
   const core::RunOptions& options() const { return options_; }
+  const ScenarioChanges& changes() const { return changes_; }
   std::vector<std::string> component_names() const;
   /// Those that were requested.
   const std::vector<IdleTwin>& idle_twins() const { return idle_twins_; }
@@ -143,6 +150,7 @@ class LoadedScenario {
 
   std::shared_ptr<UnitLog> log_ = std::make_shared<UnitLog>();
   std::shared_ptr<const core::ProcessState> process_ = std::make_shared<core::ProcessState>();
+  ScenarioChanges changes_;
   Scenario scenario_;
   std::vector<std::shared_ptr<importer::Fmu>> fmus_;
   std::optional<core::System> system_;

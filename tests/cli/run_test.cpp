@@ -173,6 +173,9 @@ TEST_CASE("--swap puts another unit in a component's place") {
       signals_of(workspace, {"--swap", "first=not_a_number.fmu", "--set", "first.nan_at=10"});
   CHECK(signals.numbers("first.y") == signals.numbers("time"));  // what that unit gives
   CHECK(signals.numbers("second.y").back() > 0.3);
+  const auto made_from = nlohmann::json::parse(workspace.result("run.json"))["provenance"];
+  CHECK(made_from["swaps"] == std::vector<std::string>{"first=not_a_number.fmu"});
+  CHECK(made_from["values"] == std::vector<std::string>{"first.nan_at=10"});
 }
 
 TEST_CASE("a unit may be an archive, its unpacked folder, or a bare library of the kit") {

@@ -59,7 +59,9 @@ TEST_CASE("provenance is read back from its JSON") {
                         "2026-01-01T00:00:00Z",
                         "desk",
                         {{{"run", "a b", "--quiet"}, "/x y"}},
-                        {{"a unit", "/u", "00"}}};
+                        {{"a unit", "/u", "00"}},
+                        {"a=b.fmu"},
+                        {"a.x=1", "a.y=two words"}};
   CHECK(to_json(made)["commands"][0]["text"] == "stride run 'a b' --quiet");
   const Provenance read = provenance_of(to_json(made));
   CHECK(read.version == "1");
@@ -68,6 +70,8 @@ TEST_CASE("provenance is read back from its JSON") {
   REQUIRE(read.commands.size() == 1);
   CHECK(read.commands[0].words == made.commands[0].words);
   CHECK(read.commands[0].folder == made.commands[0].folder);
+  CHECK(read.swaps == made.swaps);
+  CHECK(read.values == made.values);
   CHECK(read.sources == made.sources);
   CHECK_THROWS_AS(provenance_of(nlohmann::ordered_json::object()), nlohmann::json::exception);
 }

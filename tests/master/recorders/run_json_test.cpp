@@ -103,7 +103,8 @@ TEST_CASE("run.json has what was run and how far the run came") {
                                                       .date = "2026-01-01T00:00:00Z",
                                                       .host = "desk",
                                                       .commands = {{{"run", "x y.ssd"}, "/w"}},
-                                                      .sources = {{"a unit", "/w/a.fmu", "0f"}}},
+                                                      .sources = {{"a unit", "/w/a.fmu", "0f"}},
+                                                      .swaps = {"b=mine.fmu"}},
                                        .statistics = statistics,
                                        .verdicts = verdicts,
                                        .files = files,
@@ -309,6 +310,10 @@ TEST_CASE("run.json has what was run and how far the run came") {
         "folder": "/w"
       }
     ],
+    "swaps": [
+      "b=mine.fmu"
+    ],
+    "values": [],
     "sources": [
       {
         "what": "a unit",

@@ -18,6 +18,9 @@ export function h(tag, properties = {}, ...children) {
   return element;
 }
 
+/** A line of text that is cut where it is too long: whole on hover, and while it has the focus, which a click gives. */
+export const clipped = (tag, text) => h(`${tag}.clipped`, { tabIndex: text ? 0 : -1, title: text }, text);
+
 /** The same for an SVG element. */
 export function svg(tag, attributes = {}, ...children) {
   const element = document.createElementNS(kSvg, tag);

@@ -7,11 +7,13 @@ import { listenToKeys } from "./keys.js";
 import { costs } from "./parts/costs.js";
 import { diagramSection } from "./parts/diagram.js";
 import { header } from "./parts/header.js";
+import { pageTitle } from "./parts/heading.js";
 import { helpDialog } from "./parts/help.js";
 import { provenance } from "./parts/made_from.js";
 import { MessageTable } from "./parts/message_table.js";
 import { Theme } from "./parts/theme.js";
 import { Tip } from "./parts/tip.js";
+import { firstFailure, summary } from "./parts/verdicts.js";
 import { timeStack } from "./rows.js";
 import { startPage } from "./start.js";
 import { View } from "./view.js";
@@ -49,6 +51,18 @@ function printWell(theme, stack) {
   window.addEventListener("afterprint", () => theme.choose(chosen));
 }
 
+/** The share of the run around its first failure that is shown at first. */
+const kAroundFailure = 0.2;
+
+/** A run that failed is opened where it did. */
+function openAtFailure({ report, view }) {
+  const seconds = firstFailure(report.run);
+  if (seconds === null) return;
+  const half = (view.span * kAroundFailure) / 2;
+  view.show(seconds - half, seconds + half);
+  view.holdCursor(seconds);
+}
+
 function build(report) {
   const view = new View(report.whole);
   const tip = new Tip();
@@ -57,7 +71,7 @@ function build(report) {
   const context = { report, view, tip };
   const actions = actionsOf(context, theme, help);
   const stack = timeStack(context, actions);
-  document.title = `${report.run.system ?? "run"} – stride report`;
+  document.title = pageTitle(report.run.system ?? "run", summary(report.run).kind === "bad", "report");
   const parts = [
     header(context),
     ...report.notes.map((text) => h("p.warning", {}, text)),
@@ -74,6 +88,7 @@ function build(report) {
   listenToKeys(actions);
   theme.addEventListener("change", () => stack.redraw());
   printWell(theme, stack);
+  openAtFailure(context);
   return { report, view, stack, theme };
 }
 

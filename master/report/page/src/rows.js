@@ -1,5 +1,4 @@
 // The rows under the time axis, and the values that each shows at the cursor.
-import { rowAtCursor } from "./cursor.js";
 import { h } from "./dom.js";
 import { ActivityLane } from "./lanes/activity_lane.js";
 import { FilmStrip } from "./lanes/film.js";
@@ -21,18 +20,19 @@ function legend(messages) {
   return `Messages: ▲ sent, △ received${hasInterventions ? ", ◆ intervention" : ""}. n: next, p: previous`;
 }
 
-/** Films and messages share one row, because the enlarged picture is high. */
-function addFilmsAndMessages(context, stack) {
+function filmStrips(context) {
   const { report, view } = context;
   const strips = report.films.filter(({ frames }) => frames.length > 0).map((film) => new FilmStrip(context, film));
   for (const name of ["cursor", "view"]) {
     view.addEventListener(name, () => strips.forEach((strip) => strip.update()));
   }
+  return strips;
+}
+
+function addMessages(context, stack) {
   const lanes = new MessageLanes(context);
-  const words = lanes.isEmpty ? "No messages were sent." : legend(report.messages);
-  const element = row(h("div", {}, ...strips.map((strip) => strip.box), lanes.box), note(words));
-  element.lastChild.prepend(...strips.map((strip) => strip.picture));
-  stack.add({ element, draw: (width) => [...strips, lanes].forEach((part) => part.draw(width)) });
+  const words = lanes.isEmpty ? "No messages were sent." : legend(context.report.messages);
+  stack.add({ element: row(lanes.box, note(words)), draw: (width) => lanes.draw(width) });
 }
 
 /** One pane with its legend. */
@@ -40,13 +40,12 @@ function addPane(context, stack, group, firstColor, parent) {
   const Kind = group.isStates ? StatesPane : Pane;
   const pane = new Kind(context, group.columns, firstColor);
   const entry = { pane, draw: (width) => pane.draw(width) };
-  const legend = new Legend(group, pane, () => stack.redrawRow(entry));
+  const legend = new Legend(context, group, pane, () => stack.redrawRow(entry));
   entry.element = row(pane.box, legend.box);
   entry.element.classList.add("pane");
   stack.add(entry, parent);
-  const update = () => legend.update(rowAtCursor(context));
-  context.view.addEventListener("cursor", update);
-  update();
+  for (const name of ["cursor", "view"]) context.view.addEventListener(name, () => legend.update());
+  legend.update();
 }
 
 function addPanes(context, stack) {
@@ -78,21 +77,34 @@ function addActivity(context, stack) {
   stack.body.append(h("h3.lanes-head", {}, "What the units did", activityKey()));
   for (const component of report.units) {
     const lane = new ActivityLane(context, component);
-    stack.add({ element: row(lane.box, h("span.lane-summary", {}, lane.summary)), draw: (width) => lane.draw(width) });
+    stack.add({
+      element: row(lane.box, h("div.lane-summary.clipped", { title: lane.summary }, lane.summary)),
+      draw: (width) => lane.draw(width),
+    });
   }
+}
+
+/** Stays in sight while the others scroll: the time axis, and the films, if there are some. */
+function headRow(context) {
+  const parts = [new Ruler(context), ...filmStrips(context)];
+  const pictures = parts.map(({ picture }) => picture).filter(Boolean);
+  const element = row(
+    h("div", { style: { "--films": String(pictures.length) } }, ...parts.map(({ box }) => box)),
+    pictures.length > 0 ? h("div.film-pictures", {}, ...pictures) : null,
+  );
+  return { element, draw: (width) => parts.forEach((part) => part.draw(width)) };
 }
 
 /** @param {Record<string, (argument?: any) => void>} actions of the keys */
 export function timeStack(context, actions) {
   const toolbar = new Toolbar(context, actions);
-  const ruler = new Ruler(context);
-  const rulerRow = row(ruler.box, null);
-  const head = h("div.timebar", {}, toolbar.box, rulerRow);
-  const stack = new Stack(context.view, head, rulerRow.firstChild, failureTimes(context.report.run));
-  stack.add({ element: rulerRow, draw: (width) => ruler.draw(width) }, head);
+  const top = headRow(context);
+  const head = h("div.timebar", {}, toolbar.box, top.element);
+  const stack = new Stack(context.view, head, top.element.firstChild, failureTimes(context.report.run));
+  stack.add(top, head);
   for (const name of ["view", "cursor"]) context.view.addEventListener(name, () => toolbar.update());
   toolbar.update();
-  addFilmsAndMessages(context, stack);
+  addMessages(context, stack);
   addPanes(context, stack);
   addActivity(context, stack);
   return stack;

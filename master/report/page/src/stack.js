@@ -1,4 +1,4 @@
-// The rows under the common time axis: film, messages, panes, activities. It draws the visible rows, moves the
+// The rows under the common time axis: messages, panes, activities. It draws the visible rows, moves the
 // cursor through all rows, and zooms by dragging.
 import { h } from "./dom.js";
 import { kGutter } from "./plot/layout.js";
@@ -22,12 +22,16 @@ export class Stack {
   /**
    * @param {import("./view.js").View} view
    * @param {HTMLElement} head stays at the top while the rows scroll
-   * @param {HTMLElement} measure as wide as the drawings; a mark at the cursor is put into it
+   * @param {HTMLElement} measure in the head, as wide as the drawings; the marks of all rows are put into it, too
    * @param {number[]} failures instants of failures [s], which are marked by a line through all rows
    */
   constructor(view, head, measure, failures) {
     this.view = view;
-    this.failures = failures.map((seconds) => ({ seconds, line: h("div.failure-line") }));
+    this.failures = failures.map((seconds) => ({
+      seconds,
+      line: h("div.failure-line"),
+      mark: h("div.failure-line", { "aria-hidden": "true" }),
+    }));
     this.measure = measure;
     this.line = h("div.cursor-line", { "aria-hidden": "true", hidden: true });
     this.selection = h("div.selection", { "aria-hidden": "true", hidden: true });
@@ -36,7 +40,7 @@ export class Stack {
     this.clip = h("div.stack-overlay", { "aria-hidden": "true" }, ...failureLines, this.line, this.selection);
     this.element = h("div.stack", {}, head, this.body, this.clip);
     this.mark = h("div.cursor-line", { "aria-hidden": "true", hidden: true });
-    measure.append(this.mark);
+    measure.append(...this.failures.map(({ mark }) => mark), this.mark);
     this.observer = new IntersectionObserver((entries) => this.#onSight(entries), { rootMargin: "300px" });
     new ResizeObserver(() => this.redraw()).observe(this.body);
     view.addEventListener("view", () => this.redraw());
@@ -94,7 +98,7 @@ export class Stack {
   }
 
   #placeLines() {
-    for (const { seconds, line } of this.failures) this.#place(line, seconds);
+    for (const { seconds, line, mark } of this.failures) [line, mark].forEach((each) => this.#place(each, seconds));
     for (const line of [this.line, this.mark]) {
       this.#place(line, this.view.cursor);
       line.classList.toggle("held", this.view.isHeld);

@@ -1,6 +1,7 @@
 // The page of a campaign: reads its data, creates the parts, and connects them.
 import { coverageSection } from "../coverage/section.js";
 import { h } from "../dom.js";
+import { pageTitle } from "../parts/heading.js";
 import { Theme } from "../parts/theme.js";
 import { Tip } from "../parts/tip.js";
 import { startPage } from "../start.js";
@@ -8,7 +9,7 @@ import { readCampaign } from "./data/campaign.js";
 import { Selection } from "./data/selection.js";
 import { CaseTable } from "./parts/case_table.js";
 import { decisiveSection } from "./parts/decisive.js";
-import { header } from "./parts/header.js";
+import { header, verdictOf } from "./parts/header.js";
 import { HeatMap, mappable } from "./parts/heat_map.js";
 import { histogramSection } from "./parts/histograms.js";
 import { origin } from "./parts/origin.js";
@@ -57,7 +58,7 @@ function build(report) {
   const scatter = new Scatter(context);
   const parallel = new Parallel(context);
   const isMapped = mappable(report.parameters).length > 1;
-  document.title = `${report.campaign.name} – stride campaign`;
+  document.title = pageTitle(report.campaign.name, verdictOf(report.outcomes).kind === "bad", "campaign");
   const parts = [
     header(report, () => theme.switch()),
     decisiveSection(report),

@@ -47,6 +47,12 @@ export class Intervals {
   }
 }
 
+/** The ends of intervals as instants, ascending: of steps that were made again, an earlier one can end later. */
+export function endsOf({ until }) {
+  const ends = Float64Array.from(until).sort();
+  return new Intervals(ends, ends);
+}
+
 /** The pixels of the view in which intervals begin; the end of the view is in the last pixel. */
 export function pixelsWith(intervals, { from, until }, width) {
   const perPixel = (until - from) / width;

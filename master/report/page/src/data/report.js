@@ -35,6 +35,11 @@ export class Column {
     const value = this.values[row];
     if (this.texts) return this.texts[value];
     if (this.type === "Boolean") return value ? "true" : "false";
+    return this.valueText(value);
+  }
+
+  /** A number of its type. */
+  valueText(value) {
     return numberText(value, this.type === "Float32");
   }
 }

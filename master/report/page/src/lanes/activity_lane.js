@@ -1,5 +1,5 @@
 // Activity of one unit over time: idle time shaded, events and early returns as ticks, rejections and rollbacks red.
-import { pixelsWith } from "../data/intervals.js";
+import { endsOf, pixelsWith } from "../data/intervals.js";
 import { briefText } from "../data/number_text.js";
 import { h, sizedContext } from "../dom.js";
 import { color } from "../plot/colors.js";
@@ -8,10 +8,13 @@ import { shadeIntervals } from "../plot/shade.js";
 
 const kHeight = 18;
 
-/** Drawn in this order; rare and important kinds last. Shares of the lane's height, from the top. */
+/**
+ * Drawn in this order; rare and important kinds last. Shares of the lane's height, from the top. A tick is where the
+ * activity begins, that of an early return where the unit stopped.
+ */
 const kTicks = [
   { kind: "event", color: "--event", top: 0.45, bottom: 1 },
-  { kind: "early return", color: "--early-return", top: 0, bottom: 0.45 },
+  { kind: "early return", color: "--early-return", top: 0, bottom: 0.45, isAtEnd: true },
   { kind: "undone", color: "--bad", top: 0, bottom: 1 },
   { kind: "rejection", color: "--bad", top: 0, bottom: 1 },
 ];
@@ -21,6 +24,12 @@ export class ActivityLane {
     this.view = view;
     this.component = component;
     this.activity = report.activity.get(component) ?? new Map();
+    this.ticks = kTicks
+      .filter(({ kind }) => this.activity.has(kind))
+      .map((ticks) => {
+        const intervals = this.activity.get(ticks.kind);
+        return { ...ticks, instants: ticks.isAtEnd ? endsOf(intervals) : intervals };
+      });
     this.canvas = h("canvas", { role: "img", "aria-label": `${component}: ${this.summary}` });
     this.box = h("div.activity-lane", {}, h("span.lane-name", { title: component }, component), this.canvas);
   }
@@ -44,13 +53,12 @@ export class ActivityLane {
     context.fillStyle = color("--lane");
     context.fillRect(0, 0, plotted, kHeight);
     if (this.activity.has("idle")) shadeIntervals(context, this.activity.get("idle"), this.view, box, color("--idle"));
-    for (const ticks of kTicks) if (this.activity.has(ticks.kind)) this.#drawTicks(context, ticks, plotted);
+    for (const ticks of this.ticks) this.#drawTicks(context, ticks, plotted);
   }
 
-  #drawTicks(context, { kind, color: name, top, bottom }, width) {
-    const intervals = this.activity.get(kind);
+  #drawTicks(context, { instants, color: name, top, bottom }, width) {
     context.fillStyle = color(name);
-    for (const x of pixelsWith(intervals, this.view, width)) {
+    for (const x of pixelsWith(instants, this.view, width)) {
       context.fillRect(x, Math.floor(top * kHeight), 1.5, Math.ceil((bottom - top) * kHeight));
     }
   }

@@ -3,8 +3,6 @@ import { lastAtOrBefore, timeText } from "../data/exact_time.js";
 import { h } from "../dom.js";
 import { kGutter } from "../plot/layout.js";
 
-const kHeight = 84;
-
 export class FilmStrip {
   /** @param {{component: string, times: BigInt64Array, seconds: Float64Array, frames: string[]}} film */
   constructor({ view }, film) {
@@ -22,7 +20,12 @@ export class FilmStrip {
     this.box = h("div.film", {}, h("span.lane-name", { title: film.component }, film.component), this.track);
     this.image = h("img", { alt: "", draggable: false });
     this.caption = h("figcaption");
-    this.picture = h("figure.film-picture", {}, this.image, this.caption);
+    this.enlarge = h(
+      "button.enlarge",
+      { type: "button", title: "Larger or smaller", "aria-pressed": "false", onclick: () => this.#enlarge() },
+      this.image,
+    );
+    this.picture = h("figure.film-picture", {}, this.enlarge, this.caption);
     this.image.addEventListener("load", () => this.#fitRatio(), { once: true });
     this.update();
   }
@@ -40,24 +43,29 @@ export class FilmStrip {
     this.image.src = this.film.frames[index];
     const time = `${timeText(this.film.times[index])} s`;
     this.image.alt = `${this.film.component} at ${time}`;
-    this.caption.textContent = `${this.film.component} at ${time}, picture ${index + 1} of ${this.film.frames.length}`;
+    const caption = `${this.film.component} at ${time}, picture ${index + 1} of ${this.film.frames.length}`;
+    this.caption.textContent = this.caption.title = caption;
     this.track.setAttribute("aria-valuenow", String(index));
     this.track.setAttribute("aria-valuetext", time);
   }
 
   draw(width) {
     const plotted = width - kGutter;
-    const count = Math.max(1, Math.round(plotted / (kHeight * this.ratio)));
+    const count = Math.max(1, Math.round(plotted / (this.track.clientHeight * this.ratio)));
     const each = plotted / count;
-    const pictures = [];
-    for (let i = 0; i < count; ++i) {
+    while (this.track.children.length < count) this.track.append(h("img", { alt: "", draggable: false }));
+    while (this.track.children.length > count) this.track.lastChild.remove();
+    [...this.track.children].forEach((picture, i) => {
       const time = this.view.from + ((i + 0.5) / count) * this.view.span;
-      const index = Math.max(0, lastAtOrBefore(this.film.seconds, time));
-      pictures.push(
-        h("img", { src: this.film.frames[index], alt: "", draggable: false, style: { width: `${each}px` } }),
-      );
-    }
-    this.track.replaceChildren(...pictures);
+      const frame = this.film.frames[Math.max(0, lastAtOrBefore(this.film.seconds, time))];
+      picture.style.width = `${each}px`;
+      if (picture.getAttribute("src") !== frame) picture.src = frame;
+    });
+  }
+
+  #enlarge() {
+    const isLarge = this.picture.classList.toggle("large");
+    this.enlarge.setAttribute("aria-pressed", String(isLarge));
   }
 
   #fitRatio() {

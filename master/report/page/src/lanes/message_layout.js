@@ -45,6 +45,52 @@ export function layOut(messages, view, width) {
   return marks;
 }
 
+/** So many marks without room for a text, for so many messages each, are a crowd. */
+const kCrowdMarks = 4;
+const kCrowdMessages = 2;
+/** Width of a bar of a crowd [px]. */
+export const kBar = 4;
+
+/**
+ * @typedef {object} Crowd in place of marks that stand too close to be told apart
+ * @property {number} x [px]
+ * @property {number} width [px]
+ * @property {object[]} messages in their order
+ * @property {{x: number, count: number}[]} bars from `x` [px], and the number of messages in each
+ */
+
+/**
+ * Marks, but crowds in place of those that stand too close.
+ * @param {Mark[]} marks of a lane
+ * @param {(message: object) => number} place of a message [px]
+ * @returns {(Mark|Crowd)[]}
+ */
+export function gatherCrowds(marks, place) {
+  const found = [];
+  let run = [];
+  for (const mark of marks) {
+    run.push(mark);
+    if (mark.text === "") continue;
+    found.push(...crowdOf(run, place));
+    run = [];
+  }
+  return [...found, ...crowdOf(run, place)];
+}
+
+/** The marks themselves if they are few, or of few messages. */
+function crowdOf(marks, place) {
+  const messages = marks.flatMap((mark) => mark.messages);
+  if (marks.length < kCrowdMarks || messages.length < kCrowdMessages * marks.length) return marks;
+  const begin = Math.floor(place(messages[0]) / kBar) * kBar;
+  const bars = [];
+  for (const message of messages) {
+    const x = Math.floor(place(message) / kBar) * kBar - begin;
+    if (bars.at(-1)?.x === x) ++bars.at(-1).count;
+    else bars.push({ x, count: 1 });
+  }
+  return [{ x: begin, width: bars.at(-1).x + kBar, messages, bars }];
+}
+
 function label(mark, next) {
   const others = mark.messages.length - 1;
   mark.more = others > 0 ? `+${others}` : "";

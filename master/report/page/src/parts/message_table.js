@@ -1,45 +1,62 @@
-// A searchable table of all messages; a click on one moves the cursor to it.
+// A searchable table of all messages, each from its sender to its receivers; a click on one moves the cursor to it.
 import { timeText } from "../data/exact_time.js";
-import { h } from "../dom.js";
+import { transmissionsOf } from "../data/transmissions.js";
+import { clipped, h } from "../dom.js";
 
 /** Number of rows that are added at once. */
 const kRows = 200;
 
-/** The text of a message that is searched, created on demand. */
-function searchedText(message) {
-  const { time, component, variable, direction, content, payload } = message;
-  message.searched ??= `${timeText(time)} ${component}.${variable} ${direction} ${content} ${payload}`.toLowerCase();
-  return message.searched;
+/** The choices of the filter: a word for the reader, and which rows it leaves. */
+const kKinds = {
+  "": { text: "all", has: () => true },
+  received: { text: "received", has: ({ received }) => received.length > 0 },
+  lost: { text: "sent, not received", has: ({ sent, received }) => sent !== null && received.length === 0 },
+  intervention: { text: "interventions", has: ({ intervention }) => intervention !== null },
+};
+
+const partsOf = ({ sent, received, intervention }) => [sent, ...received, intervention].filter(Boolean);
+const nameOf = ({ component, variable }) => `${component}.${variable}`;
+
+/** The text of a row that is searched, created on demand. */
+function searchedText(row) {
+  const words = partsOf(row).map((message) => `${nameOf(message)} ${message.direction}`);
+  const { content, payload } = partsOf(row)[0];
+  row.searched ??= `${timeText(row.time)} ${words.join(" ")} ${content} ${payload}`.toLowerCase();
+  return row.searched;
 }
 
-/** @param {string} text words that must all occur, ignoring case */
-export function matching(messages, text, direction) {
+/**
+ * @param {import("../data/transmissions.js").Transmission[]} rows
+ * @param {string} text words that must all occur, ignoring case
+ * @param {keyof kKinds} kind
+ */
+export function matching(rows, text, kind) {
   const words = text.toLowerCase().split(/\s+/).filter(Boolean);
-  const isWanted = (message) => !direction || message.direction === direction;
-  return messages.filter((message) => isWanted(message) && words.every((word) => searchedText(message).includes(word)));
+  return rows.filter((row) => kKinds[kind].has(row) && words.every((word) => searchedText(row).includes(word)));
+}
+
+/** Where a message comes from and goes to, in words. */
+export function endsOf({ sent, received, intervention }) {
+  if (intervention) return [nameOf(intervention), "intervention"];
+  return [sent ? nameOf(sent) : "–", received.map(nameOf).join(", ") || "–"];
 }
 
 export class MessageTable {
   constructor({ report, view }) {
-    this.messages = report.messages;
+    this.rows = transmissionsOf(report.messages, report.diagram.connections);
     this.view = view;
     this.body = h("tbody");
     this.count = h("p.count", { role: "status" });
     this.more = h("button", { type: "button", onclick: () => this.#addRows() }, "Show more");
     this.text = h("input", { type: "search", placeholder: "Filter", "aria-label": "Filter messages" });
-    this.direction = h(
+    this.kind = h(
       "select",
-      { "aria-label": "Direction" },
-      ...[
-        ["", "all"],
-        ["sent", "sent"],
-        ["received", "received"],
-        ["intervention", "interventions"],
-      ].map(([value, label]) => h("option", { value }, label)),
+      { "aria-label": "Which messages" },
+      ...Object.entries(kKinds).map(([value, { text }]) => h("option", { value }, text)),
     );
     this.text.addEventListener("input", () => this.#filter());
-    this.direction.addEventListener("change", () => this.#filter());
-    const heads = ["time [s]", "component", "", "variable", "content", "payload"];
+    this.kind.addEventListener("change", () => this.#filter());
+    const heads = ["time [s]", "from", "to", "content", "payload"];
     const table = h(
       "table.messages",
       {},
@@ -50,7 +67,7 @@ export class MessageTable {
       "section.message-table",
       { "aria-label": "Messages" },
       h("h2", {}, "Messages"),
-      h("div.filter", {}, this.text, this.direction, this.count),
+      h("div.filter", {}, this.text, this.kind, this.count),
       h("div.scroll", { tabIndex: 0 }, table),
       this.more,
     );
@@ -58,33 +75,33 @@ export class MessageTable {
   }
 
   #filter() {
-    this.found = matching(this.messages, this.text.value, this.direction.value);
+    this.found = matching(this.rows, this.text.value, this.kind.value);
     this.body.replaceChildren();
     this.#addRows();
   }
 
   #addRows() {
     const begin = this.body.children.length;
-    this.body.append(...this.found.slice(begin, begin + kRows).map((message) => this.#row(message)));
+    this.body.append(...this.found.slice(begin, begin + kRows).map((row) => this.#row(row)));
     const shown = this.body.children.length;
-    const [all, found] = [this.messages.length, this.found.length].map((count) => count.toLocaleString("en"));
+    const [all, found] = [this.rows.length, this.found.length].map((count) => count.toLocaleString("en"));
     this.count.textContent =
       shown < this.found.length ? `the first ${shown} of ${found} (of ${all})` : `${found} of ${all}`;
     this.more.hidden = shown === this.found.length;
   }
 
-  #row(message) {
-    const { time, seconds, component, direction, variable, content, payload } = message;
-    const go = () => this.view.holdCursor(seconds);
+  #row(row) {
+    const { content, payload } = partsOf(row)[0];
+    const [from, to] = endsOf(row);
+    const go = () => this.view.holdCursor(row.seconds);
     return h(
       "tr",
       { onclick: go },
-      h("td.number", {}, h("button.time-link", { type: "button", onclick: go }, timeText(time))),
-      h("td", {}, component),
-      h("td", {}, direction),
-      h("td", {}, variable),
-      h("td", {}, content),
-      h("td.payload", {}, payload === content ? "" : payload),
+      h("td.number", {}, h("button.time-link", { type: "button", onclick: go }, timeText(row.time))),
+      h("td.end", {}, clipped("div", from)),
+      h("td.end", {}, clipped("div", to)),
+      h("td.content", {}, clipped("div", content)),
+      h("td.payload", {}, clipped("div", payload === content ? "" : payload)),
     );
   }
 }

@@ -1,5 +1,6 @@
 // Above the time axis: the exact time of the row at the cursor, and buttons for the actions of the keys.
 import { rowAtCursor } from "../cursor.js";
+import { briefText } from "../data/number_text.js";
 import { rowTimeText } from "../data/report.js";
 import { h } from "../dom.js";
 import { ticks, timeTickTexts } from "../plot/ticks.js";
@@ -39,10 +40,13 @@ export class Toolbar {
     const isThere = row >= 0 && row < report.times.length;
     this.time.textContent = isThere ? `t = ${rowTimeText(report, row)} s` : "no cursor";
     const count = report.times.length.toLocaleString("en");
-    this.row.textContent = isThere ? `sample ${(row + 1).toLocaleString("en")} of ${count}` : "";
-    this.shown.textContent = view.isWhole ? "the whole run" : `${spanTexts(view).join(" to ")} s`;
+    const values = view.cursor === null ? "values of the time that is shown" : "";
+    this.row.textContent = isThere ? `sample ${(row + 1).toLocaleString("en")} of ${count}` : values;
+    this.shown.textContent = view.isWhole ? "the whole run" : `${spanTexts(view).join(" to ")} s of ${wholeText(view)}`;
   }
 }
+
+const wholeText = ({ whole }) => `${briefText(whole.from)} to ${briefText(whole.until)} s`;
 
 /** Both ends of the view, with enough digits to distinguish them. */
 function spanTexts({ from, until }) {

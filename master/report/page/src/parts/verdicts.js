@@ -1,5 +1,5 @@
 // The units' own verdicts and the scenario's checks, in one list.
-import { h } from "../dom.js";
+import { clipped, h } from "../dom.js";
 import { briefText, numberText } from "../data/number_text.js";
 
 /**
@@ -23,15 +23,23 @@ export function judgements(run) {
   return [...checks, ...units].sort((a, b) => rank(a) - rank(b));
 }
 
-/** The time of the first failure [s] of each failed one. */
+/** The time of the first failure [s] of each failed one, and the end of a run that failed. */
 export function failureTimes(run) {
   const failed = judgements(run).filter(({ passed, time }) => passed === false && time !== null);
-  return failed.map(({ time }) => time);
+  const end = run.outcome === "failed" && Number.isFinite(run.reached) ? [run.reached] : [];
+  return [...failed.map(({ time }) => time), ...end];
+}
+
+/** The first instant of failure [s]; null if nothing failed, or it is not known when. */
+export function firstFailure(run) {
+  const times = failureTimes(run);
+  return times.length === 0 ? null : Math.min(...times);
 }
 
 /**
  * The verdict on the whole run.
- * @returns {{kind: "good"|"bad"|"open"|"none", text: string, first?: Judgement}}
+ * @returns {{kind: "good"|"bad"|"open"|"none", text: string, failed?: Judgement[], first?: Judgement}} `first`: of those
+ * that failed
  */
 export function summary(run) {
   const all = judgements(run);
@@ -41,8 +49,7 @@ export function summary(run) {
   if (failed.length > 0) {
     const timed = failed.filter(({ time }) => time !== null);
     const first = timed.length > 0 ? timed.reduce((a, b) => (b.time < a.time ? b : a)) : undefined;
-    const names = failed.map(({ name }) => name).join(", ");
-    return { kind: "bad", text: `${failed.length} of ${all.length} failed: ${names}`, first };
+    return { kind: "bad", text: `${failed.length} of ${all.length} failed`, failed, first };
   }
   if (run.outcome === "interrupted") return { kind: "open", text: "Interrupted; nothing failed until then" };
   if (open.length > 0) return { kind: "open", text: `${open.length} of ${all.length} undecided` };
@@ -77,14 +84,14 @@ function marginLink(margin, view) {
 
 function row({ name, passed, text, time, margin, values, line }, view) {
   const [sign, word, kind] = kSigns.get(passed);
-  const there = values.length > 0 ? h("div.there", {}, values.map(valueText).join(", ")) : null;
+  const there = values.length > 0 ? clipped("div.there", values.map(valueText).join(", ")) : null;
   return h(
     "tr",
     {},
     h(`td.sign.${kind}`, {}, h("span", { title: word, "aria-label": word, role: "img" }, sign)),
-    h("th", { scope: "row", title: line ? `line ${line} of the scenario` : "" }, name),
+    h("th", { scope: "row", title: line ? `${name}: line ${line} of the scenario` : name }, name),
     h("td.number", {}, margin === null ? "" : marginLink(margin, view)),
-    h("td", {}, text, there),
+    h("td.because", {}, clipped("div", text), there),
     h("td.number", {}, time === null ? "" : timeLink(view, time)),
   );
 }
@@ -94,8 +101,8 @@ export function verdictTable(run, view) {
   if (all.length === 0) return null;
   const isTimed = all.some(({ time }) => time !== null);
   const hasMargins = all.some(({ margin }) => margin !== null);
-  const heads = ["", "verdict of", hasMargins ? "margin" : "", "because", isTimed ? "first failed at" : ""].map((text) =>
-    h("th", { scope: "col" }, text),
+  const heads = ["", "verdict of", hasMargins ? "margin" : "", "because", isTimed ? "first failed at" : ""].map(
+    (text) => h("th", { scope: "col" }, text),
   );
   const rows = all.map((judgement) => row(judgement, view));
   return h("table.verdicts", {}, h("thead", {}, h("tr", {}, ...heads)), h("tbody", {}, ...rows));

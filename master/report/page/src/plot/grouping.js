@@ -1,13 +1,23 @@
 // The assignment of signals to panes: those of one plot and one unit of measure share a pane; states have rows.
 import { ownerOf } from "../data/components.js";
 
+/** The plots of the run, and those of what is checked and in none of them, so that limits are seen: failed first. */
+export function plotsOf({ run, plots }) {
+  const shown = new Set(plots.flatMap(({ signals }) => signals));
+  const checks = (run?.checks ?? []).filter(({ limits }) => limits && !shown.has(limits.signal));
+  const failed = new Set(checks.filter(({ passed }) => passed === false).map(({ limits }) => limits.signal));
+  const others = new Set(checks.map(({ limits }) => limits.signal).filter((signal) => !failed.has(signal)));
+  const plot = (title, signals) => (signals.size === 0 ? [] : [{ title, signals: [...signals] }]);
+  return [...plot("Failed checks", failed), ...plots, ...plot("Checks", others)];
+}
+
 /**
  * @param {{plots: {title: string, signals: string[]}[], columns: Map<string, import("../data/report.js").Column>}}
  * report
  * @returns {{title: string, unit: string, isStates: boolean, columns: import("../data/report.js").Column[]}[]}
  */
 export function groupIntoPanes(report) {
-  return report.plots.flatMap((plot) => panesOf(plot, report.columns));
+  return plotsOf(report).flatMap((plot) => panesOf(plot, report.columns));
 }
 
 /**
@@ -15,7 +25,7 @@ export function groupIntoPanes(report) {
  * @returns {ReturnType<typeof groupIntoPanes>}
  */
 export function groupOthers(report) {
-  const shown = new Set(report.plots.flatMap(({ signals }) => signals));
+  const shown = new Set(plotsOf(report).flatMap(({ signals }) => signals));
   const units = new Set(report.units);
   const components = new Map();
   for (const name of report.columns.keys()) {
@@ -24,7 +34,7 @@ export function groupOthers(report) {
     if (!components.has(title)) components.set(title, { title, signals: [] });
     components.get(title).signals.push(name);
   }
-  return groupIntoPanes({ ...report, plots: [...components.values()] });
+  return [...components.values()].flatMap((plot) => panesOf(plot, report.columns));
 }
 
 function panesOf({ title, signals }, columns) {

@@ -1,31 +1,38 @@
-// Beside a pane: its title, its signals with a button to hide each, and their values at the cursor.
+// Beside a pane: its title, its signals with a button to hide each, and their values at the cursor, or what they were.
+import { rowAtCursor } from "../cursor.js";
 import { h } from "../dom.js";
 import { curveColor, curveDash } from "./colors.js";
+import { summaryText } from "./summary.js";
 
 export class Legend {
   /**
+   * @param {object} context report and view
    * @param {{title: string, isStates: boolean}} group
    * @param {import("./pane.js").Pane} pane
    * @param {() => void} changed called when the drawing must be updated
    */
-  constructor(group, pane, changed) {
+  constructor(context, group, pane, changed) {
+    this.context = context;
     this.pane = pane;
     this.entries = group.columns.map((column, index) => this.#entry(column, index, group.isStates, changed));
-    const scale = pane.canBeLogarithmic ? this.#scaleButton(changed) : null;
+    const buttons = group.isStates ? [] : this.#scaleButtons(changed);
     this.box = h(
       "div.legend",
       {},
-      h("div.legend-head", {}, h("h3", {}, group.title), scale),
+      h("div.legend-head", {}, h("h3.clipped", { title: group.title }, group.title), h("span.scales", {}, ...buttons)),
       h("ul", {}, ...this.entries.map((entry) => entry.element)),
     );
   }
 
-  /** Shows the values of a row, or none. @param {number} row -1 for none */
-  update(row) {
+  /** Shows the values at the cursor; without one, what they were in the time that is shown. */
+  update() {
+    const { report, view } = this.context;
+    const row = rowAtCursor(this.context);
     for (const { column, value } of this.entries) {
-      const text = row < 0 ? "–" : column.textAt(row);
-      value.textContent = column.unit && row >= 0 ? `${text} ${column.unit}` : text;
-      value.title = text;
+      const { text, title } = view.cursor === null ? summaryText(column, report.seconds, view) : valueText(column, row);
+      value.textContent = text;
+      value.title = title;
+      value.classList.toggle("summary", view.cursor === null);
     }
   }
 
@@ -44,11 +51,14 @@ export class Legend {
         },
         onmouseenter: () => this.pane.highlight(column),
         onmouseleave: () => this.pane.highlight(null),
+        onfocus: () => this.pane.highlight(column),
+        onblur: () => this.pane.highlight(null),
       },
       isStates ? null : h("span.swatch", { style: swatch(this.pane.firstColor, index) }),
-      h("span.signal-name", {}, breakable(column.name)),
+      h("span.signal-name", {}, h("bdi", {}, column.name)),
     );
-    return { column, value, element: h("li", {}, button, value) };
+    const checks = this.pane.limits.get(column).filter(({ name }) => name !== "");
+    return { column, value, element: h("li", {}, button, value, ...checks.map(checkNote)) };
   }
 
   #toggle(column) {
@@ -57,30 +67,47 @@ export class Legend {
     return !hidden.has(column);
   }
 
-  #scaleButton(changed) {
+  #scaleButtons(changed) {
+    const { pane } = this;
+    const own = this.#switch("own scale", "Each curve on its own scale", "hasOwnScales", changed);
+    const log = this.#switch("log", "Logarithmic or linear axis", "isLogarithmic", changed);
+    return [pane.columns.length > 1 ? own : null, pane.canBeLogarithmic ? log : null].filter(Boolean);
+  }
+
+  /** A button that switches a property of the pane. */
+  #switch(text, title, property, changed) {
+    const { pane } = this;
     const button = h(
       "button.scale",
       {
         type: "button",
-        title: "Logarithmic or linear axis",
-        "aria-label": "logarithmic axis",
-        "aria-pressed": String(this.pane.isLogarithmic),
+        title,
+        "aria-label": title,
+        "aria-pressed": String(pane[property]),
         onclick: () => {
-          this.pane.setLogarithmic(!this.pane.isLogarithmic);
-          button.setAttribute("aria-pressed", String(this.pane.isLogarithmic));
+          pane[property] = !pane[property];
+          button.setAttribute("aria-pressed", String(pane[property]));
           changed();
         },
       },
-      "log",
+      text,
     );
     return button;
   }
 }
 
+/** Of a row; -1 for none. */
+function valueText(column, row) {
+  if (row < 0) return { text: "–", title: "–" };
+  const text = column.textAt(row);
+  return { text: column.unit ? `${text} ${column.unit}` : text, title: text };
+}
+
+/** The line of a check's limits, and its name. */
+const checkNote = ({ name, isFailed }) =>
+  h(`span.checked${isFailed ? ".broken" : ""}`, { title: name }, isFailed ? `✗ ${name}` : name);
+
 const swatch = (firstColor, index) => ({
   borderTopColor: `var(${curveColor(firstColor + index)})`,
   borderTopStyle: curveDash(index).length > 0 ? "dashed" : "solid",
 });
-
-/** Allows a line break after each dot of a name. */
-const breakable = (name) => name.replaceAll(".", ".\u200b");

@@ -3,20 +3,14 @@
 import uPlot from "uplot";
 import { color, curveColor, curveDash } from "./colors.js";
 import { kGutter } from "./layout.js";
-import { drawLimits, limitsOf, shadeViolations, withLimits } from "./limits.js";
+import { drawLimits, limitsOf, shadeBeyond, shadeViolations, withLimits } from "./limits.js";
 import { timeTicks } from "./ruler.js";
-import {
-  finiteExtremes,
-  hasNothingNegative,
-  intoRange,
-  isMostlySmall,
-  linearRange,
-  logarithmicRange,
-} from "./scale.js";
+import { finiteExtremes, hasNothingNegative, hasPositive, isMostlySmall } from "./scale.js";
 import { shadeIntervals } from "./shade.js";
 import { groupTimes, groupValues, rowGroups } from "./thin.js";
 import { trace, Tracer } from "./trace.js";
-import { commonExponent, powerText, ticks, valueTickTexts } from "./ticks.js";
+import { powerText } from "./ticks.js";
+import { LinearAxis, LogarithmicAxis } from "./value_axis.js";
 
 const kHeight = 132;
 const kFont = "11px system-ui, sans-serif";
@@ -26,8 +20,8 @@ const kLine = 1.5;
 const kDotDistance = 14;
 /** uPlot draws no data itself. */
 const kNothing = [null, null];
-/** The maximum number of ticks on the vertical axis. */
-const kMostTicks = 6;
+
+const isWholeNumber = ({ type }) => !type.startsWith("Float");
 
 export class Pane {
   /**
@@ -39,16 +33,17 @@ export class Pane {
     this.report = report;
     this.view = view;
     this.columns = columns;
-    this.limits = columns.map((column) => limitsOf(report, column));
+    this.limits = new Map(columns.map((column) => [column, limitsOf(report, column)]));
     this.firstColor = firstColor;
     this.hidden = new Set();
     this.highlighted = null;
-    /** Whether all values are whole numbers. */
-    this.isWhole = columns.every(({ type }) => !type.startsWith("Float"));
-    this.canBeLogarithmic = !this.isWhole && columns.every(hasNothingNegative);
-    this.isLogarithmic = this.canBeLogarithmic && columns.some(isMostlySmall);
-    this.range = [0, 1];
-    this.exponent = 0;
+    const isWhole = columns.every(isWholeNumber);
+    this.canBeLogarithmic = !isWhole && columns.some(hasPositive);
+    this.isLogarithmic = this.canBeLogarithmic && columns.every(hasNothingNegative) && columns.some(isMostlySmall);
+    /** Whether each curve has its own scale, which makes curves of very different sizes visible together. */
+    this.hasOwnScales = false;
+    /** That of each column: the same for all, unless they have their own. */
+    this.axes = columns.map(() => new LinearAxis({ least: 0, most: 1 }, isWhole));
     /** The drawing of each curve: its points, and the bars made of them. */
     this.drawn = columns.map(() => ({ groups: [], times: [], values: [] }));
     this.bars = [];
@@ -67,38 +62,48 @@ export class Pane {
     this.#fit(drawn);
     this.pointCount = groups.length === 0 ? 0 : Math.max(0, ...drawn.map((values) => values.length));
     const times = groupTimes(seconds, groups);
-    this.drawn = drawn.map((values) => ({ groups, times, values: intoRange(values, this.range) }));
+    this.drawn = drawn.map((values) => ({ groups, times, values }));
     this.plot.batch(() => {
       this.plot.setData([[this.view.from, this.view.until], ...drawn.map(() => kNothing)], false);
       this.plot.setScale("x", { min: this.view.from, max: this.view.until });
-      this.plot.setScale("y", { min: this.range[0], max: this.range[1] });
+      this.plot.setScale("y", { min: 0, max: 1 });
+      this.plot.redraw(false, true); // the ticks, though uPlot's own scale stays the same
     });
-  }
-
-  setLogarithmic(isLogarithmic) {
-    this.isLogarithmic = isLogarithmic;
-    this.plot?.destroy();
-    this.plot = undefined;
   }
 
   /** Brings one curve to the front, or none. */
   highlight(column) {
     this.highlighted = column;
-    this.plot?.redraw(false);
+    this.plot?.redraw(false, this.hasOwnScales);
   }
 
   #fit(drawn) {
-    const values = finiteExtremes(drawn);
-    const extremes = this.isLogarithmic ? values : withLimits(values, this.#shownLimits());
-    this.range = this.isLogarithmic ? logarithmicRange(extremes) : linearRange(extremes);
-    const largest = Math.max(Math.abs(extremes.least), Math.abs(extremes.most));
-    this.exponent = this.isLogarithmic ? 0 : commonExponent(Number.isFinite(largest) ? largest : 0);
+    const limitsOf = (column) => (this.hidden.has(column) ? [] : this.limits.get(column));
+    if (this.hasOwnScales) {
+      this.axes = this.columns.map((column, i) => this.#axisOf([drawn[i]], limitsOf(column), isWholeNumber(column)));
+      return;
+    }
+    const axis = this.#axisOf(drawn, this.columns.flatMap(limitsOf), this.columns.every(isWholeNumber));
+    this.axes = this.columns.map(() => axis);
+  }
+
+  #axisOf(drawn, limits, isWhole) {
+    const extremes = withLimits(finiteExtremes(drawn), limits, this.isLogarithmic);
+    return this.isLogarithmic ? new LogarithmicAxis(extremes) : new LinearAxis(extremes, isWhole);
+  }
+
+  /** The axis whose ticks are shown: if all have their own, that of the highlighted curve. */
+  get #shownAxis() {
+    if (!this.hasOwnScales) return this.axes[0];
+    return this.axes[this.columns.indexOf(this.highlighted)] ?? null;
   }
 
   /** The label above the vertical axis. */
   get axisLabel() {
+    const axis = this.#shownAxis;
+    if (axis === null) return "own scales";
     const { unit } = this.columns[0];
-    return this.exponent === 0 ? unit : `${powerText(this.exponent)}${unit ? ` ${unit}` : ""}`;
+    return axis.exponent === 0 ? unit : `${powerText(axis.exponent)}${unit ? ` ${unit}` : ""}`;
   }
 
   #create(width) {
@@ -110,7 +115,7 @@ export class Pane {
       cursor: { show: false },
       scales: {
         x: { time: false, auto: false },
-        y: { auto: false, distr: this.isLogarithmic ? 3 : 1 },
+        y: { auto: false },
       },
       axes: [this.#timeAxis(), this.#valueAxis()],
       series: [{}, ...this.columns.map((column, index) => this.#series(index))],
@@ -141,13 +146,9 @@ export class Pane {
       stroke: () => color("--quiet-text"),
       ticks: { show: false },
       grid: { stroke: () => color("--grid"), width: 1 },
-      splits: () =>
-        this.isLogarithmic ? decades(this.range) : ticks(...this.range, kMostTicks, this.isWhole ? 1 : 0).values,
+      splits: () => (this.#shownAxis?.ticks ?? []).map(({ share }) => share),
       filter: (plot, splits) => splits,
-      values: (plot, splits) =>
-        this.isLogarithmic
-          ? splits.map((value) => powerText(Math.round(Math.log10(value))))
-          : valueTickTexts(splits, this.exponent),
+      values: () => (this.#shownAxis?.ticks ?? []).map(({ text }) => text),
     };
   }
 
@@ -175,7 +176,7 @@ export class Pane {
     };
     const hasDots = points.groups.length / 2 < bbox.width / (kDotDistance * ratio);
     const tracer = new Tracer(sink, { isStepped: this.columns[index].stepped, hasDots, width: kLine * ratio });
-    if (points.values.length > 0) trace(tracer, points, places(bbox, scales, this.isLogarithmic));
+    if (points.values.length > 0) trace(tracer, points, places(bbox, scales, this.axes[index]));
     return { stroke: line, fill: null, clip: null, band: null, gaps: null, flags: 0 };
   }
 
@@ -195,20 +196,35 @@ export class Pane {
     return color(curveColor(this.firstColor + index)) + (isFaint ? "40" : "");
   }
 
-  #shade({ ctx, bbox }) {
+  #shade({ ctx, bbox, scales }) {
     shadeIntervals(ctx, this.report.idle, this.view, bbox, color("--idle-shade"));
-    shadeViolations(ctx, this.#shownLimits(), this.view, bbox, color("--bad-ground"));
+    this.#shadeBelow(ctx, bbox);
+    for (const [column, axis] of this.#shownColumns()) {
+      const limits = this.limits.get(column);
+      shadeViolations(ctx, limits, this.view, bbox, { ground: color("--bad-ground"), bad: color("--bad") });
+      shadeBeyond(ctx, limits, bbox, places(bbox, scales, axis), color("--bad"));
+    }
   }
 
-  /** Of the curves that are not hidden. */
-  #shownLimits() {
-    return this.limits.filter((_, index) => !this.hidden.has(this.columns[index])).flat();
+  /** The places of zeros and negative values look different from the decades above. */
+  #shadeBelow(ctx, { left, top, width, height }) {
+    const below = Math.round((this.#shownAxis?.below ?? 0) * height);
+    ctx.save();
+    ctx.fillStyle = color("--lane");
+    ctx.fillRect(left, top + height - below, width, below);
+    ctx.restore();
+  }
+
+  /** Those that are not hidden, each with its axis. */
+  #shownColumns() {
+    return this.columns.map((column, i) => [column, this.axes[i]]).filter(([column]) => !this.hidden.has(column));
   }
 
   #drawLimits({ ctx, bbox, scales }) {
-    const place = places(bbox, scales, this.isLogarithmic);
     const colorOf = ({ isFailed }) => color(isFailed ? "--bad" : "--quiet-text");
-    drawLimits(ctx, this.#shownLimits(), bbox, place, colorOf);
+    for (const [column, axis] of this.#shownColumns()) {
+      drawLimits(ctx, this.limits.get(column), bbox, places(bbox, scales, axis), colorOf);
+    }
   }
 
   #nameAxis({ ctx, bbox }) {
@@ -223,21 +239,11 @@ export class Pane {
   }
 }
 
-/** The positions of times and values in the picture [device px]. */
-function places(bbox, { x, y }, isLogarithmic) {
-  const measure = isLogarithmic ? Math.log10 : (value) => value;
-  const [bottom, top] = [measure(y.min), measure(y.max)];
+/** The positions of times and values in the picture [device px], and whether a value has one. */
+function places(bbox, { x }, axis) {
   return {
     x: (time) => bbox.left + ((time - x.min) / (x.max - x.min)) * bbox.width,
-    y: (value) => bbox.top + (1 - (measure(value) - bottom) / (top - bottom)) * bbox.height,
+    y: (value) => bbox.top + (1 - axis.shareOf(value)) * bbox.height,
+    has: (value) => axis.has(value),
   };
-}
-
-function decades([bottom, top]) {
-  const first = Math.round(Math.log10(bottom));
-  const last = Math.round(Math.log10(top));
-  const step = Math.max(1, Math.ceil((last - first) / kMostTicks));
-  const found = [];
-  for (let exponent = first; exponent <= last; exponent += step) found.push(10 ** exponent);
-  return found;
 }

@@ -30,17 +30,13 @@ export function linearRange({ least, most }) {
   return [least - room, most + room];
 }
 
-/** Bottom and top of a logarithmic axis: whole decades. Values that are not positive are drawn at the bottom. */
-export function logarithmicRange({ most, leastPositive }) {
-  if (!(most > 0)) return [1e-1, 1];
-  const bottom = Math.floor(Math.log10(Math.max(leastPositive, most * kDepth)) + 1e-9);
-  const top = Math.ceil(Math.log10(most) - 1e-9);
-  return [10 ** bottom, 10 ** Math.max(top, bottom + 1)];
+/** The first and the last decade of a logarithmic axis, as exponents of ten. */
+export function logarithmicDecades({ most, leastPositive }) {
+  if (!(most > 0)) return [-1, 0];
+  const first = Math.floor(Math.log10(Math.max(leastPositive, most * kDepth)) + 1e-9);
+  const last = Math.ceil(Math.log10(most) - 1e-9) + 0;
+  return [first, Math.max(last, first + 1)];
 }
-
-/** Values outside of the range are drawn at its edge, so that they are visible: infinities, zeros on a log axis. */
-export const intoRange = (values, [bottom, top]) =>
-  values.map((value) => (value === null ? null : Math.min(top, Math.max(bottom, value))));
 
 function samples({ values }) {
   const step = Math.max(1, Math.floor(values.length / 2000));
@@ -51,6 +47,8 @@ function samples({ values }) {
 
 /** NaN is ignored. */
 export const hasNothingNegative = ({ pyramid, values }) => !(pyramid.extremes(0, values.length).least < 0);
+
+export const hasPositive = ({ pyramid, values }) => pyramid.extremes(0, values.length).most > 0;
 
 /** Whether most values would be at the bottom of a linear axis, so that a logarithmic one shows more. */
 export function isMostlySmall(column) {

@@ -43,7 +43,10 @@ export class StatesPane {
     const place = (time) => Math.min(width, Math.max(kGutter, kGutter + (time - this.view.from) * scale));
     this.#drawName(context, column, top, width);
     const row = { left: kGutter, top, width: width - kGutter, height: kRow };
-    shadeViolations(context, this.limits.get(column), this.view, row, color("--bad-ground"));
+    shadeViolations(context, this.limits.get(column), this.view, row, {
+      ground: color("--bad-ground"),
+      bad: color("--bad"),
+    });
     const middle = { top: top + (kRow - kBar) / 2, height: kBar };
     for (const state of states(column, this.report.seconds, groups)) {
       const box = { ...middle, left: place(state.from), right: place(state.until ?? this.view.whole.until) };

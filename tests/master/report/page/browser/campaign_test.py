@@ -146,7 +146,8 @@ class CampaignTest(unittest.TestCase):
         browser = self.open(Campaign())
         self.assertEqual(browser.errors(), [])
         self.assertEqual(browser.requests(), [])
-        self.assertEqual(browser.texts("h1")[0], "tank <1> campaign")
+        self.assertEqual(browser.texts("h1")[0], "tank <1> FAILED campaign")
+        self.assertEqual(browser.driver.title, "FAILED: tank <1> – stride campaign")
 
     def test_the_top_counts_the_outcomes(self):
         campaign = Campaign()

@@ -20,6 +20,9 @@ SECOND = 10**12
 PIXEL = ("data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAQAAAC1HAwCAAAAC0lEQVR42mNk+M8AAAICAQB"
          "7CYF4AAAAAElFTkSuQmCC")
 
+SQUARE = ("data:image/svg+xml,<svg xmlns='http://www.w3.org/2000/svg' width='600' height='600'>"
+          "<rect width='600' height='600' fill='teal'/></svg>")
+
 
 def message(seconds, component, content, direction="sent", variable="transmit.frame", payload="0102"):
     return {"time": str(round(seconds * SECOND)), "index": 1, "component": component, "variable": variable,
@@ -43,7 +46,7 @@ class Run:
         }
         self.plots = [("Tank", ["tank.level", "tank.limit"]),
                       ("Pump", ["pump.power", "pump.count", "pump.on", "pump.mode"])]
-        self.messages = [message(1, "pump", "start"), message(1, "tank", "start", "received"),
+        self.messages = [message(1, "pump", "start"), message(1, "tank", "start", "received", "receive.frame"),
                          message(1.001, "pump", "faster"), message(6.5, "pump", "a </script> & <b>"),
                          message(9, "tank", "")]
         self.units = [{"name": "tank", "model": "tank", "calls": 12, "steps": 10, "events": 1, "rejections": 2,
@@ -143,6 +146,23 @@ class PageTest(unittest.TestCase):
         else:
             self.assertEqual(float(text), value)
 
+    def test_without_a_cursor_there_are_the_last_value_and_the_extremes_of_what_is_shown(self):
+        run = Run()
+        browser = self.open_run(run)
+        _, values = browser.values()
+        level = run.columns["tank.level"][0]
+        expected = {"last": level[-1], "min": min(level), "max": max(level)}
+        found = dict(part.split(" ") for part in values["tank.level"].removesuffix(" m").split(", "))
+        self.assertEqual({name: float(text) for name, text in found.items()}, expected)
+        self.assertEqual((values["pump.on"], values["pump.mode"]), ("last: false", "last: full <power>"))
+        browser.run("stride.view.show(5, 6); stride.view.flush()")
+        _, values = browser.values()
+        first, last = run.row_at(5), run.row_at(6)
+        self.assertEqual(values["pump.count"], f"last {int(run.times[last] / SECOND)}, min "
+                         f"{int(run.times[first] / SECOND)}, max {int(run.times[last] / SECOND)}")
+        self.assertEqual(values["pump.on"], "last: true")
+        self.assertEqual(browser.put_cursor(5)[1]["pump.on"], "true")
+
     def test_the_mouse_moves_the_cursor_and_a_click_holds_it(self):
         run = Run()
         browser = self.open_run(run)
@@ -221,6 +241,54 @@ class PageTest(unittest.TestCase):
         for x in columns:
             self.assertAlmostEqual(x, place, delta=3)
 
+    def ink(self, curve, begin, end):
+        """The least and the greatest height in the first pane at which a curve is, from the top [px], between two shares
+        of its width."""
+        return self.browser.run("""
+            const [curve, begin, end] = arguments;
+            const canvas = document.querySelector('.pane canvas');
+            const { width, height } = canvas;
+            const pixels = canvas.getContext('2d').getImageData(0, 0, width, height).data;
+            const hex = getComputedStyle(document.documentElement).getPropertyValue(curve).trim();
+            const wanted = [1, 3, 5].map((i) => parseInt(hex.slice(i, i + 2), 16));
+            const found = [];
+            for (let x = Math.round(96 + begin * (width - 96)); x < 96 + end * (width - 96); ++x)
+              for (let y = 0; y < height; ++y) {
+                const pixel = pixels.slice(4 * (y * width + x), 4 * (y * width + x) + 4);
+                const distance = wanted.reduce((sum, part, i) => sum + Math.abs(pixel[i] - part), 0);
+                if (distance < 300 && pixel[3] > 100) found.push(y);
+              }
+            return [Math.min(...found), Math.max(...found)]""", curve, begin, end)
+
+    def test_zero_has_a_place_of_its_own_on_a_logarithmic_axis(self):
+        rows = 300
+        values = [1e-6 if i < 130 else 0 if i < 200 else 1e-2 for i in range(rows)]
+        data = page_data.report(range(0, rows * SECOND, SECOND), [page_data.column("a.load", values, "W", stepped=True)],
+                                [("A", ["a.load"])])
+        browser = self.open(data)
+        self.assertEqual(browser.one(".scale").get_attribute("aria-pressed"), "true")
+        small, zero, large = (self.ink("--curve-1", share, share + 0.1) for share in (0.1, 0.5, 0.9))
+        self.assertGreater(zero[0] - small[1], 8)
+        self.assertGreater(small[0] - large[1], 60)
+        browser.one(".scale").click()
+        browser.settle()
+        self.assertLess(abs(self.ink("--curve-1", 0.5, 0.6)[0] - self.ink("--curve-1", 0.1, 0.2)[0]), 2)
+
+    def test_curves_of_different_sizes_can_have_their_own_scales(self):
+        rows = 300
+        columns = [page_data.column(f"a.{size:g}", [size * math.sin(i / 10) for i in range(rows)], "W")
+                   for size in (1e5, 1e-3)]
+        data = page_data.report(range(0, rows * SECOND, SECOND), columns, [("A", ["a.100000", "a.0.001"])])
+        browser = self.open(data)
+        self.assertEqual(browser.texts(".scale"), ["own scale", "log"])
+        top, bottom = self.ink("--curve-2", 0, 1)
+        self.assertLess(bottom - top, 5)
+        browser.one(".scale").click()
+        browser.settle()
+        top, bottom = self.ink("--curve-2", 0, 1)
+        self.assertGreater(bottom - top, 90)
+        self.assertEqual(browser.one(".scale").get_attribute("aria-pressed"), "true")
+
     # parts
 
     def test_marks_of_messages_tell_how_many_they_are(self):
@@ -229,12 +297,38 @@ class PageTest(unittest.TestCase):
         lanes = browser.run("return [...document.querySelectorAll('.message-lane')].map((lane) => "
                             "[...lane.querySelectorAll('.message')].map((mark) => mark.textContent))")
         self.assertEqual(lanes, [["start+1", "a </script> & <b>"], ["start", "0102"]])
-        self.assertEqual(len(browser.all(".messages tbody tr")), 5)
+        cells = browser.run("return [...document.querySelectorAll('.messages tbody tr')].map((row) => "
+                            "[...row.cells].slice(0, 4).map((cell) => cell.textContent))")
+        self.assertEqual(cells[0], ["1", "pump.transmit.frame", "tank.receive.frame", "start"])
+        self.assertEqual(cells[1], ["1.001", "pump.transmit.frame", "–", "faster"])
+        self.assertEqual(len(cells), 4)
         browser.one(".filter input").send_keys("pump sent")
         self.assertEqual(len(browser.all(".messages tbody tr")), 3)
-        self.assertEqual(browser.one(".count").text, "3 of 5")
+        self.assertEqual(browser.one(".count").text, "3 of 4")
         browser.all(".messages tbody tr")[2].click()
         self.assertEqual(browser.run("return stride.view.cursor"), 6.5)
+
+    def test_a_crowd_of_messages_is_bars_that_open_on_zoom(self):
+        run = Run()
+        run.messages = [message(2 + i / 200, "pump", f"number {i}") for i in range(1000)]
+        browser = self.open_run(run)
+        browser.wait_for("return document.querySelector('.crowd')")
+        self.assertEqual((len(browser.all(".crowd")), len(browser.all(".message"))), (1, 0))
+        left, right = browser.plot_box()
+        crowd = browser.one(".crowd").rect
+        self.assertAlmostEqual(crowd["x"], left + 0.2 * (right - left), delta=5)
+        self.assertAlmostEqual(crowd["width"], 0.5 * (right - left), delta=9)
+        browser.run("document.querySelector('.crowd').focus()")
+        self.assertEqual(browser.texts(".tip div")[0], "1,000 messages from 2 s to 6.995 s: 1,000 sent")
+        for _ in range(3):
+            crowd = browser.one(".crowd, .message").rect
+            browser.click_at(round(crowd["x"] + crowd["width"] / 2), round(crowd["y"] + crowd["height"] / 2))
+            if not browser.all(".crowd"):
+                break
+        self.assertEqual(browser.all(".crowd"), [])
+        start, end = browser.view()
+        self.assertLess(end - start, 0.2)
+        self.assertEqual(len(browser.all(".message")), sum(start <= 2 + i / 200 <= end for i in range(1000)))
 
     def test_a_mark_tells_all_on_focus(self):
         browser = self.open_run()
@@ -255,15 +349,42 @@ class PageTest(unittest.TestCase):
              "line": 12, "values": [{"signal": "tank.level", "value": 1.04, "unit": "m"}]},
             {"name": "answered", "kind": "answer", "passed": True, "text": "", "time": None, "values": []}]
         browser = self.open_run(run)
-        self.assertIn("1 of 2 failed: level stays low", browser.one(".banner").text)
+        self.assertEqual(browser.one(".banner").text, "1 of 2 failed – first at 7.5 s: level stays low: 1.04 m is above 1 m")
         self.assertIn("tank.level = 1.04 m", browser.one(".verdicts").text)
+        browser.press(Keys.ESCAPE, "0")
         left, right = browser.plot_box()
-        line = browser.run("return [...document.querySelectorAll('.failure-line')].map("
+        line = browser.run("return [...document.querySelectorAll('.stack-overlay .failure-line')].map("
                            "(line) => line.getBoundingClientRect().left)")
         self.assertEqual(len(line), 1)
         self.assertAlmostEqual(line[0], left + 0.75 * (right - left), delta=1.5)
         browser.one(".banner .time-link").click()
         self.assertEqual(browser.run("return stride.view.cursor"), 7.5)
+
+    def test_what_failed_says_so_and_opens_where_it_did(self):
+        run = Run()
+        check = {"kind": "always", "passed": False, "text": "", "values": []}
+        run.run["checks"] = [{**check, "name": "late", "time": 9}, {**check, "name": "early", "time": 7.5}]
+        browser = self.open_run(run)
+        self.assertEqual(browser.one("h1").text, "tank <1> FAILED")
+        self.assertEqual(browser.driver.title, "FAILED: tank <1> – stride report")
+        self.assertEqual(browser.run("return [stride.view.cursor, stride.view.isHeld]"), [7.5, True])
+        self.assertEqual(browser.view(), (6.5, 8.5))
+        self.assertEqual(browser.one(".shown-time").text, "6.500 to 8.500 s of 0 to 10 s")
+        browser.press(Keys.ESCAPE, "0")
+        self.assertEqual(browser.view(), (0, 10))
+        self.assertEqual(self.open_run().driver.title, "tank <1> – stride report")
+
+    def test_limits_of_a_signal_without_a_plot_are_seen(self):
+        run = Run()
+        run.plots = run.plots[:1]
+        run.run["checks"] = [
+            {"name": "power stays low", "kind": "final", "passed": False, "text": "", "time": 10, "values": [],
+             "limits": {"signal": "pump.power", "from": None, "to": None, "max": 300}}]
+        browser = self.open_run(run)
+        self.assertEqual(browser.texts(".stack-body > .pane h3"), ["Failed checks", "Tank"])
+        self.assertEqual(browser.texts(".checked.broken"), ["✗ power stays low"])
+        line, _, _ = browser.run(PANE_COLOURS, 0)
+        self.assertGreater(line[1], 0.99)
 
     def test_limits_are_lines_and_violations_shades(self):
         run = Run()
@@ -279,6 +400,7 @@ class PageTest(unittest.TestCase):
         self.assertEqual(links, ["-100.3 W", "7.5 s", "-inf", "2 s"])
         browser.run("document.querySelector('.verdicts td .time-link').click()")
         self.assertEqual(browser.run("return stride.view.cursor"), 10)
+        browser.press(Keys.ESCAPE, "0")
         line, shade, good = browser.run(PANE_COLOURS, 1)
         self.assertAlmostEqual(line[0], 0.5, delta=0.02)
         self.assertAlmostEqual(line[1], 1, delta=0.02)
@@ -291,6 +413,8 @@ class PageTest(unittest.TestCase):
         run = Run()
         run.run.update(outcome="failed", error="tank.ssd:7: pump: no <water>", reached=3.5)
         browser = self.open_run(run)
+        self.assertEqual(browser.one("h1").text, "tank <1> FAILED at 3.5 s")
+        self.assertEqual(browser.run("return stride.view.cursor"), 3.5)
         self.assertIn("The run failed", browser.one(".banner").text)
         self.assertEqual(browser.one(".error").text, "tank.ssd:7: pump: no <water>")
 
@@ -319,6 +443,41 @@ class PageTest(unittest.TestCase):
         browser.press(Keys.ARROW_RIGHT)
         self.assertTrue(browser.one(".film-picture img").get_attribute("src").endswith("#5"))
         self.assertEqual(browser.one(".film-track").get_attribute("aria-valuenow"), "5")
+
+    def test_the_film_stays_in_sight_and_its_pictures_follow_the_zoom(self):
+        run = Run()
+        run.films = [{"component": name, "times": page_data.pack("int64", [i * SECOND // 10 for i in range(101)]),
+                      "frames": [f"{PIXEL}#{i}" for i in range(101)]} for name in ("world", "other")]
+        browser = self.open_run(run, height=600)
+        browser.run("window.scrollTo(0, document.querySelector('.stack').offsetTop + 500)")
+        browser.settle()
+        places = browser.run("return [...document.querySelectorAll('.film-track, .film-picture')].map((part) => "
+                             "{ const { top, bottom } = part.getBoundingClientRect(); return [top, bottom]; })")
+        self.assertEqual(len(places), 4)
+        for top, bottom in places:
+            self.assertGreaterEqual(top, 0)
+            self.assertLess(bottom, 300)
+        pictures = ("return [...document.querySelector('.film-track').children].map((picture) => "
+                    "Number(picture.src.split('#')[1]))")
+        whole = browser.run(pictures)
+        self.assertGreater(whole[-1] - whole[0], 80)
+        browser.run("stride.view.show(2, 3); stride.view.flush()")
+        browser.settle()
+        near = browser.run(pictures)
+        self.assertEqual(len(near), len(whole))
+        self.assertTrue(all(20 <= picture < 30 for picture in near) and near == sorted(near), near)
+        self.assertGreater(near[-1], near[0])
+
+    def test_the_picture_of_a_film_can_be_enlarged(self):
+        run = Run()
+        run.films = [{"component": "world", "times": page_data.pack("int64", [0]), "frames": [SQUARE]}]
+        browser = self.open_run(run)
+        height = "return document.querySelector('.film-picture img').clientHeight"
+        small = browser.run(height)
+        browser.one(".enlarge").click()
+        self.assertGreater(browser.run(height), 2 * small)
+        browser.one(".enlarge").click()
+        self.assertEqual(browser.run(height), small)
 
     def test_a_film_is_scrubbed_by_dragging(self):
         run = Run()
@@ -351,8 +510,16 @@ class PageTest(unittest.TestCase):
             "version": "1.2", "date": "2026-11-25T23:59:59Z", "host": "left <b>",
             "commands": [{"text": "stride run 'a tank.ssd'", "words": [], "folder": "/home/a"},
                          {"text": "stride run 'a tank.ssd' --resume", "words": [], "folder": "/home/b"}],
+            "swaps": ["tank=mine.fmu"], "values": ["pump.power=3"],
             "sources": [{"what": "the scenario", "path": "a tank.ssd", "sha256": "0123456789abcdef"}]}
         browser = self.open_run(run)
+        top = browser.run("const [names, texts] = ['dt', 'dd'].map((tag) => [...document.querySelectorAll('.origin > ' + tag)]"
+                          ".map((e) => e.textContent)); return names.map((name, i) => [name, texts[i]])")
+        self.assertEqual(top, [
+            ["scenario", "tank.ssd"], ["began", "2026-11-25 23:59:59 UTC on left <b>"],
+            ["by", "stride run 'a tank.ssd'"], ["and then", "stride run 'a tank.ssd' --resume"],
+            ["settings", "0 to 10 s"], ["swapped", "tank=mine.fmu"], ["set", "pump.power=3"],
+            ["versions", "stride 1.2, page by stride test"]])
         browser.one(".made-from summary").click()
         text = browser.one(".made-from").text
         for words in ["stride 1.2 began it at 2026-11-25T23:59:59Z on left <b> by", "stride run 'a tank.ssd' in /home/a",
@@ -366,6 +533,29 @@ class PageTest(unittest.TestCase):
         idle = browser.run("return [[...stride.report.idle.from], [...stride.report.idle.until]]")
         self.assertEqual(idle, [[1], [2]])
 
+    def test_an_early_return_is_where_the_unit_stopped(self):
+        run = Run()
+        data = run.data()
+        data["activity"] = [page_data.activity("tank", "early return", [(2 * SECOND, 5 * SECOND)]),
+                            page_data.activity("tank", "rejection", [(8 * SECOND, 9 * SECOND)])]
+        browser = self.open(data)
+        browser.run("document.querySelector('.activity-lane').scrollIntoView()")
+        browser.settle()
+        early, rejected = browser.run("""
+            const canvas = document.querySelector('.activity-lane canvas');
+            const pixels = canvas.getContext('2d').getImageData(0, 4, canvas.width, 1).data;
+            return ['--early-return', '--bad'].map((name) => {
+              const hex = getComputedStyle(document.documentElement).getPropertyValue(name).trim();
+              const wanted = [1, 3, 5].map((i) => parseInt(hex.slice(i, i + 2), 16));
+              const found = [];
+              for (let x = 0; x < canvas.width; ++x)
+                if (wanted.every((part, i) => pixels[4 * x + i] === part)) found.push(x / canvas.width);
+              return found;
+            })""")
+        self.assertEqual((len(early), len(rejected)), (1, 1))
+        self.assertAlmostEqual(early[0], 0.5, delta=0.003)
+        self.assertAlmostEqual(rejected[0], 0.8, delta=0.003)
+
     # looks
 
     def test_light_and_dark(self):
@@ -378,6 +568,28 @@ class PageTest(unittest.TestCase):
         self.assertNotEqual(light, dark)
         browser.press("d")
         self.assertEqual(browser.run(ground), light)
+
+    def test_long_texts_are_one_line_until_they_have_the_focus(self):
+        run = Run()
+        long = "it was expected that " * 40
+        run.columns["pump.mode"] = ([long] * len(run.times), "", "String")
+        run.columns["pump." + "subsystem." * 20 + "mode"] = ([1.5] * len(run.times), "W", "Float64")
+        run.plots[1][1].append("pump." + "subsystem." * 20 + "mode")
+        run.run["checks"] = [{"name": long, "kind": "always", "passed": passed, "text": long, "time": 7.5 if i else None,
+                              "values": [{"signal": "pump.mode", "value": long}]}
+                             for i, passed in enumerate([True, False])]
+        for width in (1400, 480):
+            browser = self.open_run(run, width=width)
+            self.assertLessEqual(browser.run("return document.documentElement.scrollWidth"), width)
+            self.assertEqual(browser.run("return document.querySelector('.verdicts').clientWidth"),
+                             browser.run("return document.querySelector('header').clientWidth"))
+            heights = browser.run("return ['.banner', '.because > div', '.verdicts th[scope=row]', '.value', '.signal'].map("
+                                  "(part) => Math.max(...[...document.querySelectorAll(part)].map((e) => e.clientHeight)))")
+            self.assertLess(max(heights), 60, heights)
+        because = browser.one(".because > div")
+        self.assertEqual(because.get_attribute("title").strip(), long.strip())
+        because.click()
+        self.assertGreater(because.size["height"], 100)
 
     def test_texts_have_enough_contrast(self):
         for dark in (False, True):

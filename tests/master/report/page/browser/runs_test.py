@@ -83,7 +83,12 @@ class RunsTest(unittest.TestCase):
         browser = self.open_report(results)
         with open(results / "events.csv", newline="", encoding="utf-8") as file:
             messages = list(csv.DictReader(file))
-        self.assertEqual(len(browser.all(".messages tbody tr")), len(messages))
+        ends = browser.run("return [...document.querySelectorAll('.messages tbody tr')].map((row) => "
+                           "[...row.querySelectorAll('.end')].map((cell) => cell.textContent))")
+        sent = [f"{row['component']}.{row['variable']}" for row in messages if row["direction"] == "sent"]
+        self.assertEqual([sender for sender, _ in ends], sent)
+        received = [f"{row['component']}.{row['variable']}" for row in messages if row["direction"] == "received"]
+        self.assertEqual([receiver for _, text in ends for receiver in text.split(", ") if receiver != "–"], received)
         marked = browser.run("return [...document.querySelectorAll('.message')].map((mark) => "
                              "Number(mark.querySelector('.message-more')?.textContent ?? 0) + 1)")
         self.assertEqual(sum(marked), len(messages))

@@ -1,6 +1,11 @@
 import assert from "node:assert/strict";
 import test from "node:test";
-import { commonIntervals, Intervals, pixelsWith } from "../../../../../master/report/page/src/data/intervals.js";
+import {
+  commonIntervals,
+  endsOf,
+  Intervals,
+  pixelsWith,
+} from "../../../../../master/report/page/src/data/intervals.js";
 import { randomNumbers } from "../random.mjs";
 
 const intervals = (...pairs) =>
@@ -47,4 +52,11 @@ test("the time that all cover", () => {
   assert.deepEqual([...common.until], [2, 4, 8]);
   assert.equal(commonIntervals([]).count, 0);
   assert.equal(commonIntervals([intervals([0, 1]), intervals()]).count, 0);
+});
+
+test("ends are instants, in their order", () => {
+  const ends = endsOf(intervals([0, 5], [1, 4], [6, 7]));
+  assert.deepEqual([...ends.from], [4, 5, 7]);
+  assert.deepEqual([...ends.until], [4, 5, 7]);
+  assert.deepEqual(pixelsWith(ends, { from: 0, until: 10 }, 10), [4, 5, 7]);
 });

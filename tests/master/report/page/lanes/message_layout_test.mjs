@@ -2,6 +2,8 @@ import assert from "node:assert/strict";
 import test from "node:test";
 import {
   byComponent,
+  gatherCrowds,
+  kBar,
   kMarkWidth,
   layOut,
   shortText,
@@ -53,6 +55,50 @@ test("no message is lost, and no mark lies on another or on its text", () => {
       assert.equal(mark.more, mark.messages.length > 1 ? `+${mark.messages.length - 1}` : "");
       if (m > 0) assert.ok(mark.x - marks[m - 1].x >= kMarkWidth + (marks[m - 1].more ? 7 : 0));
       if (m > 0 && marks[m - 1].text) assert.ok(marks[m - 1].x + kMarkWidth + marks[m - 1].room <= mark.x);
+    }
+  }
+});
+
+const placeIn = (width) => (each) => (each.seconds / 10) * width;
+const gathered = (messages, width) => gatherCrowds(layOut(messages, kView, width), placeIn(width));
+
+test("marks that stand close, for many messages each, are a crowd with bars", () => {
+  const messages = Array.from({ length: 400 }, (_, i) => message(2 + i / 100)).concat(message(9));
+  const [crowd, alone, ...others] = gathered(messages, 1000);
+  assert.deepEqual(others, []);
+  assert.deepEqual([crowd.x, crowd.width, crowd.messages.length], [200, 400, 400]);
+  assert.deepEqual(crowd.bars.slice(0, 2), [
+    { x: 0, count: 4 },
+    { x: kBar, count: 4 },
+  ]);
+  assert.equal(alone.text, "identify");
+});
+
+test("a few marks, or marks of single messages, are none", () => {
+  const burst = Array.from({ length: 30 }, (_, i) => message(5 + i / 100));
+  assert.ok(gathered(burst, 1000).every(({ bars }) => bars === undefined));
+  const row = Array.from({ length: 60 }, (_, i) => message(i / 6));
+  assert.ok(gathered(row, 1000).every(({ bars, messages }) => bars === undefined && messages.length === 1));
+});
+
+test("no message is lost in a crowd, and each has its place in a bar", () => {
+  const random = randomNumbers(9);
+  for (let i = 0; i < 100; ++i) {
+    const count = Math.floor(random() * 3000);
+    const messages = Array.from({ length: count }, () => message(random() * random() * 10));
+    messages.sort((a, b) => a.seconds - b.seconds);
+    const width = 100 + random() * 1500;
+    const entries = gathered(messages, width);
+    assert.deepEqual(
+      entries.flatMap((entry) => entry.messages),
+      messages,
+    );
+    for (const { x, width: wide, messages: held, bars } of entries.filter((entry) => entry.bars)) {
+      assert.equal(
+        bars.reduce((sum, bar) => sum + bar.count, 0),
+        held.length,
+      );
+      assert.ok(x <= placeIn(width)(held[0]) && placeIn(width)(held.at(-1)) < x + wide);
     }
   }
 });

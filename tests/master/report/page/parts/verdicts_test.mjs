@@ -1,6 +1,11 @@
 import assert from "node:assert/strict";
 import test from "node:test";
-import { failureTimes, judgements, summary } from "../../../../../master/report/page/src/parts/verdicts.js";
+import {
+  failureTimes,
+  firstFailure,
+  judgements,
+  summary,
+} from "../../../../../master/report/page/src/parts/verdicts.js";
 
 const check = (name, passed, time = null) => ({
   name,
@@ -34,13 +39,25 @@ test("what failed is named, and the first instant of all is shown", () => {
     outcome: "completed",
     checks: [check("late", false, 9), check("fine", true), check("early", false, 3)],
   };
-  const { kind, text, first } = summary(run);
-  assert.deepEqual([kind, text, first.time], ["bad", "2 of 3 failed: late, early", 3]);
+  const { kind, text, failed, first } = summary(run);
+  assert.deepEqual([kind, text, first.time], ["bad", "2 of 3 failed", 3]);
+  assert.deepEqual(
+    failed.map(({ name }) => name),
+    ["late", "early"],
+  );
   assert.deepEqual(failureTimes(run), [9, 3]);
+  assert.equal(firstFailure(run), 3);
   assert.deepEqual(
     judgements(run).map(({ name }) => name),
     ["late", "early", "fine"],
   );
+});
+
+test("the first failure is that of a check, or the end of a run that failed", () => {
+  assert.equal(firstFailure({ outcome: "failed", reached: 2, checks: [check("a", false, 3)] }), 2);
+  assert.equal(firstFailure({ outcome: "failed" }), null);
+  assert.equal(firstFailure({ outcome: "completed", reached: 2, checks: [check("a", true)] }), null);
+  assert.equal(firstFailure({ outcome: "completed", verdicts: [{ component: "t", passed: false, text: "" }] }), null);
 });
 
 test("margins are of checks that are decided, and never of units", () => {

@@ -15,6 +15,24 @@ test("a pane has one unit of measure; states have rows of their own", () => {
   ]);
 });
 
+test("what is checked and in no plot has panes of its own, failed first", () => {
+  const columns = new Map([column("a", "V"), column("b", "V"), column("c", "V"), column("d", "V")]);
+  const checks = [
+    { passed: true, limits: { signal: "a" } },
+    { passed: true, limits: { signal: "b" } },
+    { passed: false, limits: { signal: "c" } },
+    { passed: false },
+  ];
+  const report = { run: { checks }, plots: [{ title: "X", signals: ["a"] }], columns, units: [] };
+  const found = (panes) => panes.map(({ title, columns }) => [title, columns.map(({ name }) => name)]);
+  assert.deepEqual(found(groupIntoPanes(report)), [
+    ["Failed checks", ["c"]],
+    ["X", ["a"]],
+    ["Checks", ["b"]],
+  ]);
+  assert.deepEqual(found(groupOthers(report)), [["d", ["d"]]]);
+});
+
 test("a system does not take the signals of what it holds, whichever is told first", () => {
   const columns = new Map([column("a.b.x", "V"), column("a.y", "V"), column("z", "")]);
   for (const units of [["a.b", "a"], ["a", "a.b"]]) {

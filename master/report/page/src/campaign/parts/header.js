@@ -1,6 +1,7 @@
 // The top of the page: the campaign, how many cases passed, and its checks.
 import { briefText } from "../../data/number_text.js";
 import { h } from "../../dom.js";
+import { heading } from "../../parts/heading.js";
 import { hasFailed, kMissing, kOutcomes } from "../data/outcomes.js";
 
 const numberOf = (count) => count.toLocaleString("en");
@@ -88,7 +89,7 @@ export function header(report, switchTheme) {
     "header",
     {},
     h("button.theme", { type: "button", onclick: switchTheme, title: "light or dark (d)" }, "◐"),
-    h("h1", {}, campaign.name, " ", h("span.outcome", {}, "campaign")),
+    heading(campaign.name, verdict.kind === "bad", "campaign"),
     h("p.origin", {}, origin.join(" · ")),
     h(`p.banner.${verdict.kind}`, { role: "status" }, h("strong", {}, verdict.text)),
     outcomeBar(report.outcomes),
