@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 #include <mutex>
+#include <set>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -164,9 +165,13 @@ std::vector<Sensor> list_sensors(const mjModel& model) {
   return list;
 }
 
-std::string names_of(const std::vector<Site>& sites) {
+/// All that have one, of an mjtObj.
+std::string names_of(const mjModel& model, int type, int count) {
   std::string names;
-  for (const Site& site : sites) names += (names.empty() ? "'" : ", '") + site.name + "'";
+  for (int i = 0; i < count; ++i) {
+    const char* name = mj_id2name(&model, type, i);
+    if (name && *name) names += (names.empty() ? "'" : ", '") + std::string(name) + "'";
+  }
   return names.empty() ? "none" : names;
 }
 
@@ -183,15 +188,28 @@ void check_required_sites(const mjModel& model, const fs::path& file) {
     if (mj_name2id(&model, mjOBJ_SITE, name.c_str()) >= 0) continue;
     throw std::runtime_error("'" + file.string() + "' has no site '" + name +
                              "', which its <text name=\"" + kRequiredSites +
-                             "\"> asks for; its named sites are: " + names_of(list_sites(model)));
+                             "\"> asks for; its named sites are: " +
+                             names_of(model, mjOBJ_SITE, static_cast<int>(model.nsite)));
   }
 }
 
 void check_lamps(const mjModel& model, const fs::path& file) {
+  const auto lists = [](const std::string& name) {
+    return "<text name=\"" + std::string(kLamps) + "\"> lists '" + name + "'";
+  };
+  std::set<std::string> listed;
   for (const std::string& name : words_of_text(model, kLamps)) {
-    if (mj_name2id(&model, mjOBJ_GEOM, name.c_str()) >= 0) continue;
-    throw std::runtime_error("'" + file.string() + "' has no geom '" + name +
-                             "', which its <text name=\"" + kLamps + "\"> lists");
+    if (mj_name2id(&model, mjOBJ_GEOM, name.c_str()) < 0) {
+      throw std::runtime_error(
+          "'" + file.string() + "': " + lists(name) +
+          ", which is no geom: expected names of geoms, separated by blanks; " +
+          "those that have a name are: " +
+          names_of(model, mjOBJ_GEOM, static_cast<int>(model.ngeom)));
+    }
+    if (!listed.insert(name).second) {
+      throw std::runtime_error("'" + file.string() + "': " + lists(name) +
+                               " twice: a lamp is listed once");
+    }
   }
 }
 

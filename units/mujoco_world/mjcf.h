@@ -96,10 +96,10 @@ inline constexpr const char* kLamps = "lamps";
 inline constexpr const char* kDriveRipple = "drive_ripple.";
 
 /// Compiles an MJCF file. Throws std::runtime_error with the file and MuJoCo's message, or with the
-/// site that is required and missing, and those that there are, or with the lamp that is no geom,
-/// or the transmission error that has no such actuator or not two numbers. Features that would make
-/// the world irreproducible are switched off: noise on sensors (MuJoCo 2), sleeping bodies (MuJoCo
-/// 3). A warning reports that (hooks.h).
+/// site that is required and missing, and those that there are, or likewise with the lamp that is
+/// no geom, or with the one that is listed twice, or the transmission error that has no such
+/// actuator or not two numbers. Features that would make the world irreproducible are switched off:
+/// noise on sensors (MuJoCo 2), sleeping bodies (MuJoCo 3). A warning reports that (hooks.h).
 ModelPointer load_model(const std::filesystem::path& file);
 
 Catalogue list(const mjModel& model);

@@ -81,9 +81,9 @@ class MujocoWorld : public stride::Unit {
   void step(stride::Step& step) override {
     if (std::exchange(says_whose_controls_, false)) warn_of_controls();
     for (std::size_t i = 0; i < inputs_.size(); ++i) world_.set_input(i, inputs_[i]);
-    for (std::size_t i = 0; i < lamps_.size(); ++i) world_.set_lamp(i, lamps_[i]);
     const bool rests = world_.rests_until() >= step.to();
     if (film_) {
+      set_lamps();
       film_->advance(world_, step.to(), step.early_return_allowed());
     } else {
       world_.advance(step.to(), step.early_return_allowed());
@@ -93,7 +93,10 @@ class MujocoWorld : public stride::Unit {
   }
 
   void terminate() override {
-    if (film_) film_->begin();  // of a run without a step
+    if (!film_) return;
+    set_lamps();
+    film_->begin();  // of a run without a step
+    film_->show_lamps();
   }
 
   stride::Time idle_until(stride::Time now) const override {
@@ -128,6 +131,10 @@ class MujocoWorld : public stride::Unit {
   }
 
  private:
+  void set_lamps() {
+    for (std::size_t i = 0; i < lamps_.size(); ++i) world_.set_lamp(i, lamps_[i]);
+  }
+
   /// There is a film as the parameters want it.
   void set_film() {
     const mujoco_world::film::FilmSettings wanted{stride::duration_from_seconds(film_interval_),
@@ -249,7 +256,7 @@ class MujocoWorld : public stride::Unit {
   void list_lamp(const mujoco_world::Lamp& lamp) {
     input("lamp." + name_part(lamp.name), lamps_.emplace_back(false))
         .discrete()
-        .description("whether the geom " + lamp.name + " shines");
+        .description("whether the geom " + lamp.name + " shines in the film");
   }
 
   void list_joint(std::size_t i) {

@@ -153,6 +153,18 @@ TEST_CASE("a lamp that is no geom is an error", "[mujoco_world]") {
     <custom><text name="lamps" data="lid"/></custom>
     <worldbody><geom name="led" type="sphere" size="0.1"/></worldbody>
   </mujoco>)");
-  REQUIRE_THROWS_WITH(mujoco_world::load_model(folder.path() / "scene.xml"),
-                      Catch::Contains("has no geom 'lid'") && Catch::Contains("lamps"));
+  const std::string file = (folder.path() / "scene.xml").string();
+  REQUIRE_THROWS_WITH(load_model(file),
+                      "'" + file + "': <text name=\"lamps\"> lists 'lid', which is no geom: " +
+                          "expected names of geoms, separated by blanks; those that have a name " +
+                          "are: 'led'");
+}
+
+TEST_CASE("a lamp that is listed twice is an error", "[mujoco_world]") {
+  const worlds::Folder folder(R"(<mujoco>
+    <custom><text name="lamps" data="led led"/></custom>
+    <worldbody><geom name="led" type="sphere" size="0.1"/></worldbody>
+  </mujoco>)");
+  REQUIRE_THROWS_WITH(load_model(folder.path() / "scene.xml"),
+                      Catch::Contains("scene.xml': <text name=\"lamps\"> lists 'led' twice"));
 }

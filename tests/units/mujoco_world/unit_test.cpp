@@ -95,6 +95,19 @@ void finish(WorldUnit& world) {
   REQUIRE(world->fmi.Terminate(world->handle) == fmi3OK);
 }
 
+/// With a film of the world worlds::kLamp, up to the first step.
+void start_lamp(WorldUnit& world) {
+  REQUIRE(world->set_real("film.interval", 0.02) == fmi3OK);
+  REQUIRE(world->start_steps() == fmi3OK);
+}
+
+void light(WorldUnit& world, bool on) {
+  REQUIRE(world->fmi.EnterEventMode(world->handle) == fmi3OK);
+  REQUIRE(world->set_boolean("lamp.led", on) == fmi3OK);
+  REQUIRE(world->update() == fmi3OK);
+  REQUIRE(world->fmi.EnterStepMode(world->handle) == fmi3OK);
+}
+
 }  // namespace
 
 TEST_CASE("a film goes on where a serialised state is restored", "[mujoco_world]") {
@@ -132,6 +145,90 @@ TEST_CASE("a run without a step has a film of one picture", "[mujoco_world]") {
   REQUIRE(world->start_steps() == fmi3OK);
   REQUIRE(world->fmi.Terminate(world->handle) == fmi3OK);
   CHECK(film_files(scratch / "run/film").size() == 2);
+}
+
+TEST_CASE("a picture shows a lamp as it is from that instant on", "[mujoco_world]") {
+  if (scene::lacks_open_gl()) return;
+  const ScratchFolder scratch;
+  WorldUnit world(worlds::kLamp, scratch / "run");
+  const auto film = [&] { return film_files(scratch / "run/film"); };
+  start_lamp(world);
+  REQUIRE(world->step(0, 0.02) == fmi3OK);
+  const std::string dark = film().at("00000.jpg");
+  CHECK(film().at("00001.jpg") == dark);
+  light(world, true);
+  REQUIRE(world->step(0.02, 0.01) == fmi3OK);
+  const std::string lit = film().at("00001.jpg");
+  CHECK(lit != dark);
+  REQUIRE(world->step(0.03, 0.01) == fmi3OK);
+  CHECK(film().at("00000.jpg") == dark);
+  CHECK(film().at("00002.jpg") == lit);
+  light(world, false);
+  REQUIRE(world->fmi.Terminate(world->handle) == fmi3OK);
+  CHECK(film().at("00001.jpg") == lit);
+  CHECK(film().at("00002.jpg") == dark);
+  CHECK(film().at("frames.csv") == "time,file\n0,00000.jpg\n0.02,00001.jpg\n0.04,00002.jpg\n");
+}
+
+TEST_CASE("a lamp in a step that was undone is in no picture", "[mujoco_world]") {
+  if (scene::lacks_open_gl()) return;
+  const bool is_lit = GENERATE(false, true);  // in what counts
+  const bool is_elsewhere = GENERATE(false, true);
+  const ScratchFolder scratch;
+  std::vector<fmi3Byte> bytes;
+  WorldUnit world(worlds::kLamp, scratch / "run");
+  start_lamp(world);
+  REQUIRE(world->step(0, 0.02) == fmi3OK);
+  bytes = serialized(world.instance());
+  light(world, !is_lit);
+  REQUIRE(world->step(0.02, 0.03) == fmi3OK);
+  WorldUnit other(worlds::kLamp, scratch / "run");
+  WorldUnit& resumed = is_elsewhere ? other : world;
+  REQUIRE(restore(resumed.instance(), bytes) == fmi3OK);
+  light(resumed, is_lit);
+  REQUIRE(resumed->step(0.02, 0.02) == fmi3OK);
+  const auto film = film_files(scratch / "run/film");
+  CHECK((film.at("00001.jpg") != film.at("00000.jpg")) == is_lit);
+  CHECK(film.at("00002.jpg") == film.at("00001.jpg"));
+}
+
+TEST_CASE("a lamp of a world that is idle shines from the instant at which it is lit",
+          "[mujoco_world]") {
+  if (scene::lacks_open_gl()) return;
+  const ScratchFolder scratch;
+  WorldUnit world(worlds::kLamp, scratch / "run");
+  REQUIRE(world->fmi.EnableIdleSkipping(world->handle, 100) == fmi3OK);
+  start_lamp(world);
+  REQUIRE(world->step(0, 0.1) == fmi3OK);
+  REQUIRE(world->idle_until() > 0.2);
+  REQUIRE(world->step(0.1, 0.05) == fmi3OK);  // it catches up
+  light(world, true);
+  CHECK(world->idle_until() > 0.2);  // a lamp moves nothing
+  REQUIRE(world->step(0.15, 0.05) == fmi3OK);
+  const auto film = film_files(scratch / "run/film");
+  REQUIRE(film.size() == 12);
+  for (const char* dark : {"00001.jpg", "00007.jpg"}) CHECK(film.at(dark) == film.at("00000.jpg"));
+  CHECK(film.at("00008.jpg") != film.at("00000.jpg"));
+  CHECK(film.at("00010.jpg") == film.at("00008.jpg"));
+}
+
+TEST_CASE("a lamp is an input that moves nothing", "[mujoco_world]") {
+  std::string mjcf = worlds::kTumble;
+  mjcf.insert(mjcf.find("<worldbody>"), "<custom><text name=\"lamps\" data=\"led\"/></custom>");
+  mjcf.insert(mjcf.find("<geom type=\"capsule\"") + 5, " name=\"led\"");
+  WorldUnit dark(mjcf);
+  WorldUnit lit(mjcf);
+  CHECK(attribute(lit.description(), "name=\"lamp.led\"", "start") == "false");
+  REQUIRE(dark->start_steps() == fmi3OK);
+  REQUIRE(lit->start_steps() == fmi3OK);
+  for (int i = 0; i < 100; ++i) {
+    light(lit, i % 3 == 0);
+    REQUIRE(dark->step(0.005 * i, 0.005) == fmi3OK);
+    REQUIRE(lit->step(0.005 * i, 0.005) == fmi3OK);
+    for (const char* output : {"joint.paddle.position", "site.end.position.z", "site.end.axis.x"}) {
+      CHECK(lit->real(output) == dark->real(output));
+    }
+  }
 }
 
 TEST_CASE("the start is set by parameters", "[mujoco_world]") {

@@ -35,8 +35,14 @@ void Film::begin() {
   continue_from_present();
 }
 
+void Film::show_lamps() {
+  if (world_.catalogue().lamps.empty() || !frames_.ends_at(world_.now())) return;
+  if (shown_ != world_.shining()) frames_.replace_last(draw());
+}
+
 bool Film::advance(World& world, Time to, bool stops_at_contacts) {
   begin();
+  show_lamps();
   while (next_ <= to) {
     const bool stopped = world.advance(next_, stops_at_contacts);
     if (world.now() == next_) take();
@@ -53,6 +59,7 @@ bool Film::go_on(std::optional<std::size_t> pictures) {
   const bool was_here = std::exchange(has_begun_, pictures.has_value());
   if (!has_begun_) return true;
   was_here ? frames_.remove_after(world_.now()) : frames_.adopt(world_.now());
+  shown_.reset();  // the picture of the present may be that of a step that was undone
   const bool is_whole = frames_.size() >= *pictures;
   continue_from_present();
   return is_whole;
@@ -68,8 +75,13 @@ void Film::continue_from_present() {
   }
 }
 
+std::vector<std::uint8_t> Film::draw() {
+  shown_ = world_.shining();
+  return to_jpeg(renderer_.draw(world_.model(), world_.drawn(), *shown_));
+}
+
 void Film::take() {
-  frames_.add(next_, to_jpeg(renderer_.draw(world_.model(), world_.drawn(), world_.shining())));
+  frames_.add(next_, draw());
   next_ = stride::later(next_, settings_.interval);
 }
 

@@ -3,8 +3,10 @@
 #define STRIDE_UNITS_MUJOCO_WORLD_FILM_FILM_H
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <vector>
 
 #include <stride/time.h>
 
@@ -37,8 +39,12 @@ class Film {
   /// it is one of the instants. Does nothing where it has begun.
   void begin();
 
-  /// Moves the world as World::advance() does, and takes the pictures on the way. Throws as that
-  /// and Renderer and Frames do.
+  /// The lamps are from the world's present on as they are now: the picture of the present, if it
+  /// is there and shows them otherwise, is taken again.
+  void show_lamps();
+
+  /// Moves the world as World::advance() does, with its lamps as they are now, and takes the
+  /// pictures on the way. Throws as that and Renderer and Frames do.
   bool advance(World& world, stride::Time to, bool stops_at_contacts = false);
 
   /// How many pictures there are; nothing where it has not begun.
@@ -50,6 +56,7 @@ class Film {
   bool go_on(std::optional<std::size_t> pictures);
 
  private:
+  std::vector<std::uint8_t> draw();
   void take();
   void continue_from_present();
 
@@ -59,6 +66,8 @@ class Film {
   Frames frames_;
   bool has_begun_ = false;
   stride::Time next_;
+  /// The lamps that shine in the last picture; nothing where that is not known.
+  std::optional<std::vector<int>> shown_;
 };
 
 }  // namespace mujoco_world::film

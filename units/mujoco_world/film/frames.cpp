@@ -134,6 +134,14 @@ void Frames::add(stride::Time time, const std::vector<std::uint8_t>& jpeg) {
   rows_.push_back({time, end() + static_cast<off_t>(line.size())});
 }
 
+/// It leaves the list until its file is whole again.
+void Frames::replace_last(const std::vector<std::uint8_t>& jpeg) {
+  const stride::Time time = rows_.back().time;
+  rows_.pop_back();
+  cut();
+  add(time, jpeg);
+}
+
 /// The last one of the file from then on.
 void Frames::write_line(const std::string& line, off_t at) {
   const auto size = static_cast<ssize_t>(line.size());

@@ -36,6 +36,8 @@ class Frames {
 
   /// After all that it has.
   void add(stride::Time time, const std::vector<std::uint8_t>& jpeg);
+  /// Of its last frame, which must be there.
+  void replace_last(const std::vector<std::uint8_t>& jpeg);
   void remove_after(stride::Time time);
   std::size_t size() const { return rows_.size(); }
   /// Whether its last frame is of that time.

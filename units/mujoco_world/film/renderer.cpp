@@ -16,6 +16,8 @@ namespace {
 constexpr int kShadowPerPixel = 3;
 constexpr const char* kFilmCamera = "film";
 constexpr int kMostDecorations = 10000;  // beside the model's geoms: sites, tendons, lights
+constexpr double kHalo = 2.5;            // of the lamp's radius
+constexpr float kHaloOpacity = 0.4F;
 
 std::string cameras_of(const mjModel& model) {
   std::string names;
@@ -53,6 +55,23 @@ mjvCamera choose_camera(const mjModel& model, const std::string& wanted) {
     camera.fixedcamid = id;
   }
   return camera;
+}
+
+void brighten(mjvGeom& lamp) {
+  const float most = *std::max_element(lamp.rgba, lamp.rgba + 3);
+  if (most > 0) std::for_each(lamp.rgba, lamp.rgba + 3, [most](float& part) { part /= most; });
+  lamp.emission = 1;
+}
+
+/// Without it a small lamp is a pixel or two of a picture.
+mjvGeom halo_of(const mjvGeom& lamp, double radius) {
+  const double size[] = {kHalo * radius, 0, 0};
+  const double middle[] = {lamp.pos[0], lamp.pos[1], lamp.pos[2]};
+  const float colour[] = {lamp.rgba[0], lamp.rgba[1], lamp.rgba[2], kHaloOpacity * lamp.rgba[3]};
+  mjvGeom halo{};
+  mjv_initGeom(&halo, mjGEOM_SPHERE, size, middle, nullptr, colour);
+  halo.emission = 1;
+  return halo;
 }
 
 /// mjr_makeContext() reads the environment, in which make_off_screen() has settings for a while.
@@ -100,7 +119,7 @@ Renderer::~Renderer() {
 const Picture& Renderer::draw(const mjModel& model, mjData& data, const std::vector<int>& shining) {
   guarded([&] {
     mjv_updateScene(&model, &data, &options_, nullptr, &camera_, mjCAT_ALL, &scene_);
-    light_up(shining);
+    light_up(model, shining);
     if (is_unchanged(model)) return;
     screen_->with([&] {
       mjr_render(frame_, &scene_, &context_);
@@ -112,11 +131,15 @@ const Picture& Renderer::draw(const mjModel& model, mjData& data, const std::vec
   return picture_;
 }
 
-void Renderer::light_up(const std::vector<int>& shining) {
+void Renderer::light_up(const mjModel& model, const std::vector<int>& shining) {
   if (shining.empty()) return;
-  for (mjvGeom* geom = scene_.geoms; geom != scene_.geoms + scene_.ngeom; ++geom) {
+  const int drawn = scene_.ngeom;  // the halos come behind them
+  for (mjvGeom* geom = scene_.geoms; geom != scene_.geoms + drawn; ++geom) {
     if (geom->objtype != mjOBJ_GEOM) continue;
-    if (std::find(shining.begin(), shining.end(), geom->objid) != shining.end()) geom->emission = 1;
+    if (std::find(shining.begin(), shining.end(), geom->objid) == shining.end()) continue;
+    brighten(*geom);
+    if (scene_.ngeom == scene_.maxgeom) continue;
+    scene_.geoms[scene_.ngeom++] = halo_of(*geom, model.geom_rbound[geom->objid]);
   }
 }
 

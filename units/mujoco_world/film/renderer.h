@@ -37,8 +37,9 @@ class Renderer {
   Renderer& operator=(const Renderer&) = delete;
 
   /// `data` has the poses of all that is to be seen (World::drawn()), `shining` the ids of the
-  /// geoms that emit light of their own colour (World::shining()); the picture is valid until the
-  /// next call. Throws std::runtime_error if OpenGL fails.
+  /// geoms that are lamps which are on (World::shining()): they have their hue at full brightness,
+  /// whatever light falls on them, and a halo. The picture is valid until the next call. Throws
+  /// std::runtime_error if OpenGL fails.
   const Picture& draw(const mjModel& model, mjData& data, const std::vector<int>& shining = {});
 
  private:
@@ -50,7 +51,7 @@ class Renderer {
   };
 
   void make(const mjModel& model);
-  void light_up(const std::vector<int>& shining);
+  void light_up(const mjModel& model, const std::vector<int>& shining);
   bool is_unchanged(const mjModel& model);
   void read_pixels();
 

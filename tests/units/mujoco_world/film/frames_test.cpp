@@ -63,6 +63,20 @@ TEST_CASE("what is taken back is gone, and its places are taken again") {
   CHECK(text_of(scratch / "arm/00002.jpg") == "b");
 }
 
+TEST_CASE("the last frame may get another picture") {
+  const stride::tests::ScratchFolder scratch;
+  Frames frames(scratch / "arm");
+  frames.begin();
+  frames.add(at(0), {'a'});
+  frames.add(at(0.5), {'b', 'c'});
+  frames.replace_last({'d'});
+  frames.add(at(1), {'e'});
+  CHECK(text_of(scratch / "arm/frames.csv") ==
+        "time,file\n0,00000.jpg\n0.5,00001.jpg\n1,00002.jpg\n");
+  CHECK(text_of(scratch / "arm/00000.jpg") == "a");
+  CHECK(text_of(scratch / "arm/00001.jpg") == "d");
+}
+
 TEST_CASE("a film replaces the one that was there, and no other file") {
   const stride::tests::ScratchFolder scratch;
   {

@@ -1,14 +1,15 @@
 #include "units/mujoco_world/film/picture.h"
 
-#include <cstdio>
 #include <cstdlib>
 
 #include <catch2/catch.hpp>
-#include <jpeglib.h>
+
+#include "tests/units/mujoco_world/film/jpeg.h"
 
 using Catch::Matchers::Contains;
 using mujoco_world::film::Picture;
 using mujoco_world::film::to_jpeg;
+using stride::tests::decoded;
 
 namespace {
 
@@ -24,25 +25,6 @@ Picture flag(int width, int height) {
       }
     }
   }
-  return picture;
-}
-
-Picture decoded(const std::vector<std::uint8_t>& bytes) {
-  jpeg_decompress_struct state{};
-  jpeg_error_mgr errors{};
-  state.err = jpeg_std_error(&errors);
-  jpeg_create_decompress(&state);
-  jpeg_mem_src(&state, bytes.data(), bytes.size());
-  jpeg_read_header(&state, TRUE);
-  jpeg_start_decompress(&state);
-  Picture picture{static_cast<int>(state.output_width), static_cast<int>(state.output_height), {}};
-  picture.rgb.resize(std::size_t{3} * state.output_width * state.output_height);
-  while (state.output_scanline < state.output_height) {
-    JSAMPROW row = picture.rgb.data() + std::size_t{3} * state.output_width * state.output_scanline;
-    jpeg_read_scanlines(&state, &row, 1);
-  }
-  jpeg_finish_decompress(&state);
-  jpeg_destroy_decompress(&state);
   return picture;
 }
 

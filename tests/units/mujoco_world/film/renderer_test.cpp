@@ -70,6 +70,32 @@ TEST_CASE("a lamp shines in the dark") {
   CHECK(red() == 0);
 }
 
+TEST_CASE("a lamp of a dark colour shines in its hue, and has a halo") {
+  if (scene::lacks_open_gl()) return;
+  std::string daylight = worlds::kLamp;
+  daylight.replace(daylight.find("0.1 0.1 0.1"), 11, "1 1 1");
+  const worlds::Folder bright(daylight);
+  const std::size_t ball = patch(picture(World(bright.path()), {160, 120, ""}), kRed).count / 2;
+
+  std::string dark = worlds::kLamp;
+  dark.replace(dark.find("1 0 0 1"), 7, "0.1 0 0 1");
+  const worlds::Folder folder(dark);
+  const World world(folder.path());
+  Renderer renderer(world.model(), {160, 120, ""});
+  const int led = world.catalogue().lamps[0].geom;
+  const Picture off = renderer.draw(world.model(), world.drawn());
+  const Picture on = renderer.draw(world.model(), world.drawn(), {led});
+  std::size_t pure = 0;
+  std::size_t changed = 0;
+  for (std::size_t i = 0; i < on.rgb.size(); i += 3) {
+    pure += on.rgb[i] == 255 ? 1 : 0;
+    changed += on.rgb[i] != off.rgb[i] ? 1 : 0;
+  }
+  CHECK(patch(off, kRed).count == 0);
+  CHECK(static_cast<double>(pure) == Approx(static_cast<double>(ball)).epsilon(0.3));
+  CHECK(changed > 4 * ball);
+}
+
 TEST_CASE("what is nearer hides what is behind it") {
   if (scene::lacks_open_gl()) return;
   const worlds::Folder folder(scene::kBoxes);
