@@ -175,13 +175,14 @@ TEST_CASE("a lamp in a step that was undone is in no picture", "[mujoco_world]")
   const bool is_lit = GENERATE(false, true);  // in what counts
   const bool is_elsewhere = GENERATE(false, true);
   const ScratchFolder scratch;
-  std::vector<fmi3Byte> bytes;
   WorldUnit world(worlds::kLamp, scratch / "run");
   start_lamp(world);
   REQUIRE(world->step(0, 0.02) == fmi3OK);
-  bytes = serialized(world.instance());
+  const std::vector<fmi3Byte> bytes = serialized(world.instance());
   light(world, !is_lit);
-  REQUIRE(world->step(0.02, 0.03) == fmi3OK);
+  REQUIRE(world->step(0.02, 0.01) == fmi3OK);
+  light(world, is_lit);
+  REQUIRE(world->step(0.03, 0.02) == fmi3OK);
   WorldUnit other(worlds::kLamp, scratch / "run");
   WorldUnit& resumed = is_elsewhere ? other : world;
   REQUIRE(restore(resumed.instance(), bytes) == fmi3OK);
