@@ -81,6 +81,18 @@ void check_output_path(const CompareArguments& arguments) {
   }
 }
 
+/// 1 would say that they differ.
+void write_json(const CompareArguments& arguments, const compare::Comparison& comparison,
+                const compare::Settings& settings) {
+  if (arguments.json.empty()) return;
+  try {
+    compare::write_comparison(arguments.json, comparison, settings);
+  } catch (const core::Error& failure) {
+    throw core::Error(core::Error::Kind::Input, failure.context(), failure.message(),
+                      failure.hint());
+  }
+}
+
 void compare_folders(const CompareArguments& arguments) {
   refuse_campaign(arguments.a);
   refuse_campaign(arguments.b);
@@ -89,8 +101,8 @@ void compare_folders(const CompareArguments& arguments) {
   const compare::Comparison comparison =
       compare::compare_results(arguments.a, arguments.b, settings);
   print_warnings(comparison.notes);
+  write_json(arguments, comparison, settings);
   print_text("{}", comparison_text(comparison));
-  if (!arguments.json.empty()) compare::write_comparison(arguments.json, comparison, settings);
   if (!comparison.differences.empty()) throw CLI::RuntimeError(kRunFailed);
 }
 

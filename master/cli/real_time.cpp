@@ -19,6 +19,7 @@ using namespace std::chrono_literals;
 
 /// A signal that comes just before a pause does not shorten it.
 constexpr auto kLongestPause = 20ms;
+constexpr auto kMeanwhile = 1s;
 constexpr std::chrono::duration<double> kNoticed = 100ms;
 
 std::string milliseconds(std::chrono::duration<double> time) {
@@ -60,6 +61,10 @@ void RealTime::on_communication_point(Time time) {
   if (lag_ > greatest_lag_) {
     greatest_lag_ = lag_;
     latest_ = time;
+  }
+  if (now < due && meanwhile_ && now - meanwhile_done_ >= kMeanwhile) {
+    meanwhile_();
+    meanwhile_done_ = now;
   }
   for (; now < due && interrupted_ == 0; now = clock_.now()) {
     clock_.wait_until(std::min(due, now + kLongestPause));

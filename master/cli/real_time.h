@@ -7,6 +7,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include <stride/time.h>
 
@@ -35,6 +36,9 @@ class RealTime : public core::Observer {
   /// `interrupted`: not 0 when nothing is to be waited for any longer; it must outlive the object.
   RealTime(double factor, const volatile std::sig_atomic_t& interrupted, WallClock clock = {});
 
+  /// What is done about once a second, where there is time for it.
+  void set_meanwhile(std::function<void()> meanwhile) { meanwhile_ = std::move(meanwhile); }
+
   void on_communication_point(Time time) override;
 
   /// The next communication point is the first one, such as that of a fork.
@@ -56,6 +60,8 @@ class RealTime : public core::Observer {
   const double factor_;
   const volatile std::sig_atomic_t& interrupted_;
   const WallClock clock_;
+  std::function<void()> meanwhile_{};
+  WallClock::Instant meanwhile_done_{};
   std::optional<Origin> origin_;
   Seconds lag_{}, greatest_lag_{};
   Time latest_{};  ///< where the lag was greatest

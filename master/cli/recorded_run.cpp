@@ -122,6 +122,7 @@ RecordedRun::RecordedRun(const RunSetup& setup, std::vector<std::unique_ptr<core
   if (setup_.display.progress != ProgressStyle::None) simulation_.add_observer(progress_);
   if (setup_.display.real_time) {
     real_time_.emplace(*setup_.display.real_time, *setup_.options.interrupted);
+    real_time_->set_meanwhile([this] { flush(); });  // somebody looks on
     simulation_.add_observer(*real_time_);
   }
   if (has_begun_) announce();

@@ -83,12 +83,17 @@ class FolderComparison {
   }
 
   Comparison compare() {
+    note_unfinished(a_);
+    note_unfinished(b_);
     compare_run_files();
     compare_messages();
     compare_events();
     compare_signal_files();
     compare_coverage_files();
     selection_.require_use(std::vector<std::string>(names_.begin(), names_.end()));
+    if (comparison_.rows == 0 && comparison_.messages == 0) {
+      comparison_.notes.push_back("neither rows of signals nor messages were there to compare");
+    }
     std::ranges::stable_sort(comparison_.differences, is_earlier);
     return std::move(comparison_);
   }
@@ -115,6 +120,16 @@ class FolderComparison {
     if (!line) return;
     comparison_.notes.push_back(fmt::format("{}:{}: the last line was cut off and is left out",
                                             folder.file(which).string(), *line));
+  }
+
+  /// Its files end at different times, as they were written from memory.
+  void note_unfinished(const Folder& folder) {
+    const auto& run = folder.run.json;
+    if (!run.is_object() || !run.contains("outcome") || run["outcome"] != "running") return;
+    comparison_.notes.push_back(
+        fmt::format("{}: the run was killed, or goes on: its files end at different times, and it "
+                    "has no verdicts",
+                    folder.path.string()));
   }
 
   void compare_run_files() {

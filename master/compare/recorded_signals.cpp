@@ -42,7 +42,7 @@ RecordedSignals read_recorded_signals(const std::filesystem::path& file,
                                       std::span<const report::SignalInfo> infos) {
   report::Table table(file);
   RecordedSignals signals;
-  if (table.columns().empty()) return signals;
+  table.require_header();
   const std::span<const std::string> headings = table.columns();
   if (headings[0] != "time") table.fail(0, "expected the column 'time'");
   signals.columns = report::signal_columns(headings.subspan(1), infos);

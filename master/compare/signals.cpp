@@ -151,6 +151,9 @@ class SignalComparison {
                         fmt::format("in [{}]", a.unit()),
                         fmt::format("in [{}]", b.unit())};
     }
+    if (!a.is_deduced() && !b.is_deduced() && a.type() != b.type()) {
+      return Difference{Kind::Signal, a.name(), {}, core::name(a.type()), core::name(b.type())};
+    }
     SignalTally tally(a.name(), a.type() == core::ValueType::Boolean);
     const Tolerance tolerance = tolerance_of(a, b, tolerances_);
     if (settings_.time_tolerance) {

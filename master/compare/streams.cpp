@@ -113,7 +113,7 @@ std::optional<Difference> other_order(const Streams& a, const Streams& b,
 Streams read_messages(const std::filesystem::path& file) {
   report::MessageRows rows(file);
   Streams streams{.kind = Kind::Message};
-  if (rows.table().columns().empty()) return streams;
+  rows.table().require_header();
   while (rows.table().next()) {
     report::RecordedMessage message = rows.message();
     const std::string variable = message.component + "." + message.variable;
@@ -127,7 +127,7 @@ Streams read_messages(const std::filesystem::path& file) {
 Streams read_events(const std::filesystem::path& file) {
   report::Table table(file);
   Streams streams{.kind = Kind::Event};
-  if (table.columns().empty()) return streams;
+  table.require_header();
   const std::size_t time = table.place("time");
   const std::size_t component = table.place("component");
   const std::size_t kind = table.place("kind");

@@ -40,6 +40,17 @@ std::optional<Number> parse(std::string_view text) {
   return number;
 }
 
+/// Whether a double has it as it is written: not the digits of a text such as 007, and no integer
+/// that a double does not have.
+bool is_exact_number(std::string_view text) {
+  if (!parse<double>(text)) return false;
+  const std::string_view digits = text.substr(text.starts_with('-') ? 1 : 0);
+  if (digits.find_first_not_of("0123456789") != std::string_view::npos) return true;
+  if (digits.size() > 1 && digits.front() == '0') return false;
+  const auto number = parse<std::int64_t>(text);
+  return number && -kMostExact <= *number && *number <= kMostExact;
+}
+
 [[noreturn]] void reject(std::string_view text, ValueType type, const char* expected) {
   constexpr std::size_t kMostShown = 40;
   throw std::invalid_argument(fmt::format(
@@ -159,7 +170,7 @@ void Column::append_integer(std::string_view text) {
 /// Where the type of the column is not known: makes it what the field fits into.
 void Column::deduce(const core::CsvReader::Field& field) {
   const bool is_boolean = !field.is_quoted && (field.text == "true" || field.text == "false");
-  const bool is_number = !field.is_quoted && parse<double>(field.text);
+  const bool is_number = !field.is_quoted && is_exact_number(field.text);
   const ValueType type =
       is_boolean ? ValueType::Boolean : (is_number ? ValueType::Float64 : ValueType::String);
   if (size() == 0) {

@@ -52,12 +52,14 @@ class Column {
 
   /// Of a known type.
   explicit Column(SignalInfo info);
-  /// The type follows from the fields: true and false, numbers, or else texts.
+  /// The type follows from the fields: true and false, numbers that doubles have, or else texts.
   Column(std::string name, std::string unit);
 
   const std::string& name() const { return info_.name; }
   const std::string& unit() const { return info_.unit; }
   core::ValueType type() const { return info_.type; }
+  /// Whether the type follows from the fields.
+  bool is_deduced() const { return is_deduced_; }
   /// Whether the signal keeps each value until the next.
   bool is_stepped() const;
   const Values& values() const { return values_; }

@@ -19,6 +19,15 @@ std::uint64_t index_of(const Table& table, std::size_t place) {
   return index;
 }
 
+/// As EventRecorder writes it.
+std::string direction_of(const Table& table, std::size_t place) {
+  const std::string direction = table.field(place).value();
+  if (direction == "sent" || direction == "received" || direction == "intervention") {
+    return direction;
+  }
+  table.fail(place, fmt::format("expected sent, received or intervention, found '{}'", direction));
+}
+
 }  // namespace
 
 MessageRows::MessageRows(const std::filesystem::path& file) : table_(file) {
@@ -37,7 +46,7 @@ RecordedMessage MessageRows::message() const {
           index_of(table_, index_),
           table_.field(component_).value(),
           table_.field(variable_).value(),
-          table_.field(direction_).value(),
+          direction_of(table_, direction_),
           table_.field(payload_).value(),
           content_ ? table_.field(*content_).value() : std::string()};
 }

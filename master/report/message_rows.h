@@ -31,8 +31,8 @@ class MessageRows {
 
   Table& table() { return table_; }
   const Table& table() const { return table_; }
-  /// Of the present row of the table. Throws core::Error (Input) for a time or an index that is
-  /// none.
+  /// Of the present row of the table. Throws core::Error (Input) for a time, an index or a
+  /// direction that is none.
   RecordedMessage message() const;
 
  private:

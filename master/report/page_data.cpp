@@ -4,6 +4,7 @@
 #include <bit>
 #include <cstddef>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -79,6 +80,20 @@ std::string json_text(const Json& json) {
     }
   }
   return text;
+}
+
+Json with_exact_integers(Json json) {
+  constexpr std::int64_t kMost = std::int64_t{1} << 53;
+  if (json.is_structured()) {
+    for (Json& part : json) part = with_exact_integers(std::move(part));
+  } else if (json.is_number_unsigned()) {
+    const auto number = json.get<std::uint64_t>();
+    if (number > std::uint64_t{kMost}) return std::to_string(number);
+  } else if (json.is_number_integer()) {
+    const auto number = json.get<std::int64_t>();
+    if (number < -kMost || number > kMost) return std::to_string(number);
+  }
+  return json;
 }
 
 std::string base64(std::span<const std::uint8_t> bytes) {

@@ -19,6 +19,9 @@ using Json = nlohmann::ordered_json;
 /// it ends the element that contains it.
 std::string json_text(const Json& json);
 
+/// With texts in place of the integers that a double, which is JavaScript's number, does not have.
+Json with_exact_integers(Json json);
+
 /// Base64 (RFC 4648) with padding.
 std::string base64(std::span<const std::uint8_t> bytes);
 

@@ -52,7 +52,7 @@ class DataWriter {
     file_.write(R"(<script type="application/json" id="stride-report">{)");
     file_.write(fmt::format(R"("format":{})", kFormat));
     member("stride", json_text(version));
-    member("run", json_text(results_.run.json));
+    member("run", json_text(with_exact_integers(results_.run.json)));
     member("notes", json_text(results_.notes));
     write(results_.signals);
     member("plots", json_text(plots(results_)));

@@ -28,6 +28,13 @@ std::size_t Table::place(const std::string& column) const {
   return *found;
 }
 
+void Table::require_header() const {
+  if (!columns_.empty()) return;
+  reader_.fail(
+      "the file is empty: its run was killed before its first lines were written, or has only "
+      "begun");
+}
+
 void Table::check_field_count() const {
   if (fields().size() == columns_.size()) return;
   reader_.fail(fmt::format("expected {} fields, as in the header, found {}", columns_.size(),

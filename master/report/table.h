@@ -24,6 +24,10 @@ class Table {
   std::optional<std::size_t> find(const std::string& column) const;
   std::size_t place(const std::string& column) const;
 
+  /// Throws core::Error (Input) where there is no header: the file of a run that was killed before
+  /// its first lines were written.
+  void require_header() const;
+
   /// The next row, of which each must have as many fields as the header.
   bool next();
   /// Rows that are left out: where the first one is, and words about all.

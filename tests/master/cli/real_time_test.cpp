@@ -89,6 +89,19 @@ TEST_CASE("a run that is late does not wait until it has caught up, and says how
   CHECK(real_time.text() == "Real time: 150.0 ms late at most, at 0.01 s; 0.0 ms at the end");
 }
 
+TEST_CASE("where there is time, something is done about once a second") {
+  Bench bench;
+  bench.now += 1h;
+  int done = 0;
+  RealTime real_time(1, bench.interrupted, bench.clock());
+  real_time.set_meanwhile([&] { ++done; });
+  for (int i = 0; i <= 30; ++i) real_time.on_communication_point(at(100 * i));
+  CHECK(done == 3);
+  bench.now += 10s;
+  real_time.on_communication_point(at(3100));
+  CHECK(done == 3);
+}
+
 TEST_CASE("an interruption ends a long pause") {
   Bench bench;
   bench.interrupted_after = 100ms;

@@ -28,6 +28,11 @@ struct Results {
     folder.write("signals.vcd", "anything");
   }
   std::filesystem::path path() const { return folder / ""; }
+
+  void write_run(const std::string& before, const std::string& after) const {
+    std::string run = content(folder / "run.json");
+    folder.write("run.json", run.replace(run.find(before), before.size(), after));
+  }
 };
 
 Comparison compared_with(const Results& other, const Settings& settings = {}) {
@@ -60,6 +65,39 @@ TEST_CASE("differences of all files are in the order of their times") {
   CHECK(names_of(compared_with(other).differences) == Names{"event tank", "message tank.alarm sent",
                                                             "signal tank.level", "outcome outcome",
                                                             "file coverage.json"});
+}
+
+TEST_CASE("a signal of another type is a difference") {
+  Results other;
+  other.write_run("Float64", "Float32");
+  const Comparison comparison = compared_with(other);
+  REQUIRE(names_of(comparison.differences) == Names{"signal tank.level"});
+  CHECK(comparison.differences[0].a == "Float64");
+  CHECK(comparison.differences[0].b == "Float32");
+}
+
+TEST_CASE("an empty file is that of a run that was killed, and has nothing to say") {
+  for (const char* file : {"signals.csv", "events.csv", "activity.csv"}) {
+    Results other;
+    other.folder.write(file, "");
+    CHECK_THAT(error_of([&] { compared_with(other); }),
+               Contains(file) && Contains("the file is empty"));
+  }
+}
+
+TEST_CASE("a run that has not ended, and one that has recorded nothing, are noted") {
+  Results other;
+  other.write_run("completed", "running");
+  const Comparison comparison = compared_with(other);
+  REQUIRE(comparison.notes.size() == 1);
+  CHECK_THAT(comparison.notes[0], Contains("the run was killed, or goes on"));
+  const Results results;
+  for (const Results* each : std::initializer_list<const Results*>{&other, &results}) {
+    each->folder.write("signals.csv", "time,tank.level [m],tank.code\n");
+    each->folder.write("events.csv", "time,index,component,variable,direction,payload,content\n");
+  }
+  CHECK_THAT(compare_results(results.path(), other.path(), {}).notes.back(),
+             Contains("neither rows of signals nor messages"));
 }
 
 TEST_CASE("a file that only one has is a difference") {

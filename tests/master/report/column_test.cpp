@@ -120,6 +120,19 @@ TEST_CASE("without run.json the type follows from the fields") {
   CHECK(deduced({}).size() == 0);
 }
 
+TEST_CASE("without run.json digits that a double does not have make a column one of texts") {
+  for (const char* text : {"007", "00", "-01", "9223372036854775807", "9007199254740993"}) {
+    INFO(text);
+    const Column column = deduced({"1", text});
+    CHECK(column.type() == ValueType::String);
+    CHECK(texts(column) == Words{"1", text});
+  }
+  for (const char* text : {"0", "-0", "0.5", "-1e300", "9007199254740992", "inf", "nan"}) {
+    INFO(text);
+    CHECK(deduced({text}).type() == ValueType::Float64);
+  }
+}
+
 TEST_CASE("rows are kept from one on") {
   Column column = of(ValueType::Int32, {"0", "1", "2", "3", "4"});
   const std::vector<std::size_t> rows = {2, 4};

@@ -33,6 +33,15 @@ TEST_CASE("a row of messages is read, whatever the order of the columns") {
   CHECK_FALSE(rows.table().next());
 }
 
+TEST_CASE("a direction that is none is refused") {
+  MessageRows rows = rows_of(kMessageHeader + "0,0,a,y,c,,\n0,0,a,y,intervention,,\n");
+  rows.table().next();
+  CHECK_THAT(error_of([&] { rows.message(); }),
+             Contains("events.csv:2: ") && Contains("sent, received or intervention, found 'c'"));
+  rows.table().next();
+  CHECK(rows.message().direction == "intervention");
+}
+
 TEST_CASE("an index or a time that is none is refused") {
   MessageRows rows = rows_of(kMessageHeader + "0,-1,a,y,sent,,\nx,1,a,y,sent,,\n");
   rows.table().next();

@@ -94,6 +94,14 @@ TEST_CASE("no text ends the element that contains the JSON") {
   CHECK(Json::parse(text)["a"] == "</script><!-- \\ \" \n");
 }
 
+TEST_CASE("integers that JavaScript does not have become texts") {
+  const Json json = Json::parse(R"({"a": [9223372036854775807, -9223372036854775807, 1, 0.5],
+                                    "b": {"c": 18446744073709551615, "d": 9007199254740992}})");
+  CHECK(with_exact_integers(json).dump() ==
+        R"({"a":["9223372036854775807","-9223372036854775807",1,0.5],)"
+        R"("b":{"c":"18446744073709551615","d":9007199254740992}})");
+}
+
 TEST_CASE("what is not valid UTF-8 is replaced") {
   CHECK(json_text(Json("a\xff\xc3(")) == "\"a\xEF\xBF\xBD\xEF\xBF\xBD(\"");
 }

@@ -31,7 +31,9 @@ function filmStrips(context) {
 
 function addMessages(context, stack) {
   const lanes = new MessageLanes(context);
-  const words = lanes.isEmpty ? "No messages were sent." : legend(context.report.messages);
+  const { messages, run } = context.report;
+  const none = run.outcome === "running" ? "No messages are written yet." : "No messages were sent.";
+  const words = lanes.isEmpty ? none : legend(messages);
   stack.add({ element: row(lanes.box, note(words)), draw: (width) => lanes.draw(width) });
 }
 

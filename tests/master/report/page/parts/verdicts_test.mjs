@@ -75,5 +75,6 @@ test("undecided is neither passed nor failed", () => {
 test("a run that failed is not a success, whatever was judged until then", () => {
   assert.deepEqual(summary({ outcome: "failed", checks: [check("a", true)] }), { kind: "bad", text: "The run failed" });
   assert.equal(summary({ outcome: "interrupted", checks: [check("a", true)] }).kind, "open");
+  assert.equal(summary({ outcome: "running", checks: [], verdicts: [] }).kind, "open");
   assert.equal(summary({ outcome: "interrupted", checks: [check("a", false, 1)] }).kind, "bad");
 });
