@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from typing import Any, Optional
+
+from ._errors import InputError
 
 Setting = tuple[str, Optional[str]]
 
@@ -12,16 +14,32 @@ Setting = tuple[str, Optional[str]]
 def _text(value: Any) -> str:
     if isinstance(value, bool):
         return "true" if value else "false"
-    if isinstance(value, (bytes, bytearray)):
+    if value is None:
+        raise InputError("None is no value of a variable")
+    if isinstance(value, (bytes, bytearray, memoryview)):
         return bytes(value).hex()
     if isinstance(value, (str, os.PathLike)):
         return os.fspath(value)
-    if isinstance(value, Iterable):
-        return " ".join(_text(element) for element in value)
+    if isinstance(value, Iterable) and getattr(value, "ndim", 1) > 0:
+        texts = [_text(element) for element in value]
+        if "" in texts or any(" " in element for element in _flat(value) if isinstance(element, str)):
+            raise InputError(
+                "the elements of an array are separated by blanks, so a text with blanks, or without a"
+                " character, cannot be among them: set them in a Simulation"
+            )
+        return " ".join(texts)
     if isinstance(value, float):
         return repr(float(value))  # that of numpy has another text
     item = getattr(value, "item", None)  # a number of numpy
     return _text(item()) if item is not None else str(value)
+
+
+def _flat(value: Iterable[Any]) -> Iterator[Any]:
+    for element in value:
+        if isinstance(element, Iterable) and not isinstance(element, (str, bytes)):
+            yield from _flat(element)
+        else:
+            yield element
 
 
 def settings(options: Mapping[str, Any]) -> list[Setting]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import logging
 import os
+import shutil
 import signal
 import subprocess
 from pathlib import Path
@@ -26,13 +27,20 @@ _ERROR = "stride: error: "
 _WARNING = "stride: warning: "
 
 
+def _command(arguments: list[str]) -> list[str]:
+    """Of the program, which ends in order when Python is killed, where util-linux has the means for it."""
+    setpriv = shutil.which("setpriv")
+    tie = [setpriv, "--pdeathsig", "TERM", "--"] if setpriv else []
+    return [*tie, str(program()), *arguments]
+
+
 def _call(arguments: list[str], folder: Optional[PathLike] = None) -> tuple[int, str, str]:
     """Runs the program. Returns its exit code, and what it printed: results and messages.
 
     Ctrl-C ends it in order.
     """
     process = subprocess.Popen(
-        [str(program()), *arguments],
+        _command(arguments),
         cwd=folder,
         stdin=subprocess.DEVNULL,
         stdout=subprocess.PIPE,
@@ -75,6 +83,7 @@ def answer_of(arguments: list[str], file: Path) -> str:
 def _failure(messages: str, kind: type[AnyError]) -> AnyError:
     """The error among the messages."""
     before, found, error = messages.partition(_ERROR)
+    error = error.partition(f"\n{_WARNING}")[0]
     return parse_error((error if found else before).strip() or "the program has ended without a word", kind)
 
 
@@ -105,7 +114,8 @@ def run(scenario: PathLike, *, out: Optional[PathLike] = None, **options: Any) -
         InputError: The scenario or an option is wrong.
         RunError: The run has failed on the way; its attribute `run` is what has happened up to there.
     """
-    return run_words([os.fspath(scenario)], out=out, **options)
+    name = os.fspath(scenario)
+    return run_words([f"./{name}" if name.startswith("-") else name], out=out, **options)
 
 
 def run_words(

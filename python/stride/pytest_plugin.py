@@ -16,17 +16,20 @@ from __future__ import annotations
 
 import csv
 import fnmatch
+import os
 import shlex
 import tempfile
+from collections import Counter
 from collections.abc import Generator, Iterable
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Any, Callable, Optional
+from typing import Any, Callable, Optional, Union
 from xml.parsers import expat
 
 import pytest
 
 from ._errors import Error, InputError, RunError
+from ._options import words
 from ._program import output_of, run, run_words
 from .results import Run
 
@@ -56,11 +59,11 @@ def pytest_configure(config: pytest.Config) -> None:
 
 
 class _Runs:
-    """Runs each scenario once for each set of options."""
+    """Runs each scenario once for each set of options, also one that fails."""
 
     def __init__(self, folder: Path) -> None:
         self._folder = folder
-        self._made: dict[Any, Run] = {}
+        self._made: dict[Any, Union[Run, Error]] = {}
         self._count = 0
 
     def new_folder(self, name: str) -> Path:
@@ -68,10 +71,16 @@ class _Runs:
         return self._folder / f"{self._count:03}-{name}"
 
     def run(self, scenario: Any, **options: Any) -> Run:
-        key = (str(Path(scenario).resolve()), repr(sorted(options.items())))
+        key = (os.getcwd(), os.fspath(scenario), tuple(sorted(words(options))))  # files are named from the folder
         if key not in self._made:
-            self._made[key] = run(scenario, out=self.new_folder(Path(scenario).stem), **options)
-        return self._made[key]
+            try:
+                self._made[key] = run(scenario, out=self.new_folder(Path(scenario).stem), **options)
+            except Error as error:
+                self._made[key] = error
+        made = self._made[key]
+        if isinstance(made, Error):
+            raise made
+        return made
 
 
 _session_runs = pytest.StashKey[_Runs]()
@@ -145,8 +154,17 @@ class ScenarioFile(pytest.File):
 
     def collect(self) -> Iterable[pytest.Item]:
         yield RunItem.from_parent(self, name="run")
-        for line, name in _checks(self.path):
-            yield CheckItem.from_parent(self, name=name, line=line)
+        checks = _checks(self.path)
+        lines = Counter(line for line, _ in checks)
+        seen: Counter[str] = Counter()
+        for line, name in checks:
+            test = name.translate(_NAMES).replace("::", ": ")
+            seen[test] += 1
+            number = f" ({seen[test]})" if seen[test] > 1 else ""
+            yield CheckItem.from_parent(self, name=test + number, line=line, check=name if lines[line] > 1 else None)
+
+
+_NAMES = str.maketrans("[]", "()")  # what pytest takes for its own in the name of a test, as "::"
 
 
 def _checks(scenario: Path) -> list[tuple[int, str]]:
@@ -202,14 +220,17 @@ class RunItem(_ScenarioItem):
 
 
 class CheckItem(_ScenarioItem):
-    """A check of the scenario, which begins in this line of it."""
+    """A check of the scenario, which begins in this line of it, and is called so if others do, too."""
 
-    def __init__(self, *, line: int, **further: Any) -> None:
+    def __init__(self, *, line: int, check: Optional[str], **further: Any) -> None:
         super().__init__(**further)
         self.line = line
+        self.check = check
 
     def runtest(self) -> None:
         verdicts = [check for check in self.scenario_run().info["checks"] if check["line"] == self.line]
+        named = [check for check in verdicts if check["name"] == self.check]
+        verdicts = named or verdicts
         bad = [check for check in verdicts if check["passed"] is False]
         if bad:
             raise _Verdict("\n".join(f"{check['name']}: {check['text']}" for check in bad))
@@ -256,6 +277,8 @@ def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
             ' @pytest.mark.stride_campaign("FILE.xosc")'
         )
     file = Path(metafunc.definition.path).parent / marker.args[0]
+    if not file.is_file():
+        raise pytest.UsageError(f"{metafunc.function.__name__}: there is no campaign {file}")
     try:
         cases = _cases(file)
     except InputError as error:

@@ -6,6 +6,7 @@ import csv
 import functools
 import html
 import json
+import os
 import shutil
 import tempfile
 import weakref
@@ -44,7 +45,9 @@ class Signals(Mapping[str, np.ndarray]):
             raise InputError(f"the signals of this run are gone: there is no {self._file}")
         with self._file.open(newline="", encoding="utf-8") as lines:
             rows = csv.reader(lines)
-            header = next(rows)
+            header = next(rows, None)
+            if header is None:
+                raise InputError(f"{self._file} is empty: the run was ended before it was written")
             columns: list[Any] = list(zip(*rows)) or [()] * len(header)
         names = ["time"] + list(self._types)
         if len(names) != len(header):
@@ -234,8 +237,16 @@ class Run:
 
 
 class TemporaryFolder:
-    """Is removed with the object."""
+    """Is removed with the object, by the process that has made it."""
 
     def __init__(self) -> None:
         self.name = tempfile.mkdtemp(prefix="stride-")
-        weakref.finalize(self, shutil.rmtree, self.name, ignore_errors=True)
+        weakref.finalize(self, _remove, self.name, os.getpid())
+
+    def __reduce__(self) -> Any:
+        raise TypeError("a run whose results are in a temporary folder stays in its process: name a folder, out=")
+
+
+def _remove(folder: str, owner: int) -> None:
+    if os.getpid() == owner:  # and no fork of it
+        shutil.rmtree(folder, ignore_errors=True)

@@ -87,7 +87,8 @@ class Message:
         time: [s].
         variable: "reader.transmit.frame", or the name of the clock of a message without a value.
         received: Whether it is one that the component has received; otherwise it has sent it.
-        value: bytes, a number or a text; an array of them; None without a value.
+        value: bytes, a number or a text; an array of them; None without a value. In the events of a `Run` the text
+            that events.csv has: hexadecimal digits for bytes.
         content: What a Binary value means, in the words of its unit; may be empty.
         index: Which event iteration at this time (super-dense time).
     """
@@ -158,6 +159,8 @@ class Simulation:
         self._handle = ctypes.c_void_p()
         self._last: Optional[list[Verdict]] = None
         self._library = _library()
+        if not isinstance(messages, int) or messages < 0:
+            raise InputError(f"messages= is a number of messages, not {messages!r}")
         pairs = settings(options)
         for text in [os.fsencode(scenario), *(os.fsencode(each) for each in (results, checkpoint) if each is not None)]:
             if b"\0" in text:
@@ -187,8 +190,13 @@ class Simulation:
     def __enter__(self) -> Simulation:
         return self
 
-    def __exit__(self, *_exception: Any) -> None:
-        self.close()
+    def __exit__(self, kind: Any, *_exception: Any) -> None:
+        try:
+            self.close()
+        except RunError as error:
+            if kind is None:
+                raise
+            _log.error("%s", error)  # the exception under way is the one to be told
 
     def __del__(self) -> None:
         if getattr(self, "_handle", None):
@@ -199,8 +207,14 @@ class Simulation:
             return "<stride.Simulation, closed>"
         return f"<stride.Simulation at {self.time:.12g} s of {self.stop_time:.12g} s>"
 
+    def __reduce__(self) -> Any:
+        raise TypeError("a simulation cannot be copied")
+
     def close(self) -> None:
-        """Ends the run, if it has not ended, and frees its units. May be called again."""
+        """Ends the run, if it has not ended, and frees its units. May be called again.
+
+        Raises RunError where the run cannot be ended, as its results cannot be written; it is closed all the same.
+        """
         if not self._handle:
             return
         if self._interruption.is_active:
@@ -208,8 +222,6 @@ class Simulation:
         try:
             if not self.has_ended:
                 self.end()
-        except RunError as error:
-            _log.error("%s", error)
         finally:
             handle, self._handle = self._handle, ctypes.c_void_p()
             self._library.stride_close(handle)
@@ -269,11 +281,17 @@ class Simulation:
         if (duration is None) == (until is None):
             raise MisuseError("step() takes a duration, or until=, and not both")
         seconds = duration if until is None else until
-        if not isinstance(seconds, (int, float, np.number)) or math.isnan(seconds):
+        if not isinstance(seconds, (int, float, np.number)):
+            raise InputError(f"a time in seconds is a number, not {seconds!r}")
+        try:
+            number = float(seconds)
+        except OverflowError:
+            number = math.inf if seconds > 0 else -math.inf
+        if math.isnan(number):
             raise InputError(f"a time in seconds is a number, not {seconds!r}")
         if duration is not None and duration < 0:
             raise InputError(f"a step of {duration} s would go back")
-        target = self._library.stride_seconds(float(seconds))
+        target = self._library.stride_seconds(number)
         if duration is not None:
             if target == 0 < duration:
                 raise InputError(f"a step of {duration} s is shorter than a picosecond, in which stride counts")
@@ -330,7 +348,9 @@ class Simulation:
         if name in self._indices:
             return self._indices[name], self.variables[name]
         index = ctypes.c_size_t()
-        c.check(self._library.stride_find(self._open(), name.encode(), ctypes.byref(index)))  # fails with a suggestion
+        c.check(
+            self._library.stride_find(self._open(), _text_bytes(name, "a name"), ctypes.byref(index))
+        )  # fails with a suggestion
         raise InputError(f"there is no variable '{name}'")
 
     def __contains__(self, name: object) -> bool:
@@ -427,7 +447,8 @@ class Simulation:
         if self._last is None and self._handle and self.has_ended:
             self._last = self._read_verdicts()
         if self._last is None:
-            raise MisuseError("there are no verdicts before the run has ended: call end()")
+            hint = ": call end()" if self._handle else ", and it was closed without having ended"
+            raise MisuseError(f"there are no verdicts before the run has ended{hint}")
         return self._last
 
     def _read_verdicts(self) -> list[Verdict]:

@@ -67,6 +67,56 @@ def test_one_run_is_shared_by_tests(project):
     run(project, "-k", "test_").assert_outcomes(passed=2)
 
 
+def test_runs_with_other_values_or_files_are_others(project):
+    project.makepyfile(
+        """
+        import numpy as np
+
+        def test_values(stride_run):
+            values = np.array([0.123456789012]), np.array([0.123456789912])
+            one, other = (stride_run("test.ssd", set={"first.u": value}) for value in values)
+            assert one is not other
+            assert stride_run("test.ssd", set={"first.u": 0.123456789012}) is one
+
+        def test_folders(stride_run, monkeypatch, tmp_path):
+            one = stride_run("test.ssd")
+            (tmp_path / "test.ssd").write_bytes(open("test.ssd", "rb").read())
+            monkeypatch.chdir(tmp_path)
+            assert stride_run("test.ssd") is not one
+        """
+    )
+    run(project).assert_outcomes(passed=2)
+
+
+def test_a_run_that_fails_is_made_once(project):
+    project.makefile(".ssd", fuse=scenario("first=minimal fuse=thrower"))
+    project.makepyfile(
+        """
+        import pytest, stride
+
+        def failure(stride_run):
+            with pytest.raises(stride.RunError, match="the fuse has blown") as caught:
+                stride_run("fuse.ssd", set={"fuse.throw_at": 0.5})
+            return caught.value
+
+        def test_it(stride_run):
+            assert failure(stride_run) is failure(stride_run)
+        """
+    )
+    run(project).assert_outcomes(passed=1)
+
+
+def test_checks_in_one_line_and_with_any_name_are_tests_of_their_own(project):
+    one_line = CHECKS.replace("\n", " ").replace(
+        "<stride:Eventually", '<stride:Always signal="first.y" max="-1" name="a::b [c]"/> <stride:Eventually', 1
+    )
+    project.makefile(".ssd", test=scenario("first=minimal second=minimal", "first.y>second.u", one_line))
+    result = run(project, "test.ssd", "-v")
+    result.stdout.fnmatch_lines(["*test.ssd::it does not overshoot PASSED*", "*test.ssd::a: b (c) FAILED*"])
+    again = run(project, "test.ssd", "--last-failed", "-v")
+    again.stdout.fnmatch_lines(["*test.ssd::a: b (c) FAILED*"])
+
+
 def test_a_failing_test_names_the_report(project):
     project.makepyfile(
         """

@@ -1,5 +1,10 @@
 """stride.run, what it returns, and stride.campaign."""
 
+import gc
+import json
+import os
+import pickle
+import shutil
 import signal
 import subprocess
 import sys
@@ -31,6 +36,52 @@ def test_a_run(folder):
 def test_signals_outlive_their_run(folder):
     signals = stride.run("test.ssd", set={"first.u": 1}).signals
     assert signals["first.y"][-1] == pytest.approx(1 - np.exp(-1))
+
+
+def test_results_belong_to_the_process_that_has_made_them(folder):
+    run = stride.run("test.ssd", set={"first.u": 1})
+    child = os.fork()
+    if child == 0:
+        del run
+        gc.collect()
+        os._exit(0)
+    os.waitpid(child, 0)
+    assert run.folder.is_dir()
+    with pytest.raises(TypeError, match="name a folder, out="):
+        pickle.dumps(run)
+    kept = stride.run("test.ssd", set={"first.u": 1}, out="kept")
+    assert pickle.loads(pickle.dumps(kept)).signals["first.y"][-1] == run.signals["first.y"][-1]
+
+
+def test_signals_of_a_run_that_was_ended_at_once(folder):
+    run = stride.run("test.ssd", set={"first.u": 1}, out="out")
+    (folder / "out" / "signals.csv").write_text("")
+    with pytest.raises(stride.InputError, match="is empty"):
+        run.time
+
+
+@pytest.mark.parametrize(
+    ("value", "message"),
+    [(["a b", "c"], "with blanks"), (["a", ""], "without a character"), (None, "None is no value")],
+)
+def test_values_that_no_option_can_have(folder, value, message):
+    with pytest.raises(stride.InputError, match=message):
+        stride.run("test.ssd", set={"first.u": value})
+
+
+@pytest.mark.skipif(shutil.which("setpriv") is None, reason="there is no setpriv")
+def test_it_ends_when_python_is_killed(folder):
+    endless = "import stride; stride.run('test.ssd', stop=9e6, step=1e-3, out='out')"
+    process = subprocess.Popen([sys.executable, "-c", endless])
+    file = folder / "out" / "run.json"
+    deadline = time.monotonic() + 60
+    while not file.exists() and time.monotonic() < deadline:
+        time.sleep(0.05)
+    process.kill()
+    process.wait()
+    while json.loads(file.read_text())["outcome"] == "running" and time.monotonic() < deadline:
+        time.sleep(0.05)
+    assert json.loads(file.read_text())["outcome"] == "interrupted"
 
 
 def test_a_check_that_fails_is_no_exception(folder):

@@ -1,9 +1,11 @@
 """stride.Simulation: a run, step by step."""
 
+import copy
 import gc
 import math
 import multiprocessing
 import os
+import pickle
 import signal
 import subprocess
 import sys
@@ -151,6 +153,8 @@ def test_errors_say_what_and_where(folder):
             sim.step(-1)
         with pytest.raises(stride.InputError, match="shorter than a picosecond"):
             sim.step(1e-13)
+        with pytest.raises(stride.InputError, match="would go back"):
+            sim.step(-(10**400))
         with pytest.raises(stride.InputError, match="a number"):
             sim.step("soon")
         with pytest.raises(stride.InputError, match="a number"):
@@ -383,6 +387,23 @@ def test_a_fork_is_refused(folder):
         assert "fork" in answer.get(timeout=30)
         child.join()
         sim.run()
+
+
+def test_it_cannot_be_copied(folder):
+    with stride.Simulation("test.ssd") as sim:
+        for copied in (copy.copy, copy.deepcopy, pickle.dumps):
+            with pytest.raises(TypeError, match="cannot be copied"):
+                copied(sim)
+
+
+def test_results_that_cannot_be_written_are_an_error_of_the_end(folder):
+    with pytest.raises(stride.RunError, match="signals.csv"):
+        with stride.Simulation("test.ssd", results="out") as sim:
+            sim.step(0.5)
+            (folder / "out" / "signals.csv").unlink()
+            (folder / "out" / "signals.csv").mkdir()
+            (folder / "out" / "run.json").unlink()
+            (folder / "out" / "run.json").mkdir()
 
 
 def test_nan_is_a_value_as_it_is_for_the_program(types):

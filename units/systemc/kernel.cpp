@@ -55,7 +55,7 @@ void require_same_systemc(const void* systemc) {
       ", and units that were in this process before have brought another copy, " +
       file_of(&sc_core::sc_curr_simcontext) +
       ": a process can have one only; link all units with the same, or run these "
-      "in another process");
+      "in a process that has had no others");
 }
 
 }  // namespace
