@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <stdexcept>
 #include <thread>
 
 #include <CLI/CLI.hpp>
@@ -11,6 +10,7 @@
 
 #include "master/cli/output.h"
 #include "master/cli/table.h"
+#include "master/settings/parse_option.h"
 #include "master/util/error.h"
 #include "master/util/message_text.h"
 #include "master/util/time_text.h"
@@ -31,11 +31,10 @@ BranchRequest parse_branch(const std::string& text) {
     core::fail_input({}, fmt::format("--branch {}: expected SECONDS:FILE", text),
                      "name the instant at which the branches begin, and the file that lists them");
   }
-  try {
-    return {Time(core::parse_seconds(text.substr(0, colon))), text.substr(colon + 1)};
-  } catch (const std::invalid_argument& mistake) {
-    core::fail_input({}, fmt::format("--branch {}: {}", text, mistake.what()));
-  }
+  const auto instant = [&](const std::string&) {
+    return Time(core::parse_seconds(text.substr(0, colon)));
+  };
+  return {settings::parse_option("--branch", text, instant), text.substr(colon + 1)};
 }
 
 }  // namespace

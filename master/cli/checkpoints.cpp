@@ -11,6 +11,7 @@
 #include <fmt/ranges.h>
 #include <spdlog/spdlog.h>
 
+#include "master/settings/parse_option.h"
 #include "master/util/error.h"
 #include "master/util/input_file.h"
 #include "master/util/time_text.h"
@@ -26,11 +27,7 @@ constexpr std::string_view kEnding = "s.zip";
 constexpr std::size_t kLatestKept = 2;
 
 Duration seconds_of(const char* option, const std::string& text) {
-  try {
-    return core::parse_seconds(text);
-  } catch (const std::invalid_argument& mistake) {
-    core::fail_input({}, fmt::format("{} {}: {}", option, text, mistake.what()));
-  }
+  return settings::parse_option(option, text, core::parse_seconds);
 }
 
 /// The simulated time in the name of a checkpoint.

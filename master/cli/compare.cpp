@@ -1,12 +1,10 @@
 // stride compare: two results side by side.
 #include <filesystem>
 #include <memory>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include <CLI/CLI.hpp>
-#include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
 #include "master/campaign/plan_folder.h"
@@ -18,6 +16,7 @@
 #include "master/compare/comparison_json.h"
 #include "master/report/results.h"
 #include "master/results/output_paths.h"
+#include "master/settings/parse_option.h"
 #include "master/util/error.h"
 #include "master/util/input_file.h"
 #include "master/util/number_text.h"
@@ -36,24 +35,16 @@ struct CompareArguments {
   bool is_golden = false;
 };
 
-/// What parse(text) returns.
-template <class Parse>
-auto parsed(const char* option, const std::string& text, Parse&& parse) {
-  try {
-    return parse(text);
-  } catch (const std::invalid_argument& mistake) {
-    core::fail_input({}, fmt::format("{} {}: {}", option, text, mistake.what()));
-  }
-}
-
 compare::Settings settings_of(const CompareArguments& arguments) {
   compare::Settings settings{
       .only = arguments.only, .ignored = arguments.ignored, .is_golden = arguments.is_golden};
-  settings.tolerance = {parsed("--absolute", arguments.absolute, core::parse_at_least_zero),
-                        parsed("--relative", arguments.relative, core::parse_at_least_zero)};
+  settings.tolerance = {
+      settings::parse_option("--absolute", arguments.absolute, core::parse_at_least_zero),
+      settings::parse_option("--relative", arguments.relative, core::parse_at_least_zero)};
   if (!arguments.time_tolerance.empty()) {
     settings.time_tolerance =
-        parsed("--time-tolerance", arguments.time_tolerance, core::parse_seconds).count();
+        settings::parse_option("--time-tolerance", arguments.time_tolerance, core::parse_seconds)
+            .count();
   }
   for (const std::string& text : arguments.tolerances) {
     settings.tolerances.push_back(compare::parse_tolerance(text));

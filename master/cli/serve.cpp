@@ -3,19 +3,18 @@
 
 #include <cstdlib>
 #include <memory>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fcntl.h>
-#include <fmt/format.h>
 #include <unistd.h>
 
 #include "master/cli/commands.h"
 #include "master/cli/interruption.h"
 #include "master/scenario/run_settings.h"
 #include "master/scenario/unit_path.h"
+#include "master/settings/parse_option.h"
 #include "master/util/descriptor.h"
 #include "master/util/error.h"
 
@@ -29,15 +28,6 @@ struct ServeRequest {
   bool accepts_files = false;
   bool no_sandbox = false;
 };
-
-template <class Parse>
-auto parse_option(const char* option, const std::string& text, Parse&& parse) {
-  try {
-    return parse(text);
-  } catch (const std::invalid_argument& mistake) {
-    core::fail_input({}, fmt::format("{} {}: {}", option, text, mistake.what()));
-  }
-}
 
 /// Before those of STRIDE_UNITS.
 void search_in(const std::vector<std::string>& folders) {
@@ -71,16 +61,16 @@ void serve(const ServeRequest& request) {
   options.find = [](const std::string& name) { return scenario::find_unit(name, {}); };
   if (request.accepts_files) {
     options.file_limit =
-        parse_option("--file-limit", request.file_limit, scenario::parse_memory_limit);
+        settings::parse_option("--file-limit", request.file_limit, scenario::parse_memory_limit);
   }
   options.may_leave_sandbox = request.no_sandbox;
   if (!request.unit_timeout.empty()) {
     options.call_limit =
-        parse_option("--unit-timeout", request.unit_timeout, scenario::parse_call_limit);
+        settings::parse_option("--unit-timeout", request.unit_timeout, scenario::parse_call_limit);
   }
   if (!request.memory_limit.empty()) {
-    options.memory_limit =
-        parse_option("--memory-limit", request.memory_limit, scenario::parse_memory_limit);
+    options.memory_limit = settings::parse_option("--memory-limit", request.memory_limit,
+                                                  scenario::parse_memory_limit);
   }
   const Pipes pipes;
   const Interruption interruption;

@@ -17,6 +17,7 @@
 #include "master/cli/output.h"
 #include "master/cli/table.h"
 #include "master/scenario/unit_path.h"
+#include "master/settings/parse_option.h"
 #include "master/util/error.h"
 #include "master/util/number_text.h"
 #include "master/util/output_file.h"
@@ -93,14 +94,7 @@ template <class Take>
 CLI::Option* add_parsed(CLI::App& command, const std::string& name, Take take,
                         const std::string& help) {
   return command.add_option_function<std::string>(
-      name,
-      [name, take](const std::string& text) {
-        try {
-          take(text);
-        } catch (const std::invalid_argument& mistake) {
-          core::fail_input({}, fmt::format("{} {}: {}", name, text, mistake.what()));
-        }
-      },
+      name, [name, take](const std::string& text) { settings::parse_option(name, text, take); },
       help);
 }
 

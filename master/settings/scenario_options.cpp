@@ -1,6 +1,5 @@
 #include "master/settings/scenario_options.h"
 
-#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -12,6 +11,7 @@
 #include <spdlog/spdlog.h>
 
 #include "master/scenario/scenario_path.h"
+#include "master/settings/parse_option.h"
 #include "master/ssp/parameters.h"
 #include "master/util/message_text.h"
 
@@ -36,11 +36,7 @@ CLI::Option* add_setting(CLI::App& command, const std::string& name,
   return command.add_option_function<std::string>(
       name,
       [&settings, name, set](const std::string& text) {
-        try {
-          (settings.*set)(text);
-        } catch (const std::invalid_argument& mistake) {
-          core::fail_input({}, fmt::format("{} {}: {}", name, text, mistake.what()));
-        }
+        parse_option(name, text, [&](std::string_view value) { (settings.*set)(value); });
       },
       help);
 }
