@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "master/compare/coverages.h"
+#include "master/compare/json_entries.h"
 #include "master/compare/recorded_signals.h"
 #include "master/compare/selection.h"
 #include "master/compare/signals.h"
@@ -124,8 +125,7 @@ class FolderComparison {
 
   /// Its files end at different times, as they were written from memory.
   void note_unfinished(const Folder& folder) {
-    const auto& run = folder.run.json;
-    if (!run.is_object() || !run.contains("outcome") || run["outcome"] != "running") return;
+    if (json_word(folder.run.json, "outcome") != "running") return;
     comparison_.notes.push_back(
         fmt::format("{}: the run was killed, or goes on: its files end at different times, and it "
                     "has no verdicts",

@@ -24,13 +24,6 @@ constexpr std::array<std::string_view, 5> kOutputOptions = {"--out", "--output",
 constexpr std::array<std::string_view, 6> kOutputFlags = {"-q",        "--quiet",     "--open",
                                                           "--verbose", "--no-report", "--no-trace"};
 
-const Json& member(const Json& object, const char* name) {
-  static const Json kNone;
-  if (!object.is_object()) return kNone;
-  const auto found = object.find(name);
-  return found == object.end() ? kNone : *found;
-}
-
 /// Each name with its values, in the order of the file.
 using Named = std::map<std::string, std::vector<std::string>>;
 
@@ -62,9 +55,10 @@ void add_options(const std::vector<std::string>& words, Named& options) {
 
 Named options_of(const RunRecord& run) {
   Named options;
-  for (const Json* command : json_entries(member(run.json, "provenance"), "commands", run.file)) {
+  for (const Json* command :
+       json_entries(json_member(run.json, "provenance"), "commands", run.file)) {
     std::vector<std::string> words;
-    const Json& list = member(*command, "words");
+    const Json& list = json_member(*command, "words");
     for (std::size_t i = 1; list.is_array() && i < list.size(); ++i) {
       if (list[i].is_string()) words.push_back(list[i].get<std::string>());
     }
@@ -77,7 +71,8 @@ Named options_of(const RunRecord& run) {
 
 Named sources_of(const RunRecord& run) {
   Named sources;
-  for (const Json* source : json_entries(member(run.json, "provenance"), "sources", run.file)) {
+  for (const Json* source :
+       json_entries(json_member(run.json, "provenance"), "sources", run.file)) {
     const std::filesystem::path path = json_word(*source, "path");
     sources[path.filename().string()].push_back(json_word(*source, "sha256"));
   }
@@ -120,7 +115,7 @@ Named settings_of(const RunRecord& run) {
     if (!value.empty()) settings[name].push_back(std::move(value));
   };
   for (const char* name : {"system", "start", "stop"}) add(name, json_word(run.json, name));
-  const Json& step = member(run.json, "step");
+  const Json& step = json_member(run.json, "step");
   if (!step.is_object()) return settings;
   for (const auto& [name, value] : step.items()) {
     add("step." + name, json_word(step, name.c_str()));
@@ -129,7 +124,7 @@ Named settings_of(const RunRecord& run) {
 }
 
 Named version_of(const RunRecord& run) {
-  return {{"stride", {json_word(member(run.json, "provenance"), "version")}}};
+  return {{"stride", {json_word(json_member(run.json, "provenance"), "version")}}};
 }
 
 std::string joined(std::vector<std::string> values) {

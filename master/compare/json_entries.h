@@ -14,12 +14,20 @@
 
 namespace stride::compare {
 
+/// Null where there is none.
+inline const report::Json& json_member(const report::Json& object, const char* name) {
+  static const report::Json kNone;
+  if (!object.is_object()) return kNone;
+  const auto found = object.find(name);
+  return found == object.end() ? kNone : *found;
+}
+
 /// A text as it is, a number with all digits, anything else as JSON; empty where it is missing.
 inline std::string json_word(const report::Json& object, const char* member) {
-  const auto found = object.is_object() ? object.find(member) : object.end();
-  if (!object.is_object() || found == object.end() || found->is_null()) return "";
-  if (found->is_string()) return found->get<std::string>();
-  return found->dump(-1, ' ', false, report::Json::error_handler_t::replace);
+  const report::Json& found = json_member(object, member);
+  if (found.is_null()) return "";
+  if (found.is_string()) return found.get<std::string>();
+  return found.dump(-1, ' ', false, report::Json::error_handler_t::replace);
 }
 
 /// The objects of a list; none where it is missing. Throws core::Error (Input), at the file.

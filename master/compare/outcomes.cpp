@@ -23,9 +23,9 @@ using report::Json;
 std::optional<std::int64_t> time_of(const Json& object, const char* member) {
   constexpr double kPerSecond = 1e12;
   constexpr double kMost = 9e18;
-  const auto found = object.is_object() ? object.find(member) : object.end();
-  if (!object.is_object() || found == object.end() || !found->is_number()) return std::nullopt;
-  const double time = found->get<double>() * kPerSecond;
+  const Json& found = json_member(object, member);
+  if (!found.is_number()) return std::nullopt;
+  const double time = found.get<double>() * kPerSecond;
   if (!(std::abs(time) < kMost)) return std::nullopt;
   return std::llround(time);
 }

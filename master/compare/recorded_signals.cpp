@@ -1,7 +1,6 @@
 #include "master/compare/recorded_signals.h"
 
 #include <set>
-#include <stdexcept>
 #include <string>
 
 #include <fmt/format.h>
@@ -26,13 +25,7 @@ void require_distinct(const std::filesystem::path& file, std::span<const report:
 void append_row(const report::Table& table, RecordedSignals& signals) {
   const std::int64_t time = table.time(0);
   if (!signals.times.empty() && time < signals.times.back()) table.fail(0, "the time goes back");
-  for (std::size_t i = 0; i < signals.columns.size(); ++i) {
-    try {
-      signals.columns[i].append(table.field(i + 1));
-    } catch (const std::invalid_argument& mistake) {
-      table.fail(i + 1, mistake.what());
-    }
-  }
+  report::append_fields(signals.columns, table);
   signals.times.push_back(time);
 }
 

@@ -8,7 +8,6 @@
 
 #include <fmt/format.h>
 
-#include "master/report/table.h"
 #include "master/report/thinning.h"
 #include "master/util/input_file.h"
 #include "master/util/message_text.h"
@@ -73,16 +72,8 @@ class SignalsReader {
     } else {
       thinner_.make_room(times, signals_.columns);
     }
-    for (std::size_t i = 0; i < signals_.columns.size(); ++i) take_field(i);
+    append_fields(signals_.columns, table_);
     times.push_back(time);
-  }
-
-  void take_field(std::size_t i) {
-    try {
-      signals_.columns[i].append(table_.field(i + 1));
-    } catch (const std::invalid_argument& mistake) {
-      table_.fail(i + 1, mistake.what());
-    }
   }
 
   void drop_last_row() {
@@ -107,6 +98,16 @@ std::vector<Column> signal_columns(std::span<const std::string> headings,
     columns.push_back(found == known.end() ? deduced_column(heading) : Column(*found->second));
   }
   return columns;
+}
+
+void append_fields(std::span<Column> columns, const Table& table) {
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    try {
+      columns[i].append(table.field(i + 1));
+    } catch (const std::invalid_argument& mistake) {
+      table.fail(i + 1, mistake.what());
+    }
+  }
 }
 
 Signals read_signals(const std::filesystem::path& file, std::span<const SignalInfo> infos,

@@ -12,6 +12,7 @@
 #include "master/report/column.h"
 #include "master/report/notes.h"
 #include "master/report/run_file.h"
+#include "master/report/table.h"
 
 namespace stride::report {
 
@@ -28,6 +29,9 @@ struct Signals {
 /// others the type follows from their fields.
 std::vector<Column> signal_columns(std::span<const std::string> headings,
                                    std::span<const SignalInfo> infos);
+
+/// Appends to each of them its field of the table's present row. Throws core::Error (Input).
+void append_fields(std::span<Column> columns, const Table& table);
 
 struct SignalLimits {
   std::size_t columns = 10'000;
