@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Mapping
 from typing import Any, Optional
 
 from ._errors import InputError
@@ -22,7 +22,7 @@ def _text(value: Any) -> str:
         return os.fspath(value)
     if isinstance(value, Iterable) and getattr(value, "ndim", 1) > 0:
         texts = [_text(element) for element in value]
-        if "" in texts or any(" " in element for element in _flat(value) if isinstance(element, str)):
+        if "" in texts or any(isinstance(element, str) and " " in element for element in value):
             raise InputError(
                 "the elements of an array are separated by blanks, so a text with blanks, or without a"
                 " character, cannot be among them: set them in a Simulation"
@@ -32,14 +32,6 @@ def _text(value: Any) -> str:
         return repr(float(value))  # that of numpy has another text
     item = getattr(value, "item", None)  # a number of numpy
     return _text(item()) if item is not None else str(value)
-
-
-def _flat(value: Iterable[Any]) -> Iterator[Any]:
-    for element in value:
-        if isinstance(element, Iterable) and not isinstance(element, (str, bytes)):
-            yield from _flat(element)
-        else:
-            yield element
 
 
 def settings(options: Mapping[str, Any]) -> list[Setting]:
