@@ -53,7 +53,8 @@ class RunError(Error):
     """A unit, the simulation or the machine has failed.
 
     Attributes:
-        run: The `Run` up to the failure, where `stride.run` has raised this; otherwise None.
+        run: The `Run` up to the failure, where `stride.run` has raised this and a run.json could be written; otherwise
+            None.
     """
 
     run: Any = None

@@ -112,7 +112,8 @@ def run(scenario: PathLike, *, out: Optional[PathLike] = None, **options: Any) -
 
     Raises:
         InputError: The scenario or an option is wrong.
-        RunError: The run has failed on the way; its attribute `run` is what has happened up to there.
+        RunError: The run has failed on the way; its attribute `run` is what has happened up to there (None, where that could
+            not be written: the disk is full, the program was killed).
     """
     name = os.fspath(scenario)
     return run_words([f"./{name}" if name.startswith("-") else name], out=out, **options)
@@ -131,9 +132,10 @@ def run_words(
     if code == 2:
         raise _failure(messages, InputError)
     _warn(messages)
-    if not (results / "run.json").is_file():
-        raise _failure(messages, RunError)
-    result = Run(results, output, keeper)
+    try:
+        result = Run(results, output, keeper)
+    except InputError:  # of run.json, of which the program has said why it is not there
+        raise _failure(messages, RunError) from None
     if code == 0 or (code == 1 and result.error is None and result.info["outcome"] != "interrupted"):
         return result
     failure = _failure(messages, RunError)

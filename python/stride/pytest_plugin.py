@@ -28,7 +28,7 @@ from xml.parsers import expat
 
 import pytest
 
-from ._errors import Error, InputError, RunError
+from ._errors import Error, InputError, MisuseError, RunError
 from ._options import words
 from ._program import output_of, run, run_words
 from .results import Run
@@ -71,6 +71,7 @@ class _Runs:
         return self._folder / f"{self._count:03}-{name}"
 
     def run(self, scenario: Any, **options: Any) -> Run:
+        _refuse_out(options)
         key = (os.getcwd(), os.fspath(scenario), tuple(sorted(words(options))))  # files are named from the folder
         if key not in self._made:
             try:
@@ -81,6 +82,13 @@ class _Runs:
         if isinstance(made, Error):
             raise made
         return made
+
+
+def _refuse_out(options: dict[str, Any]) -> None:
+    if "out" in options:
+        raise MisuseError(
+            "results are where pytest keeps temporary folders, and go with them; stride.run takes the folder 'out'"
+        )
 
 
 _session_runs = pytest.StashKey[_Runs]()
@@ -258,6 +266,7 @@ class Case:
 
     def run(self, **options: Any) -> Run:
         """Runs it, and what `stride.run` takes besides."""
+        _refuse_out(options)
         words = shlex.split(_plan(self.campaign, f"--case={self.number}"))[2:]
         folder = _runs_of(self._node.config).new_folder(f"case-{self.number:06}")
         return _noted(self._node, lambda: run_words(words, out=folder, folder=self.campaign.parent, **options))

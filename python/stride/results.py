@@ -116,7 +116,12 @@ class Run:
         file = self.folder / "run.json"
         if not file.is_file():
             raise InputError(f"{self.folder} is no folder of results: there is no run.json", file=str(file))
-        self.info: dict[str, Any] = json.loads(file.read_text(encoding="utf-8"))
+        try:
+            self.info: dict[str, Any] = json.loads(file.read_text(encoding="utf-8"))
+        except ValueError as error:
+            raise InputError(
+                f"{file} is not whole: {error}", file=str(file), hint=f"'stride report {self.folder}' shows what there is"
+            ) from None
 
     # ---- What happened ----
 

@@ -8,7 +8,7 @@ import shutil
 import subprocess
 import sys
 
-KNOWN = {"FROM", "SHELL", "WORKDIR", "COPY", "RUN", "ENTRYPOINT", "CMD"}
+KNOWN = {"FROM", "WORKDIR", "COPY", "RUN", "ENTRYPOINT", "CMD"}
 
 
 def instructions(text):
@@ -19,16 +19,15 @@ def instructions(text):
 
 def mistakes_of(root):
     steps = instructions((root / "Containerfile").read_text(encoding="utf-8"))
-    stages, shell, runs = [], "sh", 0
+    stages, runs = [], 0
     for name, argument in steps:
-        if name not in KNOWN:
+        if name == "SHELL":
+            yield "SHELL is not known to images of the OCI's format, which podman and buildah make"
+        elif name not in KNOWN:
             yield f"{name} is no instruction that is expected"
         elif name == "FROM":
             words = argument.split()
             stages.append(words[2] if words[1:2] == ["AS"] else "")
-            shell = "sh"
-        elif name == "SHELL":
-            shell = "bash"
         elif name == "COPY":
             for source in argument.split()[:-1]:
                 if not (root / source).exists():
@@ -39,9 +38,11 @@ def mistakes_of(root):
                 if stage not in stages:
                     yield f"RUN {argument}: there is no stage {stage}"
             command = re.sub(r"^(--\S+ )+", "", argument)
-            checked = subprocess.run([shutil.which(shell), "-n", "-c", command], capture_output=True, text=True)
-            if checked.returncode != 0:
-                yield f"RUN {command}: {checked.stderr.strip()}"
+            scripts = [("sh", command), *(("bash", script) for script in re.findall(r"bash -euc '([^']*)'", command))]
+            for shell, script in scripts:
+                checked = subprocess.run([shutil.which(shell), "-n", "-c", script], capture_output=True, text=True)
+                if checked.returncode != 0:
+                    yield f"RUN {script}: {checked.stderr.strip()}"
     if len(stages) != 2 or runs != 4:
         yield f"{len(stages)} stages with {runs} shell steps, expected 2 with 4"
     ignored = (root / ".dockerignore").read_text(encoding="utf-8").split()

@@ -106,6 +106,18 @@ def test_a_run_that_fails_is_made_once(project):
     run(project).assert_outcomes(passed=1)
 
 
+def test_shared_runs_have_no_folder_of_their_own(project):
+    project.makepyfile(
+        """
+        def test_it(stride_run):
+            stride_run("test.ssd", out="results")
+        """
+    )
+    result = run(project)
+    result.assert_outcomes(failed=1)
+    result.stdout.fnmatch_lines(["*MisuseError: results are where pytest keeps temporary folders*"])
+
+
 def test_checks_in_one_line_and_with_any_name_are_tests_of_their_own(project):
     one_line = CHECKS.replace("\n", " ").replace(
         "<stride:Eventually", '<stride:Always signal="first.y" max="-1" name="a::b [c]"/> <stride:Eventually', 1

@@ -200,6 +200,29 @@ def test_a_run_that_was_killed_has_not_passed(folder):
         run.check()
 
 
+def test_an_account_that_is_not_whole_is_an_error(folder):
+    (folder / "out").mkdir()
+    (folder / "out" / "run.json").write_text('{"outcome": ')
+    with pytest.raises(stride.InputError, match="run.json is not whole") as caught:
+        stride.Run("out")
+    assert "stride report" in caught.value.hint
+
+
+_NO_SPACE = """
+import resource, stride
+resource.setrlimit(resource.RLIMIT_FSIZE, (1, 1))
+try:
+    stride.run("test.ssd", out="out")
+except stride.RunError as error:
+    print(error.run, "File too large" in str(error))
+"""
+
+
+def test_a_run_whose_account_cannot_be_written_says_so(folder):
+    done = subprocess.run([sys.executable, "-c", _NO_SPACE], capture_output=True, text=True)
+    assert done.stdout == "None True\n", done.stdout + done.stderr
+
+
 def test_options_may_be_numbers_of_numpy(folder):
     run = stride.run("test.ssd", set={"first.time_constant": np.linspace(0.1, 0.3, 2)[0]}, stop=np.float64(0.5))
     assert run.reached == 0.5
