@@ -13,7 +13,6 @@
 #include <fcntl.h>
 #include <linux/close_range.h>
 #include <linux/filter.h>
-#include <linux/ioprio.h>
 #include <linux/seccomp.h>
 #include <sched.h>
 #include <seccomp.h>
@@ -35,6 +34,9 @@ scmp_arg_cmp argument(unsigned index, scmp_compare how, scmp_datum_t value,
                       scmp_datum_t second = 0) {
   return {index, how, value, second};
 }
+
+/// IOPRIO_WHO_USER of <linux/ioprio.h>, which of some kernels is no C++.
+constexpr scmp_datum_t kPriorityOfUser = 3;
 
 /// The part of a register that holds an int.
 constexpr scmp_datum_t kInt = 0xffffffffU;
@@ -189,7 +191,7 @@ void forbid_reaching_processes() {
   filter.deny(SCMP_SYS(setpriority), {not_own(1)});
   filter.deny(SCMP_SYS(setpriority), {argument(0, SCMP_CMP_MASKED_EQ, kInt, PRIO_USER)});
   filter.deny(SCMP_SYS(ioprio_set), {not_own(1)});
-  filter.deny(SCMP_SYS(ioprio_set), {argument(0, SCMP_CMP_MASKED_EQ, kInt, IOPRIO_WHO_USER)});
+  filter.deny(SCMP_SYS(ioprio_set), {argument(0, SCMP_CMP_MASKED_EQ, kInt, kPriorityOfUser)});
   // others that open the file wait for the process that has a lease on it
   for (const int call : {SCMP_SYS(fcntl), SCMP_SYS(fcntl64)}) {
     filter.deny(call, {argument(1, SCMP_CMP_MASKED_EQ, kInt, F_SETLEASE)});
