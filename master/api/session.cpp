@@ -6,7 +6,9 @@
 #include <iterator>
 #include <set>
 #include <stdexcept>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -74,11 +76,19 @@ void require_same_settings(const recorders::Provenance& before, const recorders:
                            const fs::path& checkpoint) {
   const auto then = before.commands.empty() ? std::multiset<std::string>{}
                                             : deciding_settings(before.commands.front());
-  if (then == deciding_settings(now)) return;
-  core::fail_input({.where = {checkpoint.string(), 0}},
-                   fmt::format("the checkpoint is of a simulation with other settings: {}",
-                               then.empty() ? "none" : fmt::format("{}", fmt::join(then, " "))),
-                   "open this one with the same; what is to change is set from there on");
+  const auto given = deciding_settings(now);
+  if (then == given) return;
+  const auto only = [](const auto& these, const auto& others) {
+    std::vector<std::string> words;
+    std::ranges::set_difference(these, others, std::back_inserter(words));
+    return words.empty() ? "none" : fmt::format("{}", fmt::join(words, " "));
+  };
+  core::fail_input(
+      {.where = {checkpoint.string(), 0}},
+      fmt::format("the checkpoint is of a simulation with other settings: that one has "
+                  "{}, this one {}",
+                  only(then, given), only(given, then)),
+      "open this one with the same; what is to change is set from there on");
 }
 
 }  // namespace
@@ -123,8 +133,8 @@ results::ResultsTarget Session::target_of(const SessionOptions& options,
 recorders::Provenance Session::provenance() {
   recorders::Provenance made = results::provenance_of(loaded_, request_.command, digests_);
   if (!checkpoint_) return made;
-  require_same_settings(checkpoint_->provenance, request_.command, given_.checkpoint);
   results::require_same(checkpoint_->provenance, made, given_.checkpoint);
+  require_same_settings(checkpoint_->provenance, request_.command, given_.checkpoint);
   return made;
 }
 
@@ -263,6 +273,7 @@ void Session::conclude(std::optional<std::string> error) {
   records_.collect_verdicts(is_good && records_.is_complete());
   records_.write_files(error);
   records_.write_page();
+  lock_.reset();  // another run may write there, though this one is looked at
 }
 
 /// An event at this instant, if there is anything to be changed.

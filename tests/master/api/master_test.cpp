@@ -418,8 +418,25 @@ TEST_CASE("a checkpoint is of the same settings, but for those that may differ")
   };
   CHECK_THAT(
       failure(STRIDE_INVALID_INPUT, opened({{"set", "first.u=2"}, {"set", "judge.limit=0.3"}})),
-      Contains("other settings: --set=first.u=1 --set=judge.limit=0.3"));
+      Contains("other settings: that one has --set=first.u=1, this one --set=first.u=2"));
   CHECK(opened({kRising[1], kRising[0], {"stop", "2"}, {"threads", "2"}}) == STRIDE_OK);
+}
+
+TEST_CASE("the folder of a simulation that has ended is free, though it is still looked at") {
+  const Folder folder;
+  const std::string results = (folder / "results").string();
+  stride_options writing{};
+  writing.results = results.c_str();
+  const Simulation first = open(folder.scenario(), kRising, writing);
+  stride_options again = options_of(kRising);
+  again.results = results.c_str();
+  stride_simulation* none = nullptr;
+  CHECK_THAT(failure(STRIDE_INVALID_INPUT, stride_open(folder.scenario().c_str(), &again, &none)),
+             Contains("locked this folder"));
+  step_to(first, 1);
+  REQUIRE(stride_end(first.get()) == STRIDE_OK);
+  const Simulation second = open(folder.scenario(), kRising, writing);
+  CHECK(stride_now(second.get()) == 0);
 }
 
 TEST_CASE("mistakes in the input are told with what would be right") {
