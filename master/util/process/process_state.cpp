@@ -2,6 +2,10 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
+#include <ios>
+#include <optional>
+#include <string>
 #include <system_error>
 
 #include <fcntl.h>
@@ -10,9 +14,22 @@
 namespace stride::core {
 namespace {
 
-/// It can be read by a change only. A file that another thread makes meanwhile is for the user
-/// alone.
+constexpr std::streamsize kLongestLine = 1 << 20;
+
+/// As Linux tells it; nothing without /proc.
+std::optional<mode_t> told_mask() {
+  std::ifstream status("/proc/self/status");
+  std::string word;
+  while (status >> word && word != "Umask:") status.ignore(kLongestLine, '\n');
+  mode_t mask = 0;
+  if (status >> std::oct >> mask) return mask;
+  return std::nullopt;
+}
+
 mode_t present_mask() {
+  if (const auto told = told_mask()) return *told;
+  // Otherwise it can be read by a change only. A file that another thread makes meanwhile is for
+  // the user alone.
   constexpr mode_t kPrivate = 077;
   const mode_t mask = ::umask(kPrivate);
   ::umask(mask);

@@ -1,14 +1,18 @@
 #include "master/util/process/process_state.h"
 
+#include <atomic>
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <functional>
 #include <sstream>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include <catch2/catch.hpp>
+#include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 using stride::core::ProcessState;
@@ -108,6 +112,27 @@ TEST_CASE("each change is put back once, and named") {
   CHECK(handler_of(SIGINT) == interrupt);
   CHECK(handler_of(SIGCHLD) == SIG_DFL);
   CHECK(std::fegetround() == FE_TONEAREST);
+}
+
+TEST_CASE("files that other threads make meanwhile have the mode that they should have") {
+  const mode_t expected = 0666 & ~present_mask();
+  const std::string file =
+      fs::temp_directory_path() / ("stride-mode-" + std::to_string(::getpid()));
+  std::atomic<bool> is_over = false;
+  std::atomic<int> others = 0;
+  std::thread maker([&] {
+    while (!is_over) {
+      const int made = ::open(file.c_str(), O_CREAT | O_WRONLY | O_CLOEXEC, 0666);
+      struct stat status {};
+      if (::fstat(made, &status) != 0 || (status.st_mode & 0777) != expected) ++others;
+      ::close(made);
+      ::unlink(file.c_str());
+    }
+  });
+  for (int i = 0; i < 300; ++i) ProcessState().restore();
+  is_over = true;
+  maker.join();
+  CHECK(others == 0);
 }
 
 TEST_CASE("of many variables that are gone, some are named") {
