@@ -4,7 +4,6 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -15,9 +14,8 @@
 #include "master/coverage/coverage_json.h"
 #include "master/report/page.h"
 #include "master/report/page_data.h"
-#include "master/util/error.h"
+#include "master/report/page_file.h"
 #include "master/util/input_file.h"
-#include "master/util/replacement.h"
 
 namespace stride::campaign {
 namespace {
@@ -25,8 +23,6 @@ namespace {
 namespace fs = std::filesystem;
 using report::Json;
 using report::json_text;
-
-constexpr int kFormat = 1;
 
 fs::path folder_of(const fs::path& file) {
   return fs::absolute(file).lexically_normal().parent_path();
@@ -144,9 +140,6 @@ class PageWriter {
       : file_(file), plan_(plan), columns_(columns) {}
 
   void write(const std::string& working_folder, const std::vector<std::string>& links) {
-    file_.write(R"(<script type="application/json" id="stride-report">{)");
-    file_.write(fmt::format(R"("format":{})", kFormat));
-    member("stride", json_text(plan_.fingerprints().version));
     member("campaign", json_text(campaign_json(plan_)));
     member("outcomes", json_text(outcomes_json(columns_)));
     member("wall_time", json_text(columns_.wall_time));
@@ -163,13 +156,11 @@ class PageWriter {
     member("shares", json_text(shares_json(analysis)));
     if (columns_.coverage) member("coverage", json_text(coverage::to_json(*columns_.coverage)));
     member("working_folder", json_text(working_folder));
-    file_.write("}</script>\n");
   }
 
  private:
   void member(const char* name, const std::string& text) {
-    file_.write(fmt::format(",\"{}\":", name));
-    file_.write(text);
+    report::write_member(file_, name, text);
   }
 
   template <class Write>
@@ -270,18 +261,12 @@ std::vector<std::string> links_to(const CaseFolder& cases, const CaseColumns& co
 void write_campaign_page(const fs::path& file, const Plan& plan, const CaseFolder& cases,
                          const std::string& report, CaseDefinitions coverage,
                          std::uint64_t most_cases) {
-  const std::string_view text = report::campaign_page();
-  const std::size_t mark = text.find(report::kDataMark);
-  if (mark == std::string_view::npos) {
-    core::fail_input({}, "this stride was built without reports (STRIDE_REPORT=OFF)");
-  }
   const CaseColumns columns = read_case_columns(plan, cases, most_cases, std::move(coverage));
-  core::Replacement page(file);
-  page.file().write(text.substr(0, mark));
-  PageWriter(page.file(), plan, columns)
-      .write(seen_from(file, fs::current_path()), links_to(cases, columns, file, report));
-  page.file().write(text.substr(mark + report::kDataMark.size()));
-  page.commit();
+  report::write_page(
+      file, report::campaign_page(), plan.fingerprints().version, [&](core::OutputFile& output) {
+        PageWriter(output, plan, columns)
+            .write(seen_from(file, fs::current_path()), links_to(cases, columns, file, report));
+      });
 }
 
 }  // namespace stride::campaign

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
 #include "master/campaign/plan_folder.h"
@@ -14,6 +15,7 @@
 #include "master/cli/output.h"
 #include "master/cli/result_folders.h"
 #include "master/compare/comparison_json.h"
+#include "master/compare/comparison_page.h"
 #include "master/report/results.h"
 #include "master/results/output_paths.h"
 #include "master/settings/parse_option.h"
@@ -32,6 +34,7 @@ struct CompareArguments {
   std::vector<std::string> tolerances;
   std::vector<std::string> only, ignored;
   std::filesystem::path json;  ///< empty: none
+  std::filesystem::path page;  ///< likewise
   bool is_golden = false;
 };
 
@@ -62,22 +65,34 @@ void refuse_campaign(const std::filesystem::path& folder) {
   }
 }
 
-void check_output_path(const CompareArguments& arguments) {
-  if (arguments.json.empty()) return;
-  const results::OutputPath output{"--json " + arguments.json.string(), arguments.json};
+std::vector<results::OutputPath> output_paths(const CompareArguments& arguments) {
+  std::vector<results::OutputPath> paths;
+  const auto add = [&](const char* option, const std::filesystem::path& file) {
+    if (!file.empty()) paths.push_back({fmt::format("{} {}", option, file.string()), file});
+  };
+  add("--json", arguments.json);
+  add("--html", arguments.page);
+  return paths;
+}
+
+void check_output_paths(const CompareArguments& arguments) {
+  const std::vector<results::OutputPath> outputs = output_paths(arguments);
+  results::refuse_shared_paths(outputs);
   for (const std::filesystem::path& folder : {arguments.a, arguments.b}) {
-    refuse_result_folders(folder, output);
-    results::refuse_kept_paths({&output, 1},
+    for (const results::OutputPath& output : outputs) refuse_result_folders(folder, output);
+    results::refuse_kept_paths(outputs,
                                results::kept_results(folder, report::result_files(folder)));
   }
 }
 
 /// 1 would say that they differ.
-void write_json(const CompareArguments& arguments, const compare::Comparison& comparison,
-                const compare::Settings& settings) {
-  if (arguments.json.empty()) return;
+void write_files(const CompareArguments& arguments, const compare::Comparison& comparison,
+                 const compare::Settings& settings) {
   try {
-    compare::write_comparison(arguments.json, comparison, settings);
+    if (!arguments.json.empty()) compare::write_comparison(arguments.json, comparison, settings);
+    if (!arguments.page.empty()) {
+      compare::write_comparison_page(arguments.page, comparison, settings, STRIDE_VERSION);
+    }
   } catch (const core::Error& failure) {
     throw core::Error(core::Error::Kind::Input, failure.context(), failure.message(),
                       failure.hint());
@@ -88,11 +103,11 @@ void compare_folders(const CompareArguments& arguments) {
   refuse_campaign(arguments.a);
   refuse_campaign(arguments.b);
   const compare::Settings settings = settings_of(arguments);
-  check_output_path(arguments);
+  check_output_paths(arguments);
   const compare::Comparison comparison =
       compare::compare_results(arguments.a, arguments.b, settings);
   print_warnings(comparison.notes);
-  write_json(arguments, comparison, settings);
+  write_files(arguments, comparison, settings);
   print_text("{}", comparison_text(comparison));
   if (!comparison.differences.empty()) throw CLI::RuntimeError(kRunFailed);
 }
@@ -141,6 +156,10 @@ void add_compare(CLI::App& app) {
                     "B is kept as a reference: compare what it has, at its instants, within its "
                     "tolerances.csv");
   command->add_option("--json", arguments->json, "Write all differences to this file")
+      ->type_name("FILE");
+  command
+      ->add_option("--html", arguments->page,
+                   "Write a page with all differences, and the curves of both over each other")
       ->type_name("FILE");
   command->footer("Exit codes: 0 they are equal, 1 they differ, 2 the input was wrong.");
   command->callback([arguments] { compare_folders(*arguments); });

@@ -3,14 +3,12 @@
 #include <chrono>
 #include <optional>
 
-#include <nlohmann/json.hpp>
-
 #include "master/util/replacement.h"
 
 namespace stride::compare {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using report::Json;
 
 constexpr int kVersion = 1;
 
@@ -64,28 +62,32 @@ Json input_entries(const std::optional<std::vector<InputDifference>>& inputs) {
 
 }  // namespace
 
-void write_comparison(const std::filesystem::path& file, const Comparison& comparison,
-                      const Settings& settings) {
+Json comparison_json(const Comparison& comparison, const Settings& settings) {
   Json differences = Json::array();
   for (const Difference& difference : comparison.differences) {
     differences.push_back(difference_entry(difference));
   }
-  const Json json = {{"format", "stride comparison"},
-                     {"version", kVersion},
-                     {"a", comparison.a.string()},
-                     {"b", comparison.b.string()},
-                     {"equal", comparison.differences.empty()},
-                     {"settings", settings_entry(settings)},
-                     {"compared",
-                      {{"signals", comparison.signals},
-                       {"rows", comparison.rows},
-                       {"messages", comparison.messages}}},
-                     {"differences", std::move(differences)},
-                     {"inputs", input_entries(comparison.inputs)},
-                     {"notes", comparison.notes},
-                     {"not_compared", kNotCompared}};
+  return {{"format", "stride comparison"},
+          {"version", kVersion},
+          {"a", comparison.a.string()},
+          {"b", comparison.b.string()},
+          {"equal", comparison.differences.empty()},
+          {"settings", settings_entry(settings)},
+          {"compared",
+           {{"signals", comparison.signals},
+            {"rows", comparison.rows},
+            {"messages", comparison.messages}}},
+          {"differences", std::move(differences)},
+          {"inputs", input_entries(comparison.inputs)},
+          {"notes", comparison.notes},
+          {"not_compared", kNotCompared}};
+}
+
+void write_comparison(const std::filesystem::path& file, const Comparison& comparison,
+                      const Settings& settings) {
   core::Replacement output(file);
-  output.file().write(json.dump(2, ' ', false, Json::error_handler_t::replace));
+  output.file().write(
+      comparison_json(comparison, settings).dump(2, ' ', false, Json::error_handler_t::replace));
   output.file().write('\n');
   output.commit();
 }

@@ -4,10 +4,14 @@
 #include <filesystem>
 
 #include "master/compare/compare.h"
+#include "master/report/page_data.h"
 
 namespace stride::compare {
 
-/// Writes all of it, as docs/compare.md has it. Throws core::Error where it cannot.
+/// All of it, as docs/compare.md has it.
+report::Json comparison_json(const Comparison& comparison, const Settings& settings);
+
+/// Writes it to a file. Throws core::Error where it cannot.
 void write_comparison(const std::filesystem::path& file, const Comparison& comparison,
                       const Settings& settings);
 

@@ -1,4 +1,5 @@
-// The pages that show a run and a campaign: HTML texts, to which only the data must be added.
+// The pages that show a run, a campaign and a comparison: HTML texts, to which only the data must
+// be added.
 #ifndef STRIDE_MASTER_REPORT_PAGE_H
 #define STRIDE_MASTER_REPORT_PAGE_H
 
@@ -14,6 +15,9 @@ std::string_view page();
 
 /// Likewise that of a campaign.
 std::string_view campaign_page();
+
+/// Likewise that of a comparison of two runs.
+std::string_view comparison_page();
 
 }  // namespace stride::report
 

@@ -13,17 +13,15 @@
 #include "master/coverage/coverage_json.h"
 #include "master/report/page.h"
 #include "master/report/page_data.h"
+#include "master/report/page_file.h"
 #include "master/util/error.h"
 #include "master/util/message_text.h"
-#include "master/util/replacement.h"
 #include "master/util/untrusted_folder.h"
 
 namespace stride::report {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr int kFormat = 1;
 
 /// Components of nested systems have points in their names, so the longest one counts.
 std::string_view component_of(std::string_view signal,
@@ -48,27 +46,20 @@ class DataWriter {
   DataWriter(core::OutputFile& file, const Results& results)
       : file_(file), results_(results), folder_(results.folder) {}
 
-  void write(const std::string& version) {
-    file_.write(R"(<script type="application/json" id="stride-report">{)");
-    file_.write(fmt::format(R"("format":{})", kFormat));
-    member("stride", json_text(version));
+  void write() {
     member("run", json_text(with_exact_integers(results_.run.json)));
     member("notes", json_text(results_.notes));
-    write(results_.signals);
+    write_signals(file_, results_.signals);
     member("plots", json_text(plots(results_)));
     list("messages", results_.messages, [&](const RecordedMessage& message) { write(message); });
     list("activity", results_.activities, [&](const UnitActivities& entry) { write(entry); });
     list("films", results_.films, [&](const Film& film) { write(film); });
     if (results_.coverage) member("coverage", json_text(coverage::to_json(*results_.coverage)));
     member("diagram", json_text(diagram(results_.run)));
-    file_.write("}</script>\n");
   }
 
  private:
-  void member(const char* name, const std::string& text) {
-    file_.write(fmt::format(",\"{}\":", name));
-    file_.write(text);
-  }
+  void member(const char* name, const std::string& text) { write_member(file_, name, text); }
 
   template <class Entries, class Write>
   void list(const char* name, const Entries& entries, Write&& write_entry) {
@@ -79,18 +70,6 @@ class DataWriter {
       write_entry(entry);
     }
     file_.write(']');
-  }
-
-  void write(const Signals& signals) {
-    member("time", blob(std::span(signals.times)));
-    member("rows", std::to_string(signals.times.size()));
-    list("columns", signals.columns, [&](const Column& column) {
-      file_.write(fmt::format(R"({{"name":{},"unit":{},"type":"{}","stepped":{},"values":)",
-                              json_text(column.name()), json_text(column.unit()),
-                              core::name(column.type()), column.is_stepped()));
-      file_.write(blob(column.values()));
-      file_.write('}');
-    });
   }
 
   void write(const RecordedMessage& message) {
@@ -173,16 +152,8 @@ std::vector<recorders::Plot> default_plots(std::span<const Column> columns,
 }
 
 void write_report(const fs::path& file, const Results& results, const std::string& version) {
-  const std::string_view text = page();
-  const std::size_t mark = text.find(kDataMark);
-  if (mark == std::string_view::npos) {
-    core::fail_input({}, "this stride was built without reports (STRIDE_REPORT=OFF)");
-  }
-  core::Replacement report(file);
-  report.file().write(text.substr(0, mark));
-  DataWriter(report.file(), results).write(version);
-  report.file().write(text.substr(mark + kDataMark.size()));
-  report.commit();
+  write_page(file, page(), version,
+             [&](core::OutputFile& output) { DataWriter(output, results).write(); });
 }
 
 }  // namespace stride::report

@@ -116,6 +116,15 @@ TEST_CASE("the file of --json is none of the results") {
   CHECK(runs.compare().exit_code == 0);
 }
 
+TEST_CASE("--html is a page of both, and no file of the results nor that of --json") {
+  const TwoRuns runs({}, {"--set", "second.time_constant=0.5"});
+  CHECK(runs.compare({"--html", "c.html"}).exit_code == 1);
+  CHECK_THAT(read(runs.workspace / "c.html"), Contains("\"name\":\"second.y\""));
+  CHECK_THAT(runs.error({"--html", "a/report.html"}), Contains("--html a/report.html"));
+  CHECK_THAT(runs.error({"--html", "c.html", "--json", "c.html"}), Contains("c.html"));
+  CHECK_THAT(runs.error({"--html", "nowhere/c.html"}), Contains("nowhere"));
+}
+
 TEST_CASE("a table is of a bounded length, and --json has the rest") {
   const TwoRuns runs;
   std::string a = "time", b = "time";

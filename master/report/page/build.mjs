@@ -120,6 +120,12 @@ const kPages = {
     style: "src/campaign/style.css",
     what: "campaign",
   },
+  comparison_page: {
+    file: "comparison_page.html",
+    script: "src/compare/main.js",
+    style: "src/compare/style.css",
+    what: "comparison",
+  },
 };
 
 await mkdir(output, { recursive: true });

@@ -5,5 +5,6 @@ namespace stride::report {
 
 std::string_view page() { return {}; }
 std::string_view campaign_page() { return {}; }
+std::string_view comparison_page() { return {}; }
 
 }  // namespace stride::report

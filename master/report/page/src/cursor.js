@@ -1,20 +1,22 @@
 // Moving the cursor by samples and messages rather than by time.
 import { lastAtOrBefore } from "./data/exact_time.js";
 
-/** The row whose values are valid at the cursor; -1 if there is no cursor, or no row before it. */
-export function rowAtCursor({ report, view }) {
+/**
+ * The row whose values are valid at the cursor; -1 if there is no cursor, or no row before it.
+ * @param {{seconds: Float64Array}} rows of a report, or a column
+ */
+export function rowAtCursor({ seconds }, view) {
   if (view.cursor === null) return -1;
-  return view.row ?? lastAtOrBefore(report.seconds, view.cursor);
+  return view.row?.of === seconds ? view.row.index : lastAtOrBefore(seconds, view.cursor);
 }
 
 /** Moves the cursor by samples, and holds it there. */
-export function moveBySamples(context, count) {
-  const { report, view } = context;
+export function moveBySamples({ report, view }, count) {
   const last = report.seconds.length - 1;
   if (last < 0) return;
-  const now = view.cursor === null ? lastAtOrBefore(report.seconds, view.from) : rowAtCursor(context);
+  const now = view.cursor === null ? lastAtOrBefore(report.seconds, view.from) : rowAtCursor(report, view);
   const row = Math.min(last, Math.max(0, now + count));
-  view.holdCursor(report.seconds[row], row);
+  view.holdCursor(report.seconds[row], { of: report.seconds, index: row });
 }
 
 /** Moves the cursor to the next or previous instant with messages, and holds it there. */

@@ -1,5 +1,5 @@
 // The page: reads the run's data, creates the parts, and connects them.
-import { moveByMessages, moveBySamples } from "./cursor.js";
+import { actionsOf, printWell } from "./actions.js";
 import { coverageSection } from "./coverage/section.js";
 import { readReport } from "./data/report.js";
 import { h } from "./dom.js";
@@ -24,32 +24,6 @@ const coverage = ({ report, view, tip }) =>
     show: ({ first }) => view.holdCursor(first),
     note: "What was exercised of it. A click on a bin goes to its first visit.",
   });
-
-/** The actions of keys and buttons. */
-function actionsOf(context, theme, help) {
-  const { view } = context;
-  return {
-    moveBySamples: (count) => moveBySamples(context, count),
-    moveByMessages: (direction) => moveByMessages(context, direction),
-    zoom: (factor) => view.zoom(factor),
-    pan: (share) => view.pan(share),
-    showWhole: () => view.showWhole(),
-    releaseCursor: () => view.releaseCursor(),
-    switchTheme: () => theme.switch(),
-    showHelp: () => help.showModal(),
-  };
-}
-
-/** Printed pages are light and complete. */
-function printWell(theme, stack) {
-  let chosen = null;
-  window.addEventListener("beforeprint", () => {
-    chosen = theme.chosen;
-    theme.choose("light");
-    stack.drawEverything();
-  });
-  window.addEventListener("afterprint", () => theme.choose(chosen));
-}
 
 /** The share of the run around its first failure that is shown at first. */
 const kAroundFailure = 0.2;

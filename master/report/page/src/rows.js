@@ -13,7 +13,7 @@ import { StatesPane } from "./plot/states.js";
 import { Stack } from "./stack.js";
 
 const note = (text) => h("p.note", {}, text);
-const row = (box, side) => h("div.row", {}, h("div.plot", {}, box), h("div.side", {}, side));
+export const row = (box, side) => h("div.row", {}, h("div.plot", {}, box), h("div.side", {}, side));
 
 function legend(messages) {
   const hasInterventions = messages.some(({ direction }) => direction === "intervention");
@@ -37,8 +37,8 @@ function addMessages(context, stack) {
   stack.add({ element: row(lanes.box, note(words)), draw: (width) => lanes.draw(width) });
 }
 
-/** One pane with its legend. */
-function addPane(context, stack, group, firstColor, parent) {
+/** One pane with its legend. @returns its row */
+export function addPane(context, stack, group, firstColor, parent) {
   const Kind = group.isStates ? StatesPane : Pane;
   const pane = new Kind(context, group.columns, firstColor);
   const entry = { pane, draw: (width) => pane.draw(width) };
@@ -48,6 +48,7 @@ function addPane(context, stack, group, firstColor, parent) {
   stack.add(entry, parent);
   for (const name of ["cursor", "view"]) context.view.addEventListener(name, () => legend.update());
   legend.update();
+  return entry;
 }
 
 function addPanes(context, stack) {

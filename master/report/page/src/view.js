@@ -19,7 +19,7 @@ export class View extends EventTarget {
     this.until = whole.until;
     /** The position of the cursor [s]; null if there is none. */
     this.cursor = null;
-    /** The row that the cursor was set to, if it was set to one. */
+    /** The row that the cursor was set to, if it was set to one, and the times of whose rows it is. */
     this.row = null;
     /** Whether the cursor keeps its position when the mouse moves. */
     this.isHeld = false;
@@ -73,7 +73,7 @@ export class View extends EventTarget {
   /**
    * Sets and holds the cursor, and shows its position if it was out of sight.
    * @param {number} seconds
-   * @param {number} [row] if doubles do not distinguish it from its neighbours
+   * @param {{of: Float64Array, index: number}} [row] if doubles do not distinguish it from its neighbours
    */
   holdCursor(seconds, row = null) {
     this.isHeld = true;

@@ -12,9 +12,8 @@ namespace report = stride::report;
 namespace {
 
 std::string any_page() {
-  return std::string(GENERATE(as<std::string>{}, "run", "campaign") == "run"
-                         ? report::page()
-                         : report::campaign_page());
+  const auto page = GENERATE(report::page, report::campaign_page, report::comparison_page);
+  return std::string(page());
 }
 
 }  // namespace

@@ -72,10 +72,11 @@ const makeContext = (seconds, messages = []) => ({
 test("the cursor goes from sample to sample, also where doubles are the same", () => {
   const context = makeContext([0, 1, 1, 2, 3]);
   moveBySamples(context, 1);
-  const rows = [rowAtCursor(context)];
+  const row = () => rowAtCursor(context.report, context.view);
+  const rows = [row()];
   for (const step of [1, 1, -1, -1, 10, -10]) {
     moveBySamples(context, step);
-    rows.push(rowAtCursor(context));
+    rows.push(row());
   }
   assert.deepEqual(rows, [1, 2, 3, 2, 1, 4, 0]);
 });
@@ -90,10 +91,17 @@ test("the cursor goes from message to message", () => {
 });
 
 test("before the first sample there are no values", () => {
-  const context = makeContext([1, 2]);
-  assert.equal(rowAtCursor(context), -1);
-  context.view.moveCursor(0.5);
-  assert.equal(rowAtCursor(context), -1);
-  context.view.moveCursor(1.99);
-  assert.equal(rowAtCursor(context), 0);
+  const { report, view } = makeContext([1, 2]);
+  assert.equal(rowAtCursor(report, view), -1);
+  view.moveCursor(0.5);
+  assert.equal(rowAtCursor(report, view), -1);
+  view.moveCursor(1.99);
+  assert.equal(rowAtCursor(report, view), 0);
+});
+
+test("the row that the cursor was set to is one of its own report", () => {
+  const { report, view } = makeContext([1, 2, 2]);
+  view.holdCursor(2, { of: report.seconds, index: 1 });
+  assert.equal(rowAtCursor(report, view), 1);
+  assert.equal(rowAtCursor({ seconds: Float64Array.of(0, 1, 2, 3) }, view), 2);
 });

@@ -13,16 +13,23 @@ export class Column {
   /**
    * @param {{name: string, unit?: string, type: string, stepped: boolean}} description
    * @param {ArrayLike<number>} values for a text: the index of each row's text in `texts`
-   * @param {string[]} [texts]
+   * @param {string[]|undefined} texts
+   * @param {Float64Array} seconds the time of each row
    */
-  constructor(description, values, texts) {
+  constructor(description, values, texts, seconds) {
     this.name = description.name;
     this.unit = description.unit ?? "";
     this.type = description.type;
     this.stepped = description.stepped;
     this.values = values;
     this.texts = texts;
+    this.seconds = seconds;
     this.pyramid = new Pyramid(values);
+  }
+
+  /** The same under another name. */
+  named(name) {
+    return Object.assign(Object.create(Column.prototype), this, { name });
   }
 
   /** Whether it is drawn as a row of states rather than as a curve. */
@@ -44,10 +51,10 @@ export class Column {
   }
 }
 
-async function readColumn(description) {
+async function readColumn(description, seconds) {
   const packed = description.values;
-  if (packed.type !== "strings") return new Column(description, await unpack(packed));
-  return new Column(description, await unpack(packed.indices), packed.values);
+  if (packed.type !== "strings") return new Column(description, await unpack(packed), undefined, seconds);
+  return new Column(description, await unpack(packed.indices), packed.values, seconds);
 }
 
 /** The kinds of activity of each unit: intervals and instants. */
@@ -108,9 +115,10 @@ export async function readReport(data, progress) {
   }
   const run = data.run ?? {};
   const times = await unpack(data.time);
+  const seconds = secondsOf(times);
   const columns = [];
   for (const description of data.columns) {
-    columns.push(await readColumn(description));
+    columns.push(await readColumn(description, seconds));
     progress(columns.length / data.columns.length);
     await pause();
   }
@@ -121,7 +129,7 @@ export async function readReport(data, progress) {
     version: data.stride,
     notes: data.notes ?? [],
     times,
-    seconds: secondsOf(times),
+    seconds,
     columns: new Map(columns.map((column) => [column.name, column])),
     plots: data.plots ?? [],
     messages: (data.messages ?? []).map(readMessage),

@@ -36,7 +36,7 @@ export class Toolbar {
 
   update() {
     const { report, view } = this.context;
-    const row = rowAtCursor(this.context);
+    const row = rowAtCursor(report, view);
     const isThere = row >= 0 && row < report.times.length;
     this.time.textContent = isThere ? `t = ${rowTimeText(report, row)} s` : "no cursor";
     const count = report.times.length.toLocaleString("en");

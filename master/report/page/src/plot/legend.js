@@ -26,10 +26,10 @@ export class Legend {
 
   /** Shows the values at the cursor; without one, what they were in the time that is shown. */
   update() {
-    const { report, view } = this.context;
-    const row = rowAtCursor(this.context);
+    const { view } = this.context;
     for (const { column, value } of this.entries) {
-      const { text, title } = view.cursor === null ? summaryText(column, report.seconds, view) : valueText(column, row);
+      const { text, title } =
+        view.cursor === null ? summaryText(column, view) : valueText(column, rowAtCursor(column, view));
       value.textContent = text;
       value.title = title;
       value.classList.toggle("summary", view.cursor === null);

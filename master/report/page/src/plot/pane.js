@@ -56,15 +56,10 @@ export class Pane {
     if (!this.plot) this.#create(width);
     else if (this.plot.width !== width) this.plot.setSize({ width, height: kHeight });
     const plotted = width - kGutter;
-    const { seconds } = this.report;
-    const groups = rowGroups(seconds, this.view.from, this.view.until, plotted * (window.devicePixelRatio || 1));
-    const drawn = this.columns.map((column) => (this.hidden.has(column) ? [] : groupValues(column.pyramid, groups)));
-    this.#fit(drawn);
-    this.pointCount = groups.length === 0 ? 0 : Math.max(0, ...drawn.map((values) => values.length));
-    const times = groupTimes(seconds, groups);
-    this.drawn = drawn.map((values) => ({ groups, times, values }));
+    this.#collect(plotted * (window.devicePixelRatio || 1));
+    this.#fit(this.drawn.map(({ values }) => values));
     this.plot.batch(() => {
-      this.plot.setData([[this.view.from, this.view.until], ...drawn.map(() => kNothing)], false);
+      this.plot.setData([[this.view.from, this.view.until], ...this.columns.map(() => kNothing)], false);
       this.plot.setScale("x", { min: this.view.from, max: this.view.until });
       this.plot.setScale("y", { min: 0, max: 1 });
       this.plot.redraw(false, true); // the ticks, though uPlot's own scale stays the same
@@ -75,6 +70,22 @@ export class Pane {
   highlight(column) {
     this.highlighted = column;
     this.plot?.redraw(false, this.hasOwnScales);
+  }
+
+  /** The points of each curve. Columns of one run have the same instants. @param {number} pixels of the drawing */
+  #collect(pixels) {
+    const instants = new Map();
+    const instantsOf = ({ seconds }) => {
+      if (!instants.has(seconds)) {
+        const groups = rowGroups(seconds, this.view.from, this.view.until, pixels);
+        instants.set(seconds, { groups, times: groupTimes(seconds, groups) });
+      }
+      return instants.get(seconds);
+    };
+    this.drawn = this.columns.map((column) => {
+      const { groups, times } = instantsOf(column);
+      return { groups, times, values: this.hidden.has(column) ? [] : groupValues(column.pyramid, groups) };
+    });
   }
 
   #fit(drawn) {

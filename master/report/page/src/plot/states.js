@@ -32,13 +32,11 @@ export class StatesPane {
   draw(width) {
     const shown = this.columns.filter((column) => !this.hidden.has(column));
     const context = sizedContext(this.box, width, shown.length * kRow + 8);
-    const groups = rowGroups(this.report.seconds, this.view.from, this.view.until, width - kGutter);
     context.font = kFont;
-    this.pointCount = groups.length / 2;
-    shown.forEach((column, row) => this.#drawRow(context, column, row * kRow + 4, groups, width));
+    shown.forEach((column, row) => this.#drawRow(context, column, row * kRow + 4, width));
   }
 
-  #drawRow(context, column, top, groups, width) {
+  #drawRow(context, column, top, width) {
     const scale = (width - kGutter) / this.view.span;
     const place = (time) => Math.min(width, Math.max(kGutter, kGutter + (time - this.view.from) * scale));
     this.#drawName(context, column, top, width);
@@ -48,7 +46,8 @@ export class StatesPane {
       bad: color("--bad"),
     });
     const middle = { top: top + (kRow - kBar) / 2, height: kBar };
-    for (const state of states(column, this.report.seconds, groups)) {
+    const groups = rowGroups(column.seconds, this.view.from, this.view.until, width - kGutter);
+    for (const state of states(column, groups)) {
       const box = { ...middle, left: place(state.from), right: place(state.until ?? this.view.whole.until) };
       if (column.texts) drawText(context, box, state, column);
       else drawBoolean(context, box, state, curveColor(this.firstColor));
@@ -70,7 +69,8 @@ export class StatesPane {
  * The consecutive states: the value, or that there are several within one pixel.
  * @returns {{from: number, until?: number, value: number, isMixed: boolean}[]}
  */
-export function states(column, seconds, groups) {
+export function states(column, groups) {
+  const { seconds } = column;
   const found = [];
   for (let g = 0; g < groups.length; g += 2) {
     const { least, most } = column.pyramid.extremes(groups[g], groups[g + 1]);

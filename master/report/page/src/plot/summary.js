@@ -7,7 +7,8 @@ import { briefText } from "../data/number_text.js";
  * @returns {{last: number, least: number, most: number}|null} the row of the last value, and the values between which
  * the others are: least > most if there is no number; null if there is no row yet
  */
-export function summaryOf(column, seconds, { from, until }) {
+export function summaryOf(column, { from, until }) {
+  const { seconds } = column;
   const last = lastAtOrBefore(seconds, until);
   if (last < 0) return null;
   const first = Math.max(0, lastAtOrBefore(seconds, from));
@@ -15,8 +16,8 @@ export function summaryOf(column, seconds, { from, until }) {
 }
 
 /** @returns {{text: string, title: string}} in short, and with all digits */
-export function summaryText(column, seconds, view) {
-  const found = summaryOf(column, seconds, view);
+export function summaryText(column, view) {
+  const found = summaryOf(column, view);
   if (found === null) return { text: "–", title: "no value yet" };
   const { last, least, most } = found;
   const exact = column.textAt(last);

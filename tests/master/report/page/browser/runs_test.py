@@ -97,6 +97,32 @@ class RunsTest(unittest.TestCase):
                          ["world", "environment", "channel", "reader", "sensor", "ground_truth"])
         self.assert_values(browser, results, 100)
 
+    def test_two_runs_over_each_other(self):
+        scenario = self.scenarios / "nfc_approach" / "nfc_approach.ssd"
+        options = [["--out", "before"], ["--out", "after", "--set", "sensor.power.capacitance=150e-6"]]
+        for each in options:
+            subprocess.run([self.program, "run", scenario, "--no-report", *each], capture_output=True,
+                           check=True, cwd=self.folder)
+        compared = subprocess.run([self.program, "compare", "before", "after", "--html", "c.html"], cwd=self.folder,
+                                  capture_output=True)
+        self.assertEqual(compared.returncode, 1)
+        browser = self.browser.open(self.folder / "c.html")
+        self.assertEqual(browser.errors() + browser.requests(), [])
+        self.assertEqual(browser.one("h1").text, "before and after DIFFER")
+        self.assertRegex(browser.one(".banner.bad").text, "^[0-9]+ things differ – first at 0 s: ")
+        self.assertIn("sensor.power.capacitance=150e-6", browser.one("table.inputs").text)
+        led = "[...document.querySelectorAll('.row.pane')].find((row) => row.textContent.includes('sensor.led'))"
+        browser.put_cursor(14.7)
+        self.assertEqual(browser.run(f"return [...{led}.querySelectorAll('.value')].map((each) => each.textContent)"),
+                         ["true", "false"])  # the smaller capacitor is empty before
+        browser.run("[...document.querySelectorAll('table.differences button')]"
+                    ".find((each) => each.textContent === 'sensor.led').click()")
+        browser.settle()
+        first = browser.run("return stride.view.cursor")
+        self.assertTrue(14.2 < first < 14.7, first)
+        self.assertTrue(browser.run(f"const box = {led}.getBoundingClientRect();"
+                                    "return box.top >= 0 && box.bottom <= innerHeight"))
+
     def test_a_million_samples(self):
         scenario = million_samples(self.folder)
         results = self.run_scenario(scenario, "--set", "f0.u=1", "--set", "f0.time_constant=1e-3")

@@ -6,8 +6,8 @@ import { rowGroups } from "../../../../../master/report/page/src/plot/thin.js";
 
 function statesOf(values, pixels) {
   const seconds = Float64Array.from(values, (_, i) => i);
-  const column = { values, pyramid: new Pyramid(values) };
-  return states(column, seconds, rowGroups(seconds, 0, values.length - 1, pixels));
+  const column = { values, pyramid: new Pyramid(values), seconds };
+  return states(column, rowGroups(seconds, 0, values.length - 1, pixels));
 }
 
 test("a state lasts until the next one", () => {

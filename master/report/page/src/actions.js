@@ -1,0 +1,28 @@
+// What the keys and buttons of pages with a time axis do, and what such a page is on paper.
+import { moveByMessages, moveBySamples } from "./cursor.js";
+
+/** @returns {Record<string, (argument?: any) => void>} */
+export function actionsOf(context, theme, help) {
+  const { view } = context;
+  return {
+    moveBySamples: (count) => moveBySamples(context, count),
+    moveByMessages: (direction) => moveByMessages(context, direction),
+    zoom: (factor) => view.zoom(factor),
+    pan: (share) => view.pan(share),
+    showWhole: () => view.showWhole(),
+    releaseCursor: () => view.releaseCursor(),
+    switchTheme: () => theme.switch(),
+    showHelp: () => help.showModal(),
+  };
+}
+
+/** Printed pages are light and complete. */
+export function printWell(theme, stack) {
+  let chosen = null;
+  window.addEventListener("beforeprint", () => {
+    chosen = theme.chosen;
+    theme.choose("light");
+    stack.drawEverything();
+  });
+  window.addEventListener("afterprint", () => theme.choose(chosen));
+}
