@@ -1,6 +1,7 @@
 // One pane: curves of one unit of measure, drawn by uPlot. Zoom, cursor and legend are the page's own, since all panes
 // share them.
 import uPlot from "uplot";
+import { numberText } from "../data/number_text.js";
 import { color, curveColor, curveDash } from "./colors.js";
 import { kGutter } from "./layout.js";
 import { drawLimits, limitsOf, shadeBeyond, shadeViolations, withLimits } from "./limits.js";
@@ -114,7 +115,9 @@ export class Pane {
     const axis = this.#shownAxis;
     if (axis === null) return "own scales";
     const { unit } = this.columns[0];
-    return axis.exponent === 0 ? unit : `${powerText(axis.exponent)}${unit ? ` ${unit}` : ""}`;
+    const scale = axis.exponent === 0 ? "" : powerText(axis.exponent);
+    if (axis.offset === 0) return [scale, unit].filter(Boolean).join(" ");
+    return `${numberText(axis.offset)} + ${scale || "…"}${unit ? ` ${unit}` : ""}`;
   }
 
   #create(width) {

@@ -22,12 +22,12 @@ export function finiteExtremes(columns) {
   return { least, most, leastPositive };
 }
 
-/** Bottom and top of a linear axis: a little more than the range of the values. */
+/** Bottom and top of a linear axis: a little more than the range of the values, which may be more than a double. */
 export function linearRange({ least, most }) {
   if (!(least <= most)) return [0, 1];
-  const span = most - least;
-  const room = span > 0 ? span * 0.06 : Math.abs(least) * 0.1 || 1;
-  return [least - room, most + room];
+  const half = most / 2 - least / 2;
+  const room = half > 0 ? half * 0.12 : Math.abs(least) * 0.1 || 1;
+  return [Math.max(-Number.MAX_VALUE, least - room), Math.min(Number.MAX_VALUE, most + room)];
 }
 
 /** The first and the last decade of a logarithmic axis, as exponents of ten. */

@@ -1,6 +1,8 @@
 // Round numbers along an axis, and their texts.
 
 const kSteps = [1, 2, 5, 10];
+/** Multiples of smaller steps, as shares of the values, are no different doubles. */
+const kFinest = 2 ** -51;
 
 /** The smallest step of 1, 2 or 5 times a power of ten that divides `span` into no more than `most` parts. */
 export function roundStep(span, most) {
@@ -12,7 +14,8 @@ export function roundStep(span, most) {
 
 /** The multiples of a round step, which is no less than `least`, in [from, until]. */
 export function ticks(from, until, most, least = 0) {
-  const step = Math.max(least, roundStep(until - from, most));
+  const finest = Math.max(Math.abs(from), Math.abs(until)) * kFinest;
+  const step = roundStep(Math.max(least, finest, until / most - from / most), 1);
   const first = Math.ceil(from / step - 1e-9);
   const last = Math.floor(until / step + 1e-9);
   const found = [];

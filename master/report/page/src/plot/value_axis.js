@@ -6,6 +6,8 @@ import { commonExponent, powerText, ticks, valueTickTexts } from "./ticks.js";
 const kMostTicks = 6;
 /** The height of the place that zeros have below the decades of a logarithmic axis, and negative values below that. */
 const kPlace = 0.17;
+/** An axis that spans less than this share of its values has ticks that count from one of them. */
+const kFine = 1e-7;
 
 const inside = (share) => Math.min(1, Math.max(0, share));
 
@@ -15,6 +17,7 @@ const inside = (share) => Math.min(1, Math.max(0, share));
  * @property {(value: number) => boolean} has whether a value has a place on it
  * @property {{share: number, text: string}[]} ticks
  * @property {number} exponent the power of ten that the texts of ticks leave out
+ * @property {number} offset what they leave out before that
  * @property {number} below the height of the places of zeros and negative values
  */
 
@@ -27,22 +30,30 @@ export class LinearAxis {
   constructor(extremes, isWhole) {
     [this.bottom, this.top] = linearRange(extremes);
     this.isWhole = isWhole;
-    const largest = Math.max(Math.abs(extremes.least), Math.abs(extremes.most));
-    this.exponent = commonExponent(Number.isFinite(largest) ? largest : 0);
     this.below = 0;
+    const largest = Math.max(Math.abs(extremes.least), Math.abs(extremes.most));
+    const isFine = this.top - this.bottom < kFine * largest;
+    this.offset = isFine ? (this.#tickValues.find((value) => value >= extremes.least) ?? 0) : 0;
+    const shown = isFine ? this.top - this.bottom : largest;
+    this.exponent = commonExponent(Number.isFinite(shown) ? shown : 0);
   }
 
   shareOf(value) {
-    return inside((value - this.bottom) / (this.top - this.bottom));
+    return inside((value / 2 - this.bottom / 2) / (this.top / 2 - this.bottom / 2));
   }
 
   has(value) {
     return value >= this.bottom && value <= this.top;
   }
 
+  get #tickValues() {
+    return ticks(this.bottom, this.top, kMostTicks, this.isWhole ? 1 : 0).values;
+  }
+
   get ticks() {
-    const { values } = ticks(this.bottom, this.top, kMostTicks, this.isWhole ? 1 : 0);
-    const texts = valueTickTexts(values, this.exponent);
+    const values = this.#tickValues;
+    const differences = values.map((value) => value - this.offset);
+    const texts = valueTickTexts(differences, this.exponent);
     return values.map((value, i) => ({ share: this.shareOf(value), text: texts[i] }));
   }
 }
@@ -53,6 +64,7 @@ export class LogarithmicAxis {
   constructor(extremes) {
     [this.first, this.last] = logarithmicDecades(extremes);
     this.exponent = 0;
+    this.offset = 0;
     this.places = ["0", "< 0"].slice(0, extremes.least < 0 ? 2 : extremes.least <= 0 ? 1 : 0);
     this.below = this.places.length * kPlace;
   }

@@ -26,6 +26,23 @@ test("the ticks of whole numbers are whole, and large numbers leave out a power 
   assert.deepEqual(texts(axis), ["0.0", "0.5", "1.0", "1.5", "2.0"]);
 });
 
+test("the largest numbers have a range", () => {
+  const axis = new LinearAxis({ least: -1e308, most: 1e308 }, false);
+  near(axis.shareOf(0), 0.5);
+  assert.ok(axis.shareOf(1e308) > 0.9 && axis.shareOf(1e308) < 1);
+  assert.deepEqual([axis.exponent, texts(axis).length > 2], [306, true]);
+  const widest = new LinearAxis({ least: -Number.MAX_VALUE, most: Number.MAX_VALUE }, false);
+  assert.deepEqual([widest.shareOf(-Number.MAX_VALUE), widest.shareOf(Number.MAX_VALUE)], [0, 1]);
+});
+
+test("small changes of a large value are counted from one of its ticks", () => {
+  const axis = new LinearAxis({ least: 1, most: 1 + 1e-12 }, false);
+  assert.deepEqual([axis.offset, axis.exponent], [1, -12]);
+  assert.deepEqual(texts(axis), ["0.0", "0.2", "0.4", "0.6", "0.8", "1.0"]);
+  const finest = new LinearAxis({ least: 1, most: 1 + 2 ** -52 }, false);
+  assert.equal(new Set(texts(finest)).size, texts(finest).length);
+});
+
 test("a logarithmic axis of positive values has nothing but decades", () => {
   const axis = new LogarithmicAxis({ least: 1e-3, most: 10, leastPositive: 1e-3 });
   assert.deepEqual(texts(axis), ["10⁻³", "10⁻²", "10⁻¹", "10⁰", "10¹"]);
