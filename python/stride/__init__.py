@@ -4,6 +4,7 @@
     run.signals["sensor.capacitor.voltage"]              # a numpy array
     run.verdicts                                         # of units and checks
     stride.compare(run, "before")                        # where it differs from another one, and why
+    run.to_mcap("run.mcap")                              # for Foxglove, PlotJuggler and Rerun
 
     with stride.Simulation("x.ssd") as sim:              # step by step
         sim.step(until=1.5)
@@ -24,6 +25,7 @@ if TYPE_CHECKING:
     from ._installed import program
     from ._program import Campaign, campaign, run
     from .comparison import Comparison, Difference, Extreme, InputDifference, compare
+    from .export import McapFile, export_mcap
     from .results import Run, Signals
     from .simulation import Message, Simulation, Variable, Verdict
 
@@ -35,6 +37,7 @@ __all__ = [
     "Extreme",
     "InputDifference",
     "InputError",
+    "McapFile",
     "Message",
     "MisuseError",
     "Run",
@@ -45,6 +48,7 @@ __all__ = [
     "Verdict",
     "campaign",
     "compare",
+    "export_mcap",
     "program",
     "run",
 ]
@@ -55,6 +59,7 @@ _MODULES = {
     "_installed": ("program",),
     "_program": ("Campaign", "campaign", "run"),
     "comparison": ("Comparison", "Difference", "Extreme", "InputDifference", "compare"),
+    "export": ("McapFile", "export_mcap"),
     "results": ("Run", "Signals"),
     "simulation": ("Message", "Simulation", "Variable", "Verdict"),
 }

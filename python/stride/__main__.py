@@ -18,6 +18,10 @@ def _become(name: str) -> NoReturn:
 
 
 def main() -> NoReturn:
+    if sys.argv[1:2] == ["export"]:  # the one command that needs packages of Python
+        from .export._command import main as export
+
+        sys.exit(export(sys.argv[2:]))
     _become("stride")
 
 

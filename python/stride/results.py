@@ -215,6 +215,12 @@ class Run:
 
         return pandas.DataFrame(dict(self.signals), index=pandas.Index(self.time, name="time"))
 
+    def to_mcap(self, file: Union[str, "os.PathLike[str]"], **options: Any) -> Any:
+        """Writes all of it as an MCAP file, for Foxglove, PlotJuggler and Rerun; see `stride.export_mcap`."""
+        from .export import export_mcap
+
+        return export_mcap(self, file, **options)
+
     def report(self) -> Path:
         """The page with the report. Raises InputError if there is none."""
         name = self.info["files"].get("report")

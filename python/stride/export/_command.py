@@ -1,0 +1,66 @@
+"""`stride export`, the command of this package."""
+
+from __future__ import annotations
+
+import argparse
+import logging
+import sys
+from typing import Optional
+
+from .._errors import Error, InputError
+
+_GOOD, _FAILED, _WRONG_INPUT = 0, 1, 2
+
+
+class _Parser(argparse.ArgumentParser):
+    def error(self, message: str) -> None:  # type: ignore[override]
+        print(f"stride: error: {message}\n  hint: 'stride export --help' lists the options", file=sys.stderr)
+        raise SystemExit(_WRONG_INPUT)
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = _Parser(
+        prog="stride export",
+        description="Write the results of a run as a file of another tool.",
+        epilog="Exit codes: 0 good, 1 the file cannot be written, 2 the input was wrong.",
+        allow_abbrev=False,
+    )
+    parser.add_argument("results", metavar="RESULTS", help="the folder of a run")
+    parser.add_argument(
+        "--mcap", metavar="FILE", required=True, help="an MCAP file, for Foxglove, PlotJuggler and Rerun"
+    )
+    parser.add_argument(
+        "--epoch",
+        metavar="DATE",
+        help="the date of the simulated 0 s: 'run', when the run was made, or one such as 2026-11-27T04:09:51Z;"
+        " without it, times are simulated time",
+    )
+    return parser
+
+
+def _printed(error: Error) -> str:
+    text = str(error)
+    return f"{text}\n  hint: {error.hint}" if error.hint and "hint: " not in text else text
+
+
+def main(arguments: Optional[list[str]] = None) -> int:
+    """Returns the exit code."""
+    options = _parser().parse_args(arguments)
+    warnings = logging.StreamHandler()
+    warnings.setFormatter(logging.Formatter("stride: warning: %(message)s"))
+    logger = logging.getLogger("stride")
+    logger.addHandler(warnings)
+    try:
+        from . import export_mcap
+
+        made = export_mcap(options.results, options.mcap, epoch=options.epoch)
+    except KeyboardInterrupt:
+        print("stride: error: interrupted", file=sys.stderr)
+        return _FAILED
+    except (Error, ImportError) as error:
+        print(f"stride: error: {_printed(error) if isinstance(error, Error) else error}", file=sys.stderr)
+        return _WRONG_INPUT if isinstance(error, (InputError, ImportError)) else _FAILED
+    finally:
+        logger.removeHandler(warnings)
+    print(f"{made.file}: {made.messages} messages of {len(made.topics)} topics")
+    return _GOOD
