@@ -22,7 +22,7 @@ def film_events(folder: Path, output: Output) -> list[Iterator[Event]]:
     for component, below in unit_folders(folder):
         film = below / "film"
         if not film.is_symlink() and is_regular(film / "frames.csv"):
-            channel = output.known_channel("CompressedImage", "film", component, component=component)
+            channel = output.known_channel("CompressedImage", ("film", component), component=component)
             found.append(_pictures(film, channel, output))
     return found
 

@@ -25,7 +25,7 @@ class Log:
     def __init__(self, output: Output, scenario: str) -> None:
         self._output = output
         self._scenario = scenario
-        self._channel = output.known_channel("Log", "log")
+        self._channel = output.known_channel("Log", ("log",))
 
     def write(self, time: int, level: str, name: str, text: str, line: int = 0) -> None:
         """`line` is one of the scenario."""
@@ -60,7 +60,7 @@ class _Messages:
         key = component, variable
         if key not in self._channels:
             self._channels[key] = self._output.channel(
-                self._schema, "messages", f"{component}.{variable}", component=component, variable=variable
+                self._schema, ("messages", component, variable), component=component, variable=variable
             )
         return self._channels[key]
 

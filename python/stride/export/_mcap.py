@@ -17,6 +17,7 @@ from ..results import Run
 from ._film import film_events
 from ._log import Log, activity_events, failure_events, message_events, write_end
 from ._output import Output, new_file
+from ._scene import world_events
 from ._signals import Event, signal_events
 from ._times import date_of, picoseconds_of, since_1970
 
@@ -108,6 +109,7 @@ def _write(folder: Path, info: dict[str, Any], output: Output) -> None:
     sources: list[Iterator[Event]] = [
         signals,
         *film_events(folder, output),
+        *world_events(folder, output),
         message_events(folder, info, output, log),
         activity_events(folder, info, log),
         failure_events(info, log),

@@ -41,11 +41,11 @@ class Scope:
 
 
 class Topics:
-    """Gives each topic once: "/signals/sensor", from what it is of and its name."""
+    """Gives each topic once: "/signals/sensor", from what it is and of what."""
 
     def __init__(self) -> None:
         self._scope = Scope()
 
-    def take(self, kind: str, name: str = "", end: str = "") -> str:
-        words = [kind, *(re.sub(r"[^A-Za-z0-9_-]+", "_", part) for part in parts(name) if part), end]
-        return self._scope.take("/" + "/".join(word for word in words if word))
+    def take(self, kind: str, *names: str) -> str:
+        words = [re.sub(r"[^A-Za-z0-9_-]+", "_", part) for name in names for part in parts(name) if part]
+        return self._scope.take("/" + "/".join([kind, *words]))

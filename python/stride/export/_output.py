@@ -53,18 +53,19 @@ class Output:
             )
         return found
 
-    def channel(self, schema: Schema, kind: str, name: str = "", end: str = "", **metadata: str) -> Channel:
+    def channel(self, schema: Schema, topic: tuple[str, ...], **metadata: str) -> Channel:
+        """`topic` is what it is and of what: ("signals", "sensor")."""
         if schema.name not in self._schemas:
             number = self._writer.register_schema(name=schema.name, encoding="protobuf", data=schema.data)
             self._schemas[schema.name] = number, schema.make
         number, make = self._schemas[schema.name]
-        topic = self._names.take(kind, name, end)
-        self.topics.append(topic)
-        return Channel(self, self._writer.register_channel(topic, "protobuf", number, metadata), make)
+        name = self._names.take(*topic)
+        self.topics.append(name)
+        return Channel(self, self._writer.register_channel(name, "protobuf", number, metadata), make)
 
-    def known_channel(self, schema: str, kind: str, name: str = "", end: str = "", **metadata: str) -> Channel:
+    def known_channel(self, schema: str, topic: tuple[str, ...], **metadata: str) -> Channel:
         """With one of Foxglove's schemas."""
-        return self.channel(known_schema(schema), kind, name, end, **metadata)
+        return self.channel(known_schema(schema), topic, **metadata)
 
     def add(self, channel: int, sequence: int, time: int, data: bytes) -> None:
         at = self.time(time)

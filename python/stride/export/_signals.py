@@ -44,7 +44,7 @@ def signal_events(folder: Path, info: dict[str, Any], output: Output) -> Iterato
     for component, columns in _by_component(info).items():
         signals = ComponentSignals(scope.take(identifier(component)), columns)
         units = {f"unit:{name}": unit for name, unit in signals.units.items()}
-        channel = output.channel(signals.schema, "signals", component, component=component, **units)
+        channel = output.channel(signals.schema, ("signals", component), component=component, **units)
         writers.append((channel, signals))
     return _rows(folder / name, ["time", *(signal["name"] for signal in info["signals"])], writers)
 
