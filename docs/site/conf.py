@@ -43,7 +43,7 @@ exclude_patterns = ["build*", "results*", "master", "**/.*", "**/__pycache__"]
 CONTENTS = {
     "README": {
         "Start": "All pages <docs/README>, docs/first-steps, docs/wheel, docs/container, docs/accelerometer",
-        "Scenarios and runs": "docs/scenario, docs/cli, docs/report, docs/compare, docs/checks, docs/coverage, docs/stimuli,"
+        "Scenarios and runs": "docs/scenario, docs/cli, docs/report, docs/compare, docs/export, docs/checks, docs/coverage, docs/stimuli,"
         " docs/checkpoints, docs/traces, docs/film, docs/hosts, docs/remote, scenarios/README",
         "Many runs": "docs/campaigns, docs/search, docs/distil",
         "Python and C": "docs/python, docs/site/python-api, docs/python-peers, docs/library, docs/site/c-api",
@@ -62,7 +62,7 @@ CONTENTS = {
 nitpicky = True  # each name in a signature leads somewhere, or is one of those below
 nitpick_ignore_regex = [
     (r"c:identifier", r"u?int\d+_t|size_t"),  # of the C library
-    (r"py:class", r"np\..*|numpy\..*|pytest\..*|pathlib\..*|collections\.abc\..*|os\..*"),  # of other packages
+    (r"py:class", r"np\..*|numpy\..*|datetime\..*|pytest\..*|pathlib\..*|collections\.abc\..*|os\..*"),  # of other packages
     (r"py:obj", r".*"),  # in backticks: code, and a link where it is a name
 ]
 

@@ -120,18 +120,24 @@ void refuse_empty_values(int argc, char** argv) {
   }
 }
 
+/// The command that was meant by one that is not there.
+std::string command_hint(const CLI::App& above, const std::string& word) {
+  if (above.get_parent() == nullptr && word == "export") {
+    return "it comes with the Python package: pip install 'stride-cosim[mcap]'";
+  }
+  return stride::core::suggestion(word, command_names(above));
+}
+
 /// The mistake in the command line; with the whole help only if there is no command at all.
 std::string explanation(const CLI::App* app, const CLI::Error& mistake) {
   using stride::core::message_text;
   using stride::core::name_text;
   const CLI::App* command = innermost(app);
-  const std::vector<std::string> names = command_names(*command);
   const std::vector<std::string> rest = command->remaining();
-  if (!names.empty() && !rest.empty()) {
+  if (!command_names(*command).empty() && !rest.empty()) {
     return fmt::format("stride: error: there is no {} '{}'\n  hint: {}\n",
                        rest.front().starts_with("-") ? "option" : "command",
-                       message_text(name_text(rest.front())),
-                       stride::core::suggestion(rest.front(), names));
+                       message_text(name_text(rest.front())), command_hint(*command, rest.front()));
   }
   const std::string message = message_text(name_text(mistake.what()));
   if (command == app) return fmt::format("stride: error: {}\n\n{}", message, app->help());

@@ -38,6 +38,12 @@ TEST_CASE("an unknown command is answered with the nearest one") {
       StartsWith("stride: error: there is no command 'rnu'") && Contains("did you mean 'run'?"));
 }
 
+TEST_CASE("the command of the Python package is answered with how to have it") {
+  CHECK_THAT(input_error_of(run_program({"export", "results", "--mcap", "run.mcap"})),
+             StartsWith("stride: error: there is no command 'export'\n  hint: ") &&
+                 Contains("pip install 'stride-cosim[mcap]'"));
+}
+
 TEST_CASE("a mistake in a command's arguments names the argument and points to the help") {
   CHECK_THAT(input_error_of(run_program({"run"})),
              Contains("SCENARIO is required") && Contains("stride run --help"));

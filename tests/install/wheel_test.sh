@@ -23,7 +23,7 @@ wheel=$(echo "$work"/*.whl)
 [[ ${wheel##*/} =~ ^stride_cosim-[0-9.]+-py3-none-manylinux_2_[0-9]+_x86_64\.whl$ ]] ||
   fail "${wheel##*/}: the name should say which systems it is for"
 clean /usr/bin/python3 -c 'import sys; sys.exit(0)' || skip "there can be no clean root file system"
-"$wheels/tools/bin/pip" download --quiet --disable-pip-version-check --only-binary :all: --dest "$work" "$wheel" ||
+"$wheels/tools/bin/pip" download --quiet --disable-pip-version-check --only-binary :all: --dest "$work" "$wheel[mcap]" ||
   skip "PyPI cannot be reached"
 
 step "Install"
@@ -92,6 +92,12 @@ for file in signals.csv events.csv; do
   cmp "$work/results/build/$file" "$work/results/nfc_approach/$file" || fail "another $file"
 done
 grep -q '</html>' "$work/results/nfc_approach/report.html" || fail "there is no report"
+
+step "An MCAP file, by the extra with its packages"
+if clean "$stride" export results/nfc_approach --mcap run.mcap > "$work/log" 2>&1; then fail "it needs no packages"; fi
+grep -qF "pip install 'stride-cosim[mcap]'" "$work/log" || { cat "$work/log"; fail "it does not say which"; }
+clean "$work/venv/bin/pip" install --quiet --no-index --find-links "$work" 'stride-cosim[mcap]'
+clean "$stride" export results/nfc_approach --mcap run.mcap || fail "there is no file"
 
 step "Units in processes of their own"
 clean "$stride" run nfc_approach --isolate --stop 0.5 --no-checks --quiet --out results/hosted || [ $? -eq 1 ]

@@ -117,6 +117,63 @@ def test_some_elements_of_an_array_have_fields_of_their_own(types):
     assert (message.matrix.echo_1_3, message.matrix.echo_2_1) == (3, 4)
 
 
+NAMES = [
+    "a", "A", "a.b", "a.B", "a.b.c", "a_b", "aB", "der(x.y)", "der(der(x.y))", "'quoted.name'", "'it\\'s'.z", "1st", "ü", "_", "__x",
+    "x_", ".", "..", "a..b", "class", "None", "Clear", "HasField", "DESCRIPTOR", "SerializeToString", "w[1].speed", "w[2].speed",
+    "v[1]", "v[2]", "m[1,1]", "m[1,2]", "n[2]", "n[1]", "[1]", "f(", "Capacitor", "capacitor.voltage", "capacitor_.voltage",
+    "empty[0]", "a" * 300, "new\nline",
+]  # fmt: skip
+
+
+def test_names_of_any_kind(folder):
+    run = stride.run("test.ssd", set={"first.u": 1}, out="out")
+    run.info["signals"] = [
+        {"name": f"first.{name}", "unit": "", "type": "Float64", "variability": "continuous"} for name in NAMES
+    ]
+    with (run.folder / "signals.csv").open("w", newline="") as lines:
+        csv.writer(lines).writerows([["time", *(f"first.{name}" for name in NAMES)], range(len(NAMES) + 1)])
+    content = export(run)
+    ((_, message),) = content.messages["/signals/first"]
+    (file,) = FileDescriptorSet.FromString(content.schema("/signals/first").data).file
+    found = {}
+    for location in file.source_code_info.location:
+        name, _, described = location.leading_comments[1:].rpartition(": Float64, continuous")
+        entry, value = file.message_type[0], message
+        for kind, index in zip(location.path[2::2], location.path[3::2]):
+            if kind == 3:
+                nested = entry.nested_type[index]
+                (into,) = (each for each in entry.field if each.type_name.endswith(f".{nested.name}"))
+                entry, value = nested, dict((key.name, item) for key, item in value.ListFields())[into.name]
+            else:
+                values = {key.name: item for key, item in value.ListFields()}[entry.field[index].name]
+                found[name] = list(values) if "array" in described else values
+    numbers = {name: float(number) for number, name in enumerate(NAMES, start=1)}
+    for name in ("v", "m"):
+        both = [each for each in NAMES if each.startswith(f"{name}[")]
+        numbers[name] = [numbers.pop(each) for each in both]
+    assert found == numbers
+
+
+@pytest.mark.parametrize(
+    ("components", "topics"),
+    [
+        (["a.b", "a"], ["/signals/a/b", "/signals/a"]),
+        (["a b", "a_b"], ["/signals/a_b", "/signals/a_b_2"]),
+        (["log", "ü"], ["/signals/log", "/signals/_"]),
+    ],
+)
+def test_topics_of_components(folder, components, topics):
+    run = stride.run("test.ssd", set={"first.u": 1}, out="out")
+    run.info["units"] = [{"name": name} for name in components]
+    run.info["signals"] = [
+        {"name": f"{name}.y", "unit": "", "type": "Float64", "variability": "continuous"} for name in components
+    ]
+    (run.folder / "signals.csv").write_text("time,a,b\n0,1,2\n")
+    content = export(run)
+    assert [content.messages[topic][0][1].y for topic in topics] == [1, 2]
+    assert [content.channels[topic].metadata["component"] for topic in topics] == components
+
+
 def test_schemas_describe_themselves(types):
     content = export(stride.run("types.ssd", out="out"))
     pool, comments = DescriptorPool(), []

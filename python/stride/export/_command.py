@@ -57,7 +57,7 @@ def main(arguments: Optional[list[str]] = None) -> int:
     except KeyboardInterrupt:
         print("stride: error: interrupted", file=sys.stderr)
         return _FAILED
-    except (Error, ImportError) as error:
+    except (Error, ImportError, OSError) as error:
         print(f"stride: error: {_printed(error) if isinstance(error, Error) else error}", file=sys.stderr)
         return _WRONG_INPUT if isinstance(error, (InputError, ImportError)) else _FAILED
     finally:

@@ -101,8 +101,8 @@ def _begin(info: dict[str, Any], epoch: Epoch) -> int:
 def _write(folder: Path, info: dict[str, Any], output: Output) -> None:
     start = picoseconds_of(info.get("start", 0))
     output.add_metadata("stride", _summary(info))
-    for key, name in (("", "run.json"), ("coverage", "coverage.json")):
-        if (not key or info["files"].get(key)) and (folder / name).is_file():
+    for name in ("run.json", info["files"].get("coverage")):
+        if name and (folder / name).is_file():
             output.attach(start, name, "application/json", (folder / name).read_bytes())
     log = Log(output, info["scenario"])
     signals = signal_events(folder, info, output)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable
 
 # the parts of a structured name: dots in 'quotes', (parentheses) and [brackets] separate nothing
 _PARTS = re.compile(r"(?:'(?:\\.|[^'\\])*'|\([^()]*\)|\[[^\[\]]*\]|[^.'()\[\]])+")
@@ -28,16 +29,20 @@ class Scope:
     Names that differ in case and underscores only are the same, since they are in protobuf's JSON.
     """
 
-    def __init__(self) -> None:
-        self._taken: set[str] = set()
+    def __init__(self, reserved: Iterable[str] = ()) -> None:
+        self._taken = set(map(_key, reserved))
 
     def take(self, name: str) -> str:
         candidate, count = name, 1
-        while (key := candidate.replace("_", "").lower()) in self._taken:
+        while (key := _key(candidate)) in self._taken:
             count += 1
             candidate = f"{name}_{count}"
         self._taken.add(key)
         return candidate
+
+
+def _key(name: str) -> str:
+    return name.replace("_", "").lower()
 
 
 class Topics:

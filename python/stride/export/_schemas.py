@@ -95,11 +95,16 @@ def _shape(indices: list[tuple[int, ...]]) -> Optional[tuple[int, ...]]:
     return shape if shape and expected == indices else None
 
 
+def _methods() -> list[str]:
+    """Of messages in Python, which a field of that name would hide."""
+    return [name for name in dir(package("google.protobuf.message").Message) if not name.startswith("_")]
+
+
 @dataclass
 class _Group:
     """The fields below a part of their names."""
 
-    scope: Scope = field(default_factory=Scope)
+    scope: Scope = field(default_factory=lambda: Scope(_methods()))
     members: dict[str, Union[_Group, _Field]] = field(default_factory=dict)
     groups: dict[str, str] = field(default_factory=dict)
 
