@@ -118,10 +118,10 @@ def test_some_elements_of_an_array_have_fields_of_their_own(types):
 
 
 NAMES = [
-    "a", "A", "a.b", "a.B", "a.b.c", "a_b", "aB", "der(x.y)", "der(der(x.y))", "'quoted.name'", "'it\\'s'.z", "1st", "ü", "_", "__x",
-    "x_", ".", "..", "a..b", "class", "None", "Clear", "HasField", "DESCRIPTOR", "SerializeToString", "w[1].speed", "w[2].speed",
-    "v[1]", "v[2]", "m[1,1]", "m[1,2]", "n[2]", "n[1]", "[1]", "f(", "Capacitor", "capacitor.voltage", "capacitor_.voltage",
-    "empty[0]", "a" * 300, "new\nline",
+    "a", "A", "a.b", "a.B", "a.b.c", "a_b", "aB", "der(x.y)", "der(der(x.y))", "'quoted.name'", "'it\\'s'.z", "1st",
+    "ü", "_", "__x", "x_", ".", "..", "a..b", "class", "None", "Clear", "HasField", "DESCRIPTOR",
+    "SerializeToString", "w[1].speed", "w[2].speed", "v[1]", "v[2]", "m[1,1]", "m[1,2]", "n[2]", "n[1]", "[1]",
+    "f(", "Capacitor", "capacitor.voltage", "capacitor_.voltage", "empty[0]", "a" * 300, "new\nline",
 ]  # fmt: skip
 
 

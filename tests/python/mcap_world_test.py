@@ -291,3 +291,21 @@ def test_the_same_world_gives_the_same_bytes(run):
     put(run, "robot", arm_world().bytes())
     files = [run.to_mcap(name).file.read_bytes() for name in ("a.mcap", "b.mcap")]
     assert files[0] == files[1]
+
+
+def test_a_world_of_mujoco(tmp_path, monkeypatch):
+    """Its LED shines when the signal says so, to the precision of a keyframe."""
+    monkeypatch.chdir(tmp_path)
+    try:
+        run = stride.run("nfc_approach", scene=0.5, stop=14.5, no_checks=True, signals="sensor.led", out="out")
+    except stride.InputError as error:
+        if "--scene" not in str(error):
+            raise
+        pytest.skip("this stride writes no world.glb")
+    content = export(run)
+    times = [time for time, _ in content.messages["/world/world/lamps/led"]]
+    lit = run.time[run.signals["sensor.led"].argmax()]
+    assert times == [0, pytest.approx(lit * 1e9, abs=1000)]
+    frames = {entry.child_frame_id for entry in content.messages["/world/world/transforms"][0][1].transforms}
+    ((_, scene),) = content.messages["/world/world/scene"]
+    assert {entity.frame_id for entity in scene.entities} <= {"world", *frames}

@@ -1,4 +1,4 @@
-"""The files of a folder of results. Those below units/ are what a unit has written, so nothing about them is certain."""
+"""The files of a folder of results. What is below units/ was written by a unit, so nothing about it is certain."""
 
 from __future__ import annotations
 
@@ -26,8 +26,8 @@ def is_regular(file: Path) -> bool:
 def rows(file: Path, header: list[str]) -> Iterator[tuple[int, list[str]]]:
     """The number of the line, and the fields, of each row below the header.
 
-    A last line that was cut off, as a run that was killed leaves it, is left out with a warning. Raises InputError where
-    the header or the number of fields is another one.
+    A last line that was cut off, as a run that was killed leaves it, is left out with a warning. Raises InputError
+    where the header or the number of fields is another one.
     """
     with file.open(newline="", encoding="utf-8", errors="replace") as lines:
         reader = csv.reader(lines, strict=True)

@@ -31,7 +31,7 @@ class Channel:
 
 
 class Output:
-    """Names of topics, schemas and messages, as they come. `begin` [ns] is the time in the file of the simulated 0 s."""
+    """Topics, schemas and messages, as they come. `begin` [ns] is the time in the file of the simulated 0 s."""
 
     def __init__(self, file: IO[bytes], begin: int) -> None:
         self._writer = package("mcap.writer").Writer(file)
