@@ -62,7 +62,7 @@ CONTENTS = {
 nitpicky = True  # each name in a signature leads somewhere, or is one of those below
 nitpick_ignore_regex = [
     (r"c:identifier", r"u?int\d+_t|size_t"),  # of the C library
-    (r"py:class", r"np\..*|numpy\..*|datetime\..*|pytest\..*|pathlib\..*|collections\.abc\..*|os\..*"),  # of other packages
+    (r"py:class", r"np\..*|numpy\..*|datetime(\..*)?|pytest\..*|pathlib\..*|collections\.abc\..*|os\..*"),  # of other packages
     (r"py:obj", r".*"),  # in backticks: code, and a link where it is a name
 ]
 

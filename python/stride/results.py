@@ -12,13 +12,17 @@ import tempfile
 import weakref
 import webbrowser
 from collections.abc import Iterator, Mapping
+from datetime import datetime
 from pathlib import Path
-from typing import Any, Optional, Union
+from typing import TYPE_CHECKING, Any, Optional, Union
 
 import numpy as np
 
 from ._errors import InputError
 from .simulation import Message, Verdict
+
+if TYPE_CHECKING:
+    from .export import McapFile
 
 __all__ = ["Run", "Signals"]
 
@@ -120,7 +124,9 @@ class Run:
             self.info: dict[str, Any] = json.loads(file.read_text(encoding="utf-8"))
         except ValueError as error:
             raise InputError(
-                f"{file} is not whole: {error}", file=str(file), hint=f"'stride report {self.folder}' shows what there is"
+                f"{file} is not whole: {error}",
+                file=str(file),
+                hint=f"'stride report {self.folder}' shows what there is",
             ) from None
 
     # ---- What happened ----
@@ -215,11 +221,11 @@ class Run:
 
         return pandas.DataFrame(dict(self.signals), index=pandas.Index(self.time, name="time"))
 
-    def to_mcap(self, file: Union[str, "os.PathLike[str]"], **options: Any) -> Any:
+    def to_mcap(self, file: Union[str, "os.PathLike[str]"], *, epoch: Union[None, str, datetime] = None) -> McapFile:
         """Writes all of it as an MCAP file, for Foxglove, PlotJuggler and Rerun; see `stride.export_mcap`."""
         from .export import export_mcap
 
-        return export_mcap(self, file, **options)
+        return export_mcap(self, file, epoch=epoch)
 
     def report(self) -> Path:
         """The page with the report. Raises InputError if there is none."""

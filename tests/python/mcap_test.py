@@ -236,14 +236,20 @@ def test_each_message(messages):
     assert sum(topic.startswith("/messages/") for topic in topics) == len({row["variable"] for row in rows})
 
 
-def test_the_meaning_of_bytes(messages):
+def test_what_payloads_mean(messages):
     (messages.folder / "events.csv").write_text(
         "time,index,component,variable,direction,payload,content\n"
         '0.5,1,ticker,frame,sent,00e8ff,"set_led ""1"""\n'
         "0.5,2,ticker,force,intervention,,begins\n"
+        "0.6,0,ticker,value,sent,21.49,\n"
+        "0.6,0,ticker,value,sent,true,\n"
+        "0.6,0,ticker,value,sent,1 2,\n"
     )
     content = export(messages)
+    numbers = [message.number for _, message in content.messages["/messages/ticker/value"]]
+    assert numbers[:2] == [21.49, 1] and np.isnan(numbers[2])
     ((time, message),) = content.messages["/messages/ticker/frame"]
+    assert np.isnan(message.number)
     assert (time, message.data, message.content) == (500000000, b"\x00\xe8\xff", 'set_led "1"')
     assert content.log(time)[:2] == [
         ("INFO", "ticker", 'frame sent: set_led "1"'),
@@ -428,6 +434,16 @@ def test_mistakes(folder, words, code, message):
     assert "Traceback" not in done.stderr
     assert not list(folder.rglob("*.part")) and not Path("x.mcap").exists()
     assert stride.Run("out").info["outcome"] == "completed"
+
+
+def test_what_it_prints_cannot_control_the_terminal(folder):
+    run = stride.run("test.ssd", out="out", set={"first.u": 1})
+    film = run.folder / "units" / "first" / "film"
+    film.mkdir(parents=True)
+    (film / "frames.csv").write_text('time,file\n0,"\x1b[2J\u202e\nstride: error: no.jpg"\n')
+    done = command("out", "--mcap", "run.mcap")
+    assert done.returncode == 0
+    assert done.stderr.endswith("there is no picture '\\x1b[2J\\u202e\n  stride: error: no.jpg'\n")
 
 
 def test_a_file_stays_where_the_new_one_fails(folder):

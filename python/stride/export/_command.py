@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import logging
+import re
 import sys
 from typing import Optional
 
@@ -14,7 +15,7 @@ _GOOD, _FAILED, _WRONG_INPUT = 0, 1, 2
 
 class _Parser(argparse.ArgumentParser):
     def error(self, message: str) -> None:  # type: ignore[override]
-        print(f"stride: error: {message}\n  hint: 'stride export --help' lists the options", file=sys.stderr)
+        print(f"stride: error: {_readable(message)}\n  hint: 'stride export --help' lists the options", file=sys.stderr)
         raise SystemExit(_WRONG_INPUT)
 
 
@@ -38,16 +39,28 @@ def _parser() -> argparse.ArgumentParser:
     return parser
 
 
-def _printed(error: Error) -> str:
+def _readable(text: str) -> str:
+    """Cannot control the terminal, nor look like another message."""
+    shown = "".join(c if c.isprintable() or c == "\n" else c.encode("unicode_escape").decode() for c in text)
+    return re.sub(r"\n(?!  )", "\n  ", shown)
+
+
+class _Formatter(logging.Formatter):
+    def format(self, record: logging.LogRecord) -> str:
+        return f"stride: warning: {_readable(record.getMessage())}"
+
+
+def _text(error: Exception) -> str:
+    hint = getattr(error, "hint", None)
     text = str(error)
-    return f"{text}\n  hint: {error.hint}" if error.hint and "hint: " not in text else text
+    return f"{text}\n  hint: {hint}" if hint and "hint: " not in text else text
 
 
 def main(arguments: Optional[list[str]] = None) -> int:
     """Returns the exit code."""
     options = _parser().parse_args(arguments)
     warnings = logging.StreamHandler()
-    warnings.setFormatter(logging.Formatter("stride: warning: %(message)s"))
+    warnings.setFormatter(_Formatter())
     logger = logging.getLogger("stride")
     logger.addHandler(warnings)
     try:
@@ -58,9 +71,9 @@ def main(arguments: Optional[list[str]] = None) -> int:
         print("stride: error: interrupted", file=sys.stderr)
         return _FAILED
     except (Error, ImportError, OSError) as error:
-        print(f"stride: error: {_printed(error) if isinstance(error, Error) else error}", file=sys.stderr)
+        print(f"stride: error: {_readable(_text(error))}", file=sys.stderr)
         return _WRONG_INPUT if isinstance(error, (InputError, ImportError)) else _FAILED
     finally:
         logger.removeHandler(warnings)
-    print(f"{made.file}: {made.messages} messages of {len(made.topics)} topics")
+    print(f"{_readable(str(made.file))}: {made.messages} messages of {len(made.topics)} topics")
     return _GOOD

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import heapq
+import math
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -52,6 +53,7 @@ class _Messages:
         entry = self._schema.make(direction=direction, index=int(index), payload=payload, content=content)
         if content:  # only a Binary payload has one
             entry.data = bytes.fromhex(payload)
+        entry.number = math.nan if content else _number(payload)
         self._channel(component, variable).write(time, entry.SerializeToString(deterministic=True))
         meaning = content or payload
         self._log.write(time, "INFO", component, f"{variable} {direction}{': ' if meaning else ''}{meaning}")
@@ -63,6 +65,13 @@ class _Messages:
                 self._schema, ("messages", component, variable), component=component, variable=variable
             )
         return self._channels[key]
+
+
+def _number(payload: str) -> float:
+    try:
+        return float(payload == "true") if payload in ("true", "false") else float(payload)
+    except ValueError:
+        return math.nan
 
 
 def message_events(folder: Path, info: dict[str, Any], output: Output, log: Log) -> Iterator[Event]:

@@ -195,6 +195,7 @@ def message_schema() -> Schema:
         "direction": ("STRING", "sent or received"),
         "index": ("UINT32", "the event iteration at this instant"),
         "payload": ("STRING", "as in events.csv: Binary in hexadecimal digits"),
+        "number": ("DOUBLE", "the payload, where it is one number or Boolean; else NaN"),
         "data": ("BYTES", "the bytes of a Binary payload whose content is known"),
         "content": ("STRING", "the meaning of a Binary payload"),
     }
