@@ -14,6 +14,8 @@ patterns of those that are found in folders, too.
 
 from __future__ import annotations
 
+import contextlib
+import copy
 import csv
 import fnmatch
 import os
@@ -58,12 +60,53 @@ def pytest_configure(config: pytest.Config) -> None:
 # ---- Runs ----
 
 
+#: Of a file: its path, size and time of change.
+_Stamp = tuple[str, int, int]
+
+
+def _stamps(run: Run) -> list[_Stamp]:
+    """Of all that it was made from."""
+    provenance = run.info.get("provenance", {})
+    folder = Path(next((command["folder"] for command in provenance.get("commands", [])), ""))
+    return [_stamp(folder / source["path"]) for source in provenance.get("sources", [])]
+
+
+def _stamp(file: Path) -> _Stamp:
+    try:
+        status = file.stat()
+    except OSError:
+        return str(file), -1, 0
+    return str(file), status.st_size, status.st_mtime_ns
+
+
+@dataclass(frozen=True)
+class _Made:
+    """A run, or what it has failed with, and the files that it was made from."""
+
+    run: Union[Run, RunError]
+    files: list[_Stamp]
+
+    @property
+    def is_valid(self) -> bool:
+        return all(_stamp(Path(path)) == (path, size, time) for path, size, time in self.files)
+
+    def shared(self) -> Run:
+        """Without what other tests may have changed of it."""
+        if isinstance(self.run, RunError):
+            raise self.run
+        with contextlib.suppress(InputError):
+            self.run.signals  # noqa: B018 - one for all, which reads its file once
+        shared = copy.copy(self.run)
+        shared.info = copy.deepcopy(self.run.info)
+        return shared
+
+
 class _Runs:
-    """Runs each scenario once for each set of options, also one that fails."""
+    """Runs each scenario once for each set of options, also one that fails, as long as its files are the same."""
 
     def __init__(self, folder: Path) -> None:
         self._folder = folder
-        self._made: dict[Any, Union[Run, Error]] = {}
+        self._made: dict[Any, _Made] = {}
         self._count = 0
 
     def new_folder(self, name: str) -> Path:
@@ -73,15 +116,16 @@ class _Runs:
     def run(self, scenario: Any, **options: Any) -> Run:
         _refuse_out(options)
         key = (os.getcwd(), os.fspath(scenario), tuple(sorted(words(options))))  # files are named from the folder
-        if key not in self._made:
-            try:
-                self._made[key] = run(scenario, out=self.new_folder(Path(scenario).stem), **options)
-            except Error as error:
-                self._made[key] = error
-        made = self._made[key]
-        if isinstance(made, Error):
-            raise made
-        return made
+        if key not in self._made or not self._made[key].is_valid:
+            self._made[key] = self._make(scenario, options)
+        return self._made[key].shared()
+
+    def _make(self, scenario: Any, options: dict[str, Any]) -> _Made:
+        try:
+            made = run(scenario, out=self.new_folder(Path(scenario).stem), **options)
+        except RunError as error:
+            return _Made(error, [] if error.run is None else _stamps(error.run))
+        return _Made(made, _stamps(made))
 
 
 def _refuse_out(options: dict[str, Any]) -> None:

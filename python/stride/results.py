@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 import functools
 import html
 import json
@@ -19,6 +18,7 @@ from typing import TYPE_CHECKING, Any, Optional, Union
 import numpy as np
 
 from ._errors import InputError
+from ._rows import rows
 from .simulation import Message, Verdict
 
 if TYPE_CHECKING:
@@ -47,27 +47,49 @@ class Signals(Mapping[str, np.ndarray]):
     def _columns(self) -> dict[str, Any]:
         if not self._file.is_file():
             raise InputError(f"the signals of this run are gone: there is no {self._file}")
-        with self._file.open(newline="", encoding="utf-8") as lines:
-            rows = csv.reader(lines)
-            header = next(rows, None)
-            if header is None:
-                raise InputError(f"{self._file} is empty: the run was ended before it was written")
-            columns: list[Any] = list(zip(*rows)) or [()] * len(header)
-        names = ["time"] + list(self._types)
-        if len(names) != len(header):
-            raise InputError(f"{self._file} has {len(header)} columns where run.json knows {len(names)}")
-        return dict(zip(names, columns))
+        if self._file.stat().st_size == 0:
+            raise InputError(f"{self._file} is empty: the run was ended before it was written")
+        columns: list[Any] = list(zip(*(row for _, row in self._rows()))) or [()] * len(self._header)
+        return dict(zip(self._header, columns))
+
+    @property
+    def _header(self) -> list[str]:
+        return ["time", *self._types]
+
+    def _rows(self) -> Iterator[tuple[int, list[str]]]:
+        return rows(self._file, self._header)
 
     @functools.cached_property
     def time(self) -> np.ndarray:
         """[s], not falling."""
-        return _read_only(np.array(self._columns["time"], dtype=float))
+        times = self._column("time", "Float64")
+        back = np.flatnonzero(~(np.diff(times) >= 0))
+        if back.size > 0:
+            raise InputError(f"{self._file}: its times go back behind {times[back[0]]} s", file=str(self._file))
+        return times
+
+    def _column(self, name: str, type_: str) -> np.ndarray:
+        try:
+            return _read_only(_array(self._columns[name], type_))
+        except (ValueError, KeyError, OverflowError):
+            raise self._mistake(name, type_) from None
+
+    def _mistake(self, name: str, type_: str) -> InputError:
+        """The first value that is none."""
+        index = self._header.index(name)
+        for line, row in self._rows():
+            try:
+                _array([row[index]], type_)
+            except (ValueError, KeyError, OverflowError):
+                text = f"{self._file}:{line}: '{row[index]}' is no value of '{name}', which is {type_}"
+                return InputError(text, file=str(self._file), line=line)
+        return InputError(f"{self._file} was changed while it was read", file=str(self._file))
 
     def __getitem__(self, name: str) -> np.ndarray:
         if name not in self._types:
             raise KeyError(f"no signal '{name}' was recorded; there are: {', '.join(self._types) or 'none'}")
         if name not in self._made:
-            self._made[name] = _read_only(_array(self._columns[name], self._types[name]))
+            self._made[name] = self._column(name, self._types[name])
         return self._made[name]
 
     def __iter__(self) -> Iterator[str]:
@@ -100,6 +122,46 @@ def _array(texts: Any, type_: str) -> np.ndarray:
     return np.array([int(text) for text in texts], dtype=dtype)
 
 
+_EVENTS = ["time", "index", "component", "variable", "direction", "payload", "content"]
+
+
+def _message(file: Path, line: int, row: list[str]) -> Message:
+    time, index, component, variable, direction, payload, content = row
+    try:
+        is_received = direction == "received"
+        return Message(float(time), f"{component}.{variable}", is_received, payload or None, content, int(index))
+    except ValueError as error:
+        raise InputError(f"{file}:{line}: a value is wrong: {error}", file=str(file), line=line) from None
+
+
+def _damaged(file: Path, why: str) -> InputError:
+    hint = f"'stride report {file.parent}' shows what there is"
+    return InputError(f"{file} is not whole: {why}", file=str(file), hint=hint)
+
+
+#: What run.json has in any case: the type of each member, and the members of the entries of a list.
+_ACCOUNT: dict[str, tuple[type, tuple[str, ...]]] = {
+    "system": (str, ()),
+    "outcome": (str, ()),
+    "files": (dict, ()),
+    "signals": (list, ("name", "unit", "type")),
+    "verdicts": (list, ("component", "passed", "text")),
+    "checks": (list, ("name", "passed", "text")),
+}
+
+
+def _require_account(file: Path, info: Any) -> None:
+    """Raises InputError where it is not what a run writes."""
+    if not isinstance(info, dict):
+        raise _damaged(file, "it is no object of JSON")
+    for name, (kind, members) in _ACCOUNT.items():
+        if not isinstance(info.get(name), kind):
+            raise _damaged(file, f"there is no '{name}', or it is another one than a run writes")
+        for entry in info[name] if members else ():
+            if not isinstance(entry, dict) or any(member not in entry for member in members):
+                raise _damaged(file, f"an entry of '{name}' lacks one of {', '.join(members)}")
+
+
 class Run:
     """A run that is over, with what it has left in its folder.
 
@@ -123,11 +185,8 @@ class Run:
         try:
             self.info: dict[str, Any] = json.loads(file.read_text(encoding="utf-8"))
         except ValueError as error:
-            raise InputError(
-                f"{file} is not whole: {error}",
-                file=str(file),
-                hint=f"'stride report {self.folder}' shows what there is",
-            ) from None
+            raise _damaged(file, f"{error}") from None
+        _require_account(file, self.info)
 
     # ---- What happened ----
 
@@ -157,18 +216,7 @@ class Run:
             return []
         if not (self.folder / name).is_file():
             raise InputError(f"the messages of this run are gone: there is no {self.folder / name}")
-        with (self.folder / name).open(newline="", encoding="utf-8") as lines:
-            return [
-                Message(
-                    float(row["time"]),
-                    f"{row['component']}.{row['variable']}",
-                    row["direction"] == "received",
-                    row["payload"] or None,
-                    row["content"],
-                    int(row["index"]),
-                )
-                for row in csv.DictReader(lines)
-            ]
+        return [_message(self.folder / name, line, row) for line, row in rows(self.folder / name, _EVENTS)]
 
     @property
     def verdicts(self) -> list[Verdict]:

@@ -60,8 +60,8 @@ def test_one_run_is_shared_by_tests(project):
             assert run.passed
 
         def test_two(stride_run):
-            assert stride_run("test.ssd", set={"first.u": 1}) is seen[0]
-            assert stride_run("test.ssd", set={"first.u": 2}) is not seen[0]
+            assert stride_run("test.ssd", set={"first.u": 1}).folder == seen[0].folder
+            assert stride_run("test.ssd", set={"first.u": 2}).folder != seen[0].folder
         """
     )
     run(project, "-k", "test_").assert_outcomes(passed=2)
@@ -75,17 +75,48 @@ def test_runs_with_other_values_or_files_are_others(project):
         def test_values(stride_run):
             values = np.array([0.123456789012]), np.array([0.123456789912])
             one, other = (stride_run("test.ssd", set={"first.u": value}) for value in values)
-            assert one is not other
-            assert stride_run("test.ssd", set={"first.u": 0.123456789012}) is one
+            assert one.folder != other.folder
+            assert stride_run("test.ssd", set={"first.u": 0.123456789012}).folder == one.folder
 
         def test_folders(stride_run, monkeypatch, tmp_path):
             one = stride_run("test.ssd")
             (tmp_path / "test.ssd").write_bytes(open("test.ssd", "rb").read())
             monkeypatch.chdir(tmp_path)
-            assert stride_run("test.ssd") is not one
+            assert stride_run("test.ssd").folder != one.folder
         """
     )
     run(project).assert_outcomes(passed=2)
+
+
+def test_a_run_of_files_that_have_changed_is_another_one(project):
+    project.makepyfile(
+        """
+        import pathlib, pytest, stride
+
+        SCENARIO = pathlib.Path("test.ssd")
+
+        def first(run):
+            return run.signals["first.y"][-1]
+
+        def test_it(stride_run):
+            before = first(stride_run("test.ssd", set={"first.u": 1}))
+            SCENARIO.write_text(SCENARIO.read_text().replace('stopTime="1"', 'stopTime="2"'))
+            assert first(stride_run("test.ssd", set={"first.u": 1})) != before
+
+        def test_a_file_that_comes_later(stride_run):
+            with pytest.raises(stride.InputError):
+                stride_run("later.ssd")
+            pathlib.Path("later.ssd").write_text(SCENARIO.read_text())
+            assert stride_run("later.ssd").reached == 2
+
+        def test_what_a_test_does_to_the_account(stride_run):
+            stride_run("test.ssd", set={"first.u": 1}).info["reached"] = 9
+
+        def test_is_not_seen_by_others(stride_run):
+            assert stride_run("test.ssd", set={"first.u": 1}).reached == 2
+        """
+    )
+    run(project).assert_outcomes(passed=4)
 
 
 def test_a_run_that_fails_is_made_once(project):

@@ -3,6 +3,7 @@
 import gc
 import json
 import os
+import pathlib
 import pickle
 import shutil
 import signal
@@ -200,12 +201,61 @@ def test_a_run_that_was_killed_has_not_passed(folder):
         run.check()
 
 
-def test_an_account_that_is_not_whole_is_an_error(folder):
+@pytest.mark.parametrize("text", ['{"outcome": ', "[]", '{"outcome": 1}', '"\udcff"'])
+def test_an_account_that_is_not_whole_is_an_error(folder, text):
     (folder / "out").mkdir()
-    (folder / "out" / "run.json").write_text('{"outcome": ')
+    (folder / "out" / "run.json").write_text(text, errors="surrogateescape")
     with pytest.raises(stride.InputError, match="run.json is not whole") as caught:
         stride.Run("out")
     assert "stride report" in caught.value.hint
+
+
+def test_entries_of_an_account_that_lack_something(folder):
+    run = stride.run("test.ssd", out="out")
+    run.info["checks"][0].pop("passed")
+    (folder / "out" / "run.json").write_text(json.dumps(run.info))
+    with pytest.raises(stride.InputError, match="an entry of 'checks' lacks one of name, passed, text"):
+        stride.Run("out")
+
+
+def damaged(folder, edit, name="signals.csv"):
+    """A run whose file was changed as a text."""
+    stride.run("test.ssd", out="out")
+    file = folder / "out" / name
+    file.write_text(edit(file.read_text()))
+    return stride.Run("out")
+
+
+@pytest.mark.parametrize("cut", [1, 2, 4])
+def test_a_last_row_that_was_cut_off_is_left_out(folder, caplog, cut):
+    whole = stride.run("test.ssd")
+    run = damaged(folder, lambda text: text[:-cut])
+    assert list(run.time) == list(whole.time)[:-1]
+    assert list(run.signals["second.y"]) == list(whole.signals["second.y"])[:-1]
+    assert "its last line is cut off" in caplog.text
+
+
+@pytest.mark.parametrize(
+    ("edit", "message"),
+    [
+        (lambda text: text + "\n", r"signals.csv:\d+: there are 0 fields"),
+        (lambda text: text[text.index("\n") + 1 :], "signals.csv:1: its columns are"),
+        (lambda text: text.replace("\n", ",1\n", 3), "signals.csv:1: its columns are"),
+        (lambda text: text.replace("\n0.5,", "\n0.5x,"), r"signals.csv:\d+: '0.5x' is no value of 'time'"),
+        (lambda text: text.replace("\n0.5,", "\n0.1,"), "its times go back behind"),
+    ],
+)
+def test_rows_that_no_run_writes_are_errors(folder, edit, message):
+    with pytest.raises(stride.InputError, match=message):
+        damaged(folder, edit).time  # noqa: B018
+
+
+def test_messages_that_no_run_writes_are_errors(types, tmp_path):
+    stride.run("types.ssd", out="out")
+    file = pathlib.Path("out", "events.csv")
+    file.write_text(file.read_text() + "soon,0,a,b,sent,,\n")
+    with pytest.raises(stride.InputError, match=r"events.csv:\d+: a value is wrong"):
+        stride.Run("out").events  # noqa: B018
 
 
 _NO_SPACE = """

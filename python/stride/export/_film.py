@@ -6,7 +6,8 @@ import logging
 from collections.abc import Iterator
 from pathlib import Path
 
-from ._files import is_regular, rows, unit_folders
+from .._rows import rows
+from ._files import is_regular, unit_folders
 from ._output import Channel, Output
 from ._signals import Event
 from ._times import picoseconds, timestamp

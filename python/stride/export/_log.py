@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from .._errors import InputError
-from ._files import rows
+from .._rows import rows
 from ._output import Channel, Output
 from ._schemas import Schema, message_schema
 from ._signals import Event

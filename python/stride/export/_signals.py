@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any, Callable
 
 from .._errors import InputError
-from ._files import rows
+from .._rows import rows
 from ._names import Scope, identifier
 from ._output import Channel, Output
 from ._schemas import Column, ComponentSignals
