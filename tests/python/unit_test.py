@@ -399,7 +399,8 @@ def test_names_of_files_clash(units, name):
 
 
 def test_a_file_can_run_and_pack_itself(units):
-    units.write(THERMOSTAT + "\n    if __name__ == '__main__':\n        su.main(Thermostat)\n")
+    assert units.pack(THERMOSTAT + "\n    su.main(Thermostat)\n") == ""
+    assert stride.run("u.fmu", stop=0.5).reached == 0.5
     assert subprocess.run([sys.executable, "u.py", "-o", "u.fmu"], check=True, capture_output=True).stderr == b""
     commands = (
         '<open protocol="1" instance="i" resources=""/>\n<input value=\'4\' name="temperature"/>\n<start time="0"/>\n'
@@ -458,6 +459,11 @@ STEP = "def step(self, now, end): pass"
         ("a = su.Output(bool, discrete=True)\n        y = su.Output(bool, name='no name')", "'no name'"),
         ("y = su.Output(float, name='process.program')", "'process.program'"),
         ("1/0", "ZeroDivisionError: division by zero (u.py:4, in U)"),
+        ("y = su.Output(1.0, min=2)", "U.y: start: 1.0 is beyond min=2; give another start, or another min"),
+        ("y = su.Input(float, shape=2, start=[0, 9.5], max=9)", "U.y: start: [0, 9.5] is beyond max=9"),
+        ("y = su.Output('float32')", "there is no type 'float32'; expected Float32, or for the text 'float32' (str, start="),
+        ("y = su.Output('double')", "there is no type 'double'; expected Float64, or"),
+        ("y = su.Output('Float16')", "there is no type 'Float16'; expected Float64, Float32, Int8,"),
     ],
 )
 def test_mistakes_in_a_class(units, body, expected):
@@ -471,7 +477,14 @@ def test_mistakes_in_a_class(units, body, expected):
     assert expected in said
 
 
-@pytest.mark.parametrize("source, expected", [("", "there are: none"), ("def", "SyntaxError")])
+@pytest.mark.parametrize(
+    "source, expected",
+    [
+        ("", "there are: none"),
+        ("def", "SyntaxError"),
+        ("import sys\nsys.exit(0)", "it ends Python (0) where it is only to define a class"),
+    ],
+)
 def test_mistakes_in_a_file(units, source, expected):
     assert expected in units.pack(source)
 
@@ -486,7 +499,12 @@ def test_no_file(units):
     command = [sys.executable, "-m", "stride.unit", "none.py", "-o", "u.fmu"]
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     assert done.returncode == 2
-    assert "No such file or directory: '" in done.stderr
+    assert done.stderr.startswith("stride.unit: error: [Errno 2] No such file or directory: '")
+
+
+def test_a_text_may_look_like_a_type():
+    assert su.Output(str, start="float32").start == "float32"
+    assert su.Output("hello").start == "hello"
 
 
 def test_words_behind_the_base_are_checked_with_the_class(units):
@@ -532,6 +550,10 @@ def failure(units, source, **settings):
             "output 'a': expected an array of uint8 with the shape (2,), has elements beyond that: [1, 256]",
         ),
         ("self.u = 1/0", "ZeroDivisionError: division by zero (u.py:16, in step)"),
+        ("self.u = 3.0", "input 'u': the unit has changed it, which stride alone does"),
+        ("self.v = self.v + 1", "input 'v': the unit has changed it"),
+        ("self.p = 2.0", "parameter 'p': the unit has changed it"),
+        ("del self.y", "output 'y': it was deleted"),
         ("self.v[0] = 1", "ValueError: assignment destination is read-only (u.py:16, in step)"),
         ("raise SystemExit", "SystemExit (u.py:16, in step)"),
         ("return 0.3", "step() returned 0.3 s, but this step has to end at 0.375 s: end early only where"),
@@ -548,7 +570,7 @@ def test_mistakes_in_a_step(units, assignment, expected):
         f"""
     class U(su.Unit):
         u = su.Input(float)
-        v = su.Input(float, shape=2)
+        v = su.Input(float, shape=2); p = su.Parameter(1.0)
         y = su.Output(float)
         i = su.Output(int)
         b = su.Output(bool)

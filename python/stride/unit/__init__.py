@@ -32,12 +32,14 @@ __all__ = ["Input", "MessageInput", "MessageOutput", "Output", "Parameter", "Tim
 def main(cls: type[Unit]) -> None:
     """At the end of a unit's file: runs the class for stride, or packs it, `python thermostat.py -o thermostat.fmu`.
 
-    A file that is packed with `python -m stride.unit` need not call it.
+    A file that is packed with `python -m stride.unit` need not call it; there it does nothing.
     """
+    from ._process import checked, is_loading, serve
+
+    if is_loading():
+        return
     if len(sys.argv) > 1 or sys.stdin.isatty():
         from ._packing import command
 
         sys.exit(command([os.path.abspath(sys.argv[0]), "--class", cls.__name__, *sys.argv[1:]]))
-    from ._process import checked, serve
-
     sys.exit(serve(lambda: checked(cls)))

@@ -10,6 +10,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import traceback
 import zipfile
 from collections.abc import Sequence
 from pathlib import Path
@@ -173,6 +174,11 @@ def pack(
     sys.stderr.write(done.stderr)
 
 
+def _is_raised_in(file: PathLike, error: Exception) -> bool:
+    path = str(Path(file).resolve())
+    return any(frame.filename == path for frame in traceback.extract_tb(error.__traceback__))
+
+
 def command(arguments: list[str]) -> int:
     """`python -m stride.unit`. Returns the exit code."""
     parser = argparse.ArgumentParser(
@@ -190,6 +196,7 @@ def command(arguments: list[str]) -> int:
     try:
         pack(given.file, given.output, name=given.name, python=given.python, files=given.files, outside=given.outside)
     except Exception as error:
-        print(f"stride.unit: error: {error_text(error)}", file=sys.stderr)
+        is_of_a_file = isinstance(error, OSError) and not _is_raised_in(given.file, error)
+        print(f"stride.unit: error: {error if is_of_a_file else error_text(error)}", file=sys.stderr)
         return 2
     return 0

@@ -63,6 +63,14 @@ def serve(find_class: Callable[[], type[Unit]]) -> int:
         return 1
 
 
+_loading: list[str] = []
+
+
+def is_loading() -> bool:
+    """Whether a file is executed for its class: what it does with that itself, at its end, is not wanted."""
+    return len(_loading) > 0
+
+
 def load_class(file: str, name: str = "") -> type[Unit]:
     """The class of this name in a file of Python, or else the only one that is no base of another."""
     module = type(sys)(os.path.splitext(os.path.basename(file))[0])
@@ -73,7 +81,13 @@ def load_class(file: str, name: str = "") -> type[Unit]:
         sys.path.insert(0, folder)
     with open(file, "rb") as source:
         code = compile(source.read(), file, "exec")
-    exec(code, module.__dict__)
+    _loading.append(file)
+    try:
+        exec(code, module.__dict__)
+    except SystemExit as end:
+        raise UnitError(f"{file}: it ends Python ({end}) where it is only to define a class") from None
+    finally:
+        _loading.pop()
     found = [
         value
         for value in vars(module).values()

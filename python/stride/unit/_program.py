@@ -54,14 +54,15 @@ class Program:
         self._answer = unit._answer
         self._time_unit = 1  # [ps]
         variables = cls._variables.values()
-        # tag -> name -> attribute, and what reads its value
-        self._settable = {
-            kind.tag: {v.name: (v.attribute, v.read) for v in variables if type(v) is kind} for kind in (Parameter, Input)
-        }
+        # tag -> name -> the variable
+        self._settable = {kind.tag: {v.name: v for v in variables if type(v) is kind} for kind in (Parameter, Input)}
         self._receivers = {v.name: v for v in variables if isinstance(v, MessageInput)}
         self._outputs = [
             (v.attribute, v.name, f'<output name="{v.name}" value="', v.text) for v in variables if isinstance(v, Output)
         ]
+        self._given = {
+            v.attribute: (v, unit.__dict__[v.attribute]) for v in variables if type(v) in (Parameter, Input)
+        }
         self._told = [""] * len(self._outputs)
         self._has_told = False
         self._announced: Optional[int] = None  # what next_event() has returned [ps]
@@ -102,10 +103,12 @@ class Program:
 
     def _set(self, tag: str, name: str, text: str) -> None:
         try:
-            attribute, read = self._settable[tag][name]
+            variable = self._settable[tag][name]
         except KeyError:
             raise self._other_class(tag, name) from None
-        self._unit.__dict__[attribute] = read(text)
+        value = variable.read(text)
+        self._unit.__dict__[variable.attribute] = value
+        self._given[variable.attribute] = variable, value
 
     def _other_class(self, tag: str, name: str) -> UnitError:
         return UnitError(f"the class {type(self._unit).__name__} has no {tag} '{name}', which its FMU has: pack it again")
@@ -161,9 +164,17 @@ class Program:
         if unit._sent:
             self._send()
         values = unit.__dict__
+        for attribute, (variable, given) in self._given.items():
+            if values.get(attribute) is not given:
+                raise UnitError(
+                    f"{variable.tag} '{variable.name}': the unit has changed it, which stride alone does; keep what it is"
+                    " to remember in an attribute that is no variable"
+                )
         for i, (attribute, name, prefix, write) in enumerate(self._outputs):
             try:
                 text = write(values[attribute])
+            except KeyError:
+                raise UnitError(f"output '{name}': it was deleted") from None
             except MISTAKES as mistake:
                 raise UnitError(f"output '{name}': {mistake}") from None
             if text != told[i] or not self._has_told:

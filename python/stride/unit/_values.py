@@ -110,10 +110,26 @@ _OF_NUMPY = {name.lower(): name for name in ("Float32", "Float64", *_INTS)}
 _OF_NUMPY.update({"bool": "Boolean", "bool_": "Boolean"})
 
 
+_ALMOST = {"double": "Float64", "float": "Float64", "int": "Int64", "bool": "Boolean", "str": "String", "bytes": "Binary"}
+
+
 def type_name(given: Any) -> Optional[str]:
-    """The name in FMI of float, "Float32", numpy.float32 and the like; None if it is no type."""
+    """The name in FMI of float, "Float32", numpy.float32 and the like; None if it is no type.
+
+    Raises ValueError for what is the name of a type elsewhere, and would be a text here.
+    """
     if isinstance(given, str):
-        return given if given in SCALARS else None
+        if given in SCALARS:
+            return given
+        known = {name.lower(): name for name in SCALARS}
+        similar = known.get(given.lower()) or _ALMOST.get(given.lower())
+        digits = given.lower().removeprefix("u").removeprefix("int").removeprefix("float")
+        if similar or (digits.isdigit() and digits != given):
+            raise ValueError(
+                f"there is no type '{given}'; expected {', '.join([similar] if similar else SCALARS)}, or for the text"
+                f" {given!r} (str, start={given!r})"
+            )
+        return None
     if isinstance(given, type):
         return _OF_PYTHON.get(given) or _OF_NUMPY.get(given.__name__)
     return _OF_NUMPY.get(str(given)) if hasattr(given, "itemsize") and hasattr(given, "kind") else None

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import operator
+
 from ._errors import UnitError
 from ._values import MISTAKES, SCALARS, Array, type_name, type_of
 
@@ -23,7 +25,7 @@ class Variable:
         shape: Of a numpy array: a number, or one for each dimension.
         name: In the FMU, where it is another one than that of the attribute, such as "receive.frame".
         unit: Of measure, as Modelica writes it: "m", "rad/s", "degC".
-        min, max: Bounds.
+        min, max: Bounds of its values, for those who read them in the FMU; only the start value is compared with them.
     """
 
     tag = ""
@@ -46,7 +48,10 @@ class Variable:
         self.unit = unit
         self.min = min
         self.max = max
-        found = type_name(type)
+        try:
+            found = type_name(type)
+        except ValueError as mistake:
+            raise UnitError(str(mistake)) from None
         if shape is not None:
             shape = (shape,) if isinstance(shape, int) else tuple(shape)
         if found is None and start is None:
@@ -80,12 +85,20 @@ class Variable:
         if self.shape is not None:
             found["dimensions"] = " ".join(map(str, self.shape))
         text = self.text(self.start)
+        self._require_bounds()
         found["start"] = self.start if self.type_name == "String" else text
         for key in ("unit", "description", "min", "max"):
             value = getattr(self, key)
             if value not in (None, ""):
                 found[key] = str(value)
         return found
+
+    def _require_bounds(self) -> None:
+        elements = [self.start] if self.shape is None else self.new(self.start).ravel().tolist()
+        for bound, is_beyond in (("min", operator.lt), ("max", operator.gt)):
+            limit = getattr(self, bound)
+            if limit is not None and any(is_beyond(element, limit) for element in elements):
+                raise ValueError(f"{self.start!r:.80} is beyond {bound}={limit!r}; give another start, or another {bound}")
 
     def names(self) -> list[str]:
         """All that it has in the FMU."""
