@@ -125,15 +125,18 @@ std::vector<std::string> write_files(const NewRequest& request, const fs::path& 
   return written;
 }
 
-/// What CMake has to be told to find this stride; empty where it looks by itself.
-std::string prefix_option() {
+/// What CMake has to be told to find this stride; empty where it looks by itself. A Python package
+/// has no SystemC to build with.
+std::string prefix_option(bool needs_systemc) {
   const fs::path prefix = core::program_root();
   if (prefix == "/usr" || prefix == "/usr/local") return "";
   std::error_code unknown;
-  const bool is_installed = fs::exists(prefix / STRIDE_PACKAGE_FOLDER, unknown);
-  const std::string where = is_installed ? prefix.string() : "FOLDER";
-  return " " + core::shell_word("-DCMAKE_PREFIX_PATH=" + where) +
-         (is_installed ? "" : "   # FOLDER: where stride is installed");
+  const char* const file = needs_systemc ? "stride-systemc.cmake" : "strideConfig.cmake";
+  if (fs::exists(prefix / STRIDE_PACKAGE_FOLDER / file, unknown)) {
+    return " " + core::shell_word("-DCMAKE_PREFIX_PATH=" + prefix.string());
+  }
+  return fmt::format(" -DCMAKE_PREFIX_PATH=FOLDER   # FOLDER: where stride is installed{}",
+                     needs_systemc ? ", with its component systemc" : "");
 }
 
 void make_new(const NewRequest& request) {
@@ -146,7 +149,7 @@ void make_new(const NewRequest& request) {
     print_text(
         "  cmake -B build{}\n  cmake --build build\n"
         "  ctest --test-dir build --output-on-failure\n",
-        prefix_option());
+        prefix_option(request.is_systemc));
   }
   print_text("  stride run {}.ssd\n", request.name);
 }

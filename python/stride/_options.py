@@ -11,6 +11,16 @@ from ._errors import InputError
 Setting = tuple[str, Optional[str]]
 
 
+def word_of(value: Any, what: str) -> str:
+    """Of a text or a path. Raises InputError for what cannot be a word of a command line."""
+    text = os.fspath(value) if isinstance(value, (str, os.PathLike)) else value
+    if not isinstance(text, str):
+        raise InputError(f"{what} is a text or a path, not {value!r:.80}")
+    if "\0" in text:
+        raise InputError(f"{what}: a text has no NUL: {text!r:.80}")
+    return text
+
+
 def _text(value: Any) -> str:
     if isinstance(value, bool):
         return "true" if value else "false"
@@ -19,7 +29,7 @@ def _text(value: Any) -> str:
     if isinstance(value, (bytes, bytearray, memoryview)):
         return bytes(value).hex()
     if isinstance(value, (str, os.PathLike)):
-        return os.fspath(value)
+        return word_of(value, "a value")
     if isinstance(value, Iterable) and getattr(value, "ndim", 1) > 0:
         texts = [_text(element) for element in value]
         if "" in texts or any(isinstance(element, str) and " " in element for element in value):
@@ -43,6 +53,8 @@ def settings(options: Mapping[str, Any]) -> list[Setting]:
     found: list[Setting] = []
     for keyword, value in options.items():
         name = keyword.rstrip("_").replace("_", "-")
+        if name in ("help", "h", "version"):
+            raise InputError(f"'{keyword}' is for a command line, where it is all that is done")
         if value is None or value is False:
             continue
         if value is True:

@@ -8,6 +8,7 @@ import os
 import shutil
 import signal
 import subprocess
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any, Optional, TypeVar, Union
 
@@ -15,7 +16,7 @@ import numpy as np
 
 from ._errors import Error, InputError, RunError, parse_error
 from ._installed import program
-from ._options import words
+from ._options import word_of, words
 from .results import Run, TemporaryFolder
 
 __all__ = ["Campaign", "campaign", "run"]
@@ -115,7 +116,7 @@ def run(scenario: PathLike, *, out: Optional[PathLike] = None, **options: Any) -
         RunError: The run has failed on the way; its attribute `run` is what has happened up to there (None, where that could
             not be written: the disk is full, the program was killed).
     """
-    name = os.fspath(scenario)
+    name = word_of(scenario, "the scenario")
     return run_words([f"./{name}" if name.startswith("-") else name], out=out, **options)
 
 
@@ -168,6 +169,13 @@ class Campaign:
     def __len__(self) -> int:
         return len(self.rows)
 
+    def __iter__(self) -> Iterator[dict[str, str]]:
+        """The cases."""
+        return iter(self.rows)
+
+    def __contains__(self, column: object) -> bool:
+        return column in self.columns
+
     def __getitem__(self, column: str) -> np.ndarray:
         """A column: numbers, where all that is there are numbers (NaN: there is none), and texts otherwise."""
         if column not in self.columns:
@@ -217,9 +225,13 @@ def campaign(file: PathLike, *, out: Optional[PathLike] = None, **options: Any) 
         InputError: The campaign, its scenario or an option is wrong.
         RunError: The campaign could not be run. Cases that fail are none of an exception.
     """
+    file = word_of(file, "the campaign")
+    for name in ("case", "cases"):
+        if options.get(name) is not None:
+            raise InputError(f"'{name}' runs cases without making the table; stride.run runs a scenario like a case")
     folder = Path("campaigns", Path(file).stem) if out is None else Path(out)
     code, output, messages = _call(
-        ["campaign", "run", os.fspath(file), f"--out={folder}", "--progress=none", *words(options)]
+        ["campaign", "run", file, f"--out={folder}", "--progress=none", *words(options)]
     )
     if code == 2:
         raise _failure(messages, InputError)

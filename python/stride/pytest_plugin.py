@@ -208,7 +208,7 @@ class ScenarioFile(pytest.File):
         yield RunItem.from_parent(self, name="run")
         checks = _checks(self.path)
         lines = Counter(line for line, _ in checks)
-        seen: Counter[str] = Counter()
+        seen = Counter(["run"])
         for line, name in checks:
             test = name.translate(_NAMES).replace("::", ": ")
             seen[test] += 1
@@ -324,7 +324,7 @@ def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
     if "stride_case" not in metafunc.fixturenames:
         return
     marker = metafunc.definition.get_closest_marker("stride_campaign")
-    if marker is None or len(marker.args) != 1:
+    if marker is None or len(marker.args) != 1 or not isinstance(marker.args[0], (str, os.PathLike)):
         raise pytest.UsageError(
             f"{metafunc.function.__name__} has the fixture stride_case: name its campaign,"
             ' @pytest.mark.stride_campaign("FILE.xosc")'

@@ -555,6 +555,8 @@ def _end_steps() -> None:
 
 def _text_bytes(text: str, what: str, **where: Any) -> bytes:
     """Raises InputError for what no text in C can be."""
+    if not isinstance(text, str):
+        raise InputError(f"{what} is a text, not {text!r:.80}", **where)
     try:
         encoded = text.encode()
     except UnicodeEncodeError:

@@ -123,6 +123,8 @@ done
 
 step "A new unit is built with the kit in the wheel, by the commands that stride shows"
 cd "$work"
+"$stride" new chip --systemc | grep -qF 'FOLDER: where stride is installed, with its component systemc' ||
+  fail "it does not say that a unit in SystemC needs another stride"
 "$stride" new tank --unit > "$work/table"
 sed -n 's/^  \(cmake\|ctest\|cd\|stride\)/\1/p' "$work/table" > "$work/commands"
 export CMAKE_GENERATOR=$generator PATH="$work/venv/bin:$(dirname "$cmake"):$PATH"

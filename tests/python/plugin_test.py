@@ -160,6 +160,14 @@ def test_checks_in_one_line_and_with_any_name_are_tests_of_their_own(project):
     again.stdout.fnmatch_lines(["*test.ssd::a: b (c) FAILED*"])
 
 
+def test_a_check_may_be_called_as_the_run(project):
+    check = '<stride:Checks><stride:Always name="run" signal="second.y" max="2"/></stride:Checks>'
+    project.makefile(".ssd", named=scenario("first=minimal second=minimal", "first.y>second.u", check))
+    result = run(project, "named.ssd", "-v")
+    result.assert_outcomes(passed=2)
+    result.stdout.fnmatch_lines(["*::run PASSED*", "*::run (2) PASSED*"])
+
+
 def test_a_failing_test_names_the_report(project):
     project.makepyfile(
         """

@@ -106,6 +106,24 @@ def test_signals_of_each_type(types):
         run.signals["x"]
 
 
+@pytest.mark.parametrize(
+    ("call", "message"),
+    [
+        (lambda: stride.run("test.ssd", help=True), "'help' is for a command line"),
+        (lambda: stride.compare("a", "b", version=True), "'version' is for a command line"),
+        (lambda: stride.campaign("c.xosc", case=1), "'case' runs cases without making the table"),
+        (lambda: stride.run("a\0b"), "the scenario: a text has no NUL"),
+        (lambda: stride.run("test.ssd", set={"first.u": "a\0"}), "a value: a text has no NUL"),
+        (lambda: stride.run(b"test.ssd"), "the scenario is a text or a path, not b'test.ssd'"),
+        (lambda: stride.run(3), "the scenario is a text or a path, not 3"),
+        (lambda: stride.Simulation("test.ssd").intervene("force", None), "an intervention is a text, not None"),
+    ],
+)
+def test_arguments_that_make_no_sense(folder, call, message):
+    with pytest.raises(stride.InputError, match=message):
+        call()
+
+
 def test_runs_are_compared(folder):
     a = stride.run("test.ssd", set={"first.u": 1})
     assert stride.compare(a, a)
