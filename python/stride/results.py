@@ -181,7 +181,11 @@ class Run:
         self._keeper = keeper
         file = self.folder / "run.json"
         if not file.is_file():
-            raise InputError(f"{self.folder} is no folder of results: there is no run.json", file=str(file))
+            raise InputError(
+                f"{self.folder} is no folder of results: there is no run.json",
+                file=str(file),
+                hint=f"'stride report {self.folder}' shows what else there is",
+            )
         try:
             self.info: dict[str, Any] = json.loads(file.read_text(encoding="utf-8"))
         except ValueError as error:
