@@ -14,6 +14,7 @@
 #include "units/mujoco_world/hooks.h"
 #include "units/mujoco_world/model.h"
 #include "units/mujoco_world/names.h"
+#include "units/mujoco_world/recording.h"
 
 namespace {
 
@@ -82,12 +83,9 @@ class MujocoWorld : public stride::Unit {
     if (std::exchange(says_whose_controls_, false)) warn_of_controls();
     for (std::size_t i = 0; i < inputs_.size(); ++i) world_.set_input(i, inputs_[i]);
     const bool rests = world_.rests_until() >= step.to();
-    if (film_) {
-      set_lamps();
-      film_->advance(world_, step.to(), step.early_return_allowed());
-    } else {
-      world_.advance(step.to(), step.early_return_allowed());
-    }
+    if (film_) set_lamps();
+    mujoco_world::advance(world_, {film_ ? &*film_ : nullptr}, step.to(),
+                          step.early_return_allowed());
     if (world_.now() < step.to()) step.return_early(world_.now());
     if (!rests) show();
   }

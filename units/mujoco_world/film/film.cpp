@@ -14,12 +14,6 @@ FilmSettings checked(const FilmSettings& settings) {
   throw std::invalid_argument("the interval of a film is not above 0");
 }
 
-Time first_at_or_after(Time time, Duration interval) {
-  const Duration rest = time.time_since_epoch() % interval;
-  if (rest == Duration{}) return time;
-  return stride::later(time - rest, rest > Duration{} ? interval : Duration{});
-}
-
 }  // namespace
 
 Film::Film(const World& world, const FilmSettings& settings, const std::filesystem::path& folder)
@@ -40,17 +34,6 @@ void Film::show_lamps() {
   if (shown_ != world_.shining()) frames_.replace_last(draw());
 }
 
-bool Film::advance(World& world, Time to, bool stops_at_contacts) {
-  begin();
-  show_lamps();
-  while (next_ <= to) {
-    const bool stopped = world.advance(next_, stops_at_contacts);
-    if (world.now() == next_) take();
-    if (stopped) return true;
-  }
-  return world.advance(to, stops_at_contacts);
-}
-
 std::optional<std::size_t> Film::pictures() const {
   return has_begun_ ? std::optional(frames_.size()) : std::nullopt;
 }
@@ -66,7 +49,7 @@ bool Film::go_on(std::optional<std::size_t> pictures) {
 }
 
 void Film::continue_from_present() {
-  next_ = first_at_or_after(world_.now(), settings_.interval);
+  next_ = first_multiple_at_or_after(world_.now(), settings_.interval);
   if (next_ > world_.now()) return;
   if (frames_.ends_at(next_)) {
     next_ = stride::later(next_, settings_.interval);

@@ -13,6 +13,7 @@
 #include "units/mujoco_world/film/frames.h"
 #include "units/mujoco_world/film/renderer.h"
 #include "units/mujoco_world/model.h"
+#include "units/mujoco_world/recording.h"
 
 namespace mujoco_world::film {
 
@@ -25,27 +26,21 @@ struct FilmSettings {
   }
 };
 
-/// Its frames are of the instants k * interval, k whole, from its beginning on, so they do not
-/// depend on the steps that the world is moved by.
-class Film {
+/// Pictures of the multiples of the interval, as files.
+class Film : public Recording {
  public:
-  /// It begins with begin() or the first advance(). `world` must outlive it. Throws
+  /// `world` must outlive it. Throws
   /// std::invalid_argument for an interval that is not positive, and as Renderer and Frames do.
   Film(const World& world, const FilmSettings& settings, const std::filesystem::path& folder);
 
   const FilmSettings& settings() const { return settings_; }
 
-  /// Replaces the film that may be in the folder, and takes the picture of the world's present, if
-  /// it is one of the instants. Does nothing where it has begun.
-  void begin();
-
-  /// The lamps are from the world's present on as they are now: the picture of the present, if it
-  /// is there and shows them otherwise, is taken again.
-  void show_lamps();
-
-  /// Moves the world as World::advance() does, with its lamps as they are now, and takes the
-  /// pictures on the way. Throws as that and Renderer and Frames do.
-  bool advance(World& world, stride::Time to, bool stops_at_contacts = false);
+  /// The picture of the present is taken if that is one of the instants.
+  void begin() override;
+  /// The picture of the present, if it is there and shows the lamps otherwise, is taken again.
+  void show_lamps() override;
+  stride::Time next() const override { return next_; }
+  void take() override;
 
   /// How many pictures there are; nothing where it has not begun.
   std::optional<std::size_t> pictures() const;
@@ -57,7 +52,6 @@ class Film {
 
  private:
   std::vector<std::uint8_t> draw();
-  void take();
   void continue_from_present();
 
   const World& world_;

@@ -4,7 +4,6 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -61,11 +60,6 @@ class Frames {
   bool has_begun_ = false;
   std::vector<Row> rows_;
 };
-
-/// Exactly, such as "-0.000001", "12" and "0.1".
-std::string seconds_text(stride::Time time);
-/// The time of such a text; nothing for any other.
-std::optional<stride::Time> time_of(const std::string& seconds);
 
 }  // namespace mujoco_world::film
 

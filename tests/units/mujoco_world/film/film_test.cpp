@@ -48,7 +48,7 @@ struct Tumble {
       : film(world, settings, scratch / "film") {
     film.begin();
   }
-  void advance(double to) { film.advance(world, at(to)); }
+  void advance(double to) { mujoco_world::advance(world, {&film}, at(to)); }
   std::map<std::string, std::string> files() const { return files_of(scratch / "film"); }
 };
 
@@ -73,7 +73,7 @@ TEST_CASE("a film that begins between two of its instants waits for the next") {
   for (const auto& [start, first] : {std::pair(0.01, "0.03"), std::pair(-0.01, "0")}) {
     world.reset(at(start));
     Film film(world, kEach30Ms, scratch / "film");
-    film.advance(world, at(0.05));
+    advance(world, {&film}, at(0.05));
     CHECK(files_of(scratch / "film").at("frames.csv").find(first) == 10);
   }
 }
@@ -90,7 +90,7 @@ TEST_CASE("a film does not depend on how time is cut into steps") {
   Tumble split;
   while (split.world.now() < at(0.9)) {
     const Duration step(std::llround(std::pow(10.0, decades(random))));
-    split.film.advance(split.world, std::min(at(0.9), split.world.now() + step));
+    advance(split.world, {&split.film}, std::min(at(0.9), split.world.now() + step));
   }
   CHECK(split.files() == expected);
 }
@@ -148,7 +148,7 @@ TEST_CASE("a film goes on in another world that gets its state, from the files t
   world.restore(state.data());
   CHECK(film.go_on(pictures));
   CHECK(film.pictures() == pictures);
-  film.advance(world, at(0.9));
+  advance(world, {&film}, at(0.9));
   CHECK(files_of(first.scratch / "film") == whole.files());
 }
 
@@ -162,7 +162,7 @@ TEST_CASE("a film whose files are not there goes on, and says so") {
   const auto state = saved(first.world);
   world.restore(state.data());
   CHECK_FALSE(film.go_on(first.film.pictures()));
-  film.advance(world, at(0.22));
+  advance(world, {&film}, at(0.22));
   CHECK(files_of(first.scratch / "film").at("frames.csv") ==
         "time,file\n0,00000.jpg\n0.03,00001.jpg\n0.21,00002.jpg\n");
 }
@@ -179,7 +179,7 @@ TEST_CASE("a film that has not begun leaves the one that is there, until it begi
   }
   CHECK(first.files() == before);
   Film film(world, kEach30Ms, first.scratch / "film");
-  film.advance(world, at(0.01));
+  advance(world, {&film}, at(0.01));
   CHECK(first.files().size() == 2);
 }
 
@@ -211,7 +211,7 @@ TEST_CASE("a film of a world that stops at contacts lacks no picture") {
     World world(folder.path());
     Film film(world, each_1_ms, scratch / "film");
     int times_stopped = 0;
-    while (world.now() < at(0.3)) times_stopped += film.advance(world, at(0.3), stops) ? 1 : 0;
+    while (world.now() < at(0.3)) times_stopped += advance(world, {&film}, at(0.3), stops) ? 1 : 0;
     CHECK((times_stopped > 1) == stops);
     files[stops] = files_of(scratch / "film");
   }
