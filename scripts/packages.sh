@@ -4,7 +4,7 @@
 packages_build=(
   ca-certificates capnproto ccache cmake g++ git ninja-build pkg-config
   libarchive-dev libboost-dev libcapnp-dev libcli11-dev libeigen3-dev libfmt-dev libjpeg62-turbo-dev libmd-dev
-  libmujoco-dev libosmesa6 libpagmo-dev librandom123-dev libseccomp-dev libspdlog-dev libsystemc-dev libtinyxml2-dev
+  libmujoco-dev libosmesa6 libpagmo-dev librandom123-dev libseccomp-dev libspdlog-dev libstb-dev libsystemc-dev libtinygltf-dev libtinyxml2-dev
   libutfcpp-dev nlohmann-json3-dev zlib1g-dev
 )
 packages_test=(

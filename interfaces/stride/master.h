@@ -101,7 +101,8 @@ typedef struct stride_simulation stride_simulation;
  * "sensor=new.fmu"}, {"isolate", NULL}. All that concern the scenario are settings: stop, step,
  * policy, max-step, min-step, relative-tolerance, absolute-tolerance, coupling, extrapolation,
  * no-idle-skip, max-skip, no-checks, no-coverage, isolate, at, unit-timeout, no-sandbox,
- * parameters, set, set-at, force, drop, delay, corrupt, swap, signals, coverage, film, threads. */
+ * parameters, set, set-at, force, drop, delay, corrupt, swap, signals, coverage, film, scene,
+ * threads. */
 typedef struct stride_setting {
   const char* name;
   const char* value; /* NULL: an option without a value */

@@ -76,8 +76,9 @@ void BranchRuns::connect(Branches& branches) {
 bool BranchRuns::prepare(Time now) {
   setup_.recorded.flush();
   fs::create_directories(setup_.results.folder / kBranchesFolder);
-  const bool has_film = !setup_.arguments.scenario.film.empty();
-  if (!has_film && can_fork(setup_.loaded, setup_.results.folder)) return false;
+  const auto& request = setup_.arguments.scenario;
+  const bool has_recording = !request.film.empty() || !request.scene.empty();
+  if (!has_recording && can_fork(setup_.loaded, setup_.results.folder)) return false;
   checkpoint_ = fs::absolute(setup_.results.folder) / kBranchesFolder / "begin.zip";
   checkpoint::write_checkpoint(checkpoint_, setup_.take(now));
   return true;

@@ -58,7 +58,7 @@ std::string full_name(const CLI::App* app) {
 }
 
 /// Options whose value, if any, follows '='.
-constexpr const char* kFlagsWithValue[] = {"--isolate", "--film"};
+constexpr const char* kFlagsWithValue[] = {"--isolate", "--film", "--scene"};
 
 /// What follows such a flag and a blank is another argument.
 std::string flag_hint(const CLI::App& command) {

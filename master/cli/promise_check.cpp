@@ -297,6 +297,7 @@ class PromiseCheck : public core::Observer {
 void run_beside_twins(scenario::ScenarioRequest request) {
   request.idle_twins = request.no_checks = true;
   request.film.clear();
+  request.scene.clear();
   spdlog::set_level(spdlog::level::off);  // the run itself says the same
   const CrashGuard guard;
   const scenario::LoadedScenario loaded(request);

@@ -33,6 +33,7 @@ RunArguments full_run(const RunArguments& arguments) {
   full.junit.clear();
   full.real_time.reset();
   full.scenario.film.clear();
+  full.scenario.scene.clear();
   full.no_trace = full.no_report = full.quiet = true;
   full.open = full.check_idle = false;
   return full;

@@ -70,6 +70,16 @@ void remove_film(const fs::path& unit) {
   ::rmdir(unit.c_str());  // where nothing else is in it
 }
 
+void remove_scene(const fs::path& unit) {
+  std::error_code ignored;
+  if (!fs::is_directory(fs::symlink_status(unit, ignored))) return;
+  for (const char* name : kSceneFiles) {
+    const fs::path file = unit / name;
+    if (fs::is_regular_file(fs::symlink_status(file, ignored))) fs::remove(file, ignored);
+  }
+  ::rmdir(unit.c_str());  // where nothing else is in it
+}
+
 void make_folder(const fs::path& folder) {
   std::error_code error;
   fs::create_directory(folder, error);
@@ -133,6 +143,7 @@ void clean_unit_folders(const fs::path& results, std::span<const std::string> co
     core::UntrustedFolder(unit_folder(results, component)).remove_special_files();
   }
   for (const fs::path& unit : core::folder_entries(units)) remove_film(unit);
+  for (const fs::path& unit : core::folder_entries(units)) remove_scene(unit);
   ::rmdir(units.c_str());
 }
 

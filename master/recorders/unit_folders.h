@@ -2,6 +2,7 @@
 #ifndef STRIDE_MASTER_RECORDERS_UNIT_FOLDERS_H
 #define STRIDE_MASTER_RECORDERS_UNIT_FOLDERS_H
 
+#include <array>
 #include <filesystem>
 #include <span>
 #include <string>
@@ -17,6 +18,10 @@ inline constexpr const char* kUnitsFolder = "units";
 /// Where a unit puts its film, in its own folder, and the list of the pictures there.
 inline constexpr const char* kFilmFolder = "film";
 inline constexpr const char* kFilmList = "frames.csv";
+
+/// Where it puts a scene, and what it may need to go on with it.
+inline constexpr std::array<const char*, 4> kSceneFiles{"world.glb", "world.glb.part", "world.keys",
+                                                        "world.keys.old"};
 
 /// The name of a component's folder. Different components have different ones: "%" and "/" are
 /// "%25" and "%2F", "." and ".." are "%2E" and "%2E%2E", an empty name is "%". What would be longer
@@ -36,8 +41,8 @@ bool is_in_unit_folders(const std::filesystem::path& results, const std::filesys
 bool has_unit_files(const std::filesystem::path& results);
 
 /// Links, FIFOs and the like in the folders of these components, which units of an earlier run have
-/// left, are removed, and then the films of all. Other files and folders stay: they may be the
-/// user's. Throws core::Error (Input).
+/// left, are removed, and then the films and scenes of all. Other files and folders stay: they may
+/// be the user's. Throws core::Error (Input).
 void clean_unit_folders(const std::filesystem::path& results,
                         std::span<const std::string> components);
 

@@ -19,7 +19,7 @@
 #include "master/recorders/unit_folders.h"
 #include "master/scenario/check_selection.h"
 #include "master/scenario/component_selection.h"
-#include "master/scenario/film.h"
+#include "master/scenario/recordings.h"
 #include "master/scenario/remote_units.h"
 #include "master/scenario/signal_selection.h"
 #include "master/scenario/unit_path.h"
@@ -163,7 +163,8 @@ LoadedScenario::LoadedScenario(const ScenarioRequest& request)
     core::fail_input(of_file(), "the system has no component, so there is nothing to simulate");
   }
   load_units(request);
-  if (!request.film.empty()) switch_film_on(scenario_.system, request.film);
+  switch_on(kFilm, scenario_.system, request.film);
+  switch_on(kScene, scenario_.system, request.scene);
   connect_terminals();
   if (request.idle_twins) add_twins();
   choose_early_returns();

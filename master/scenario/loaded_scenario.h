@@ -59,7 +59,8 @@ struct ScenarioRequest {
   HostRequest hosts;
   std::shared_ptr<ssp::Files> files;  ///< that have read some of it ahead; null: none
   std::shared_ptr<UnitStore> units;   ///< to which those that are not there are added; null: none
-  std::string film;  ///< seconds between its pictures, or kUnspecifiedFilmInterval; empty = none
+  std::string film;   ///< seconds between its pictures, or kUnspecifiedInterval; empty = none
+  std::string scene;  ///< likewise between its poses
 };
 
 /// What a request changes in the scenario as it is written.

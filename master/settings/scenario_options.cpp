@@ -195,10 +195,14 @@ void add_observation_options(CLI::App& command, scenario::ScenarioRequest& reque
       ->type_name("COMPONENT")
       ->allow_extra_args(false);
   // a flag, so that what follows a blank is the scenario; the value of a flag without one is
-  // "true", kUnspecifiedFilmInterval
+  // "true", kUnspecifiedInterval
   command.add_flag("--film", request.film,
                    "Pictures of the MuJoCo worlds in units/COMPONENT/film/, every 0.1 s of "
                    "simulated time, or as in --film=SECONDS");
+  command.add_flag(
+      "--scene", request.scene,
+      "Scenes of the MuJoCo worlds in units/COMPONENT/world.glb (glTF), with their poses "
+      "every 0.1 s of simulated time, or as in --scene=SECONDS");
 }
 
 void add_thread_option(CLI::App& command, std::size_t& threads) {

@@ -109,10 +109,7 @@ void World::reset(Time start, const StartPose& pose) {
   look_for_contacts();
 }
 
-std::vector<std::string> World::flaws() const {
-  if (!has_contact()) instant_data_->ncon = 0;
-  return flaws_of_pose(*model_, *instant_data_);
-}
+std::vector<std::string> World::flaws() const { return flaws_of_pose(*model_, collided()); }
 
 void World::set_input(std::size_t actuator, double value) {
   if (!std::isfinite(value)) {
@@ -230,6 +227,11 @@ mjData& World::drawn() const {
   mjData& data = *instant_data_;
   guarded([&] { api::place_what_follows(model_.get(), &data); });
   return data;
+}
+
+const mjData& World::collided() const {
+  if (!has_contact()) instant_data_->ncon = 0;
+  return *instant_data_;
 }
 
 const mjData& World::sensed() const {

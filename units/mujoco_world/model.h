@@ -115,6 +115,11 @@ class World {
 
   /// With the poses of all that can be drawn, at now(); valid until the next call of anything else.
   mjData& drawn() const;
+  /// With MuJoCo's contacts at now(), likewise.
+  const mjData& collided() const;
+
+  /// Whether an error of advance() has left it without a present.
+  bool has_failed() const { return failed_; }
 
   /// All that the future depends on, as one block of state_size() doubles. After restore() the same
   /// inputs give the same bits as after save(). The block fits the same model and MuJoCo only.

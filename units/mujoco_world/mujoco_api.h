@@ -16,6 +16,21 @@
 
 namespace mujoco_world::api {
 
+/// A corner of a mesh's triangle, as indices into the model's mesh_vert, mesh_normal and
+/// mesh_texcoord; -1 where it has no texture coordinates.
+struct MeshCorner {
+  int vertex, normal, texture_place;
+};
+
+struct TextureData {
+  const unsigned char* bytes;  ///< row after row, the upper one first
+  int channels;
+};
+
+struct LightType {
+  bool is_directional, is_spot;
+};
+
 static_assert(std::is_same_v<mjtNum, double>, "MuJoCo must be built in double precision");
 
 // The state that integration depends on leaves out the applied forces: nothing here sets them.
@@ -75,6 +90,29 @@ inline std::pair<int, int> touching_geoms(const mjContact& contact) {
   return {contact.geom1, contact.geom2};
 }
 
+inline MeshCorner mesh_corner(const mjModel* model, int mesh, int face, int corner) {
+  const int vertex = model->mesh_face[3 * (model->mesh_faceadr[mesh] + face) + corner];
+  const int index = model->mesh_vertadr[mesh] + vertex;
+  const int place = model->mesh_texcoordadr[mesh];
+  return {index, index, place < 0 ? -1 : place + vertex};
+}
+
+/// Of the material's colour; -1: none.
+inline int texture_of(const mjModel* model, int material) { return model->mat_texid[material]; }
+inline TextureData texture_data(const mjModel* model, int texture) {
+  return {model->tex_rgb + model->tex_adr[texture], 3};
+}
+
+/// How a surface reflects, where the material says that; below 0: it does not.
+inline float metallic_of(const mjModel*, int) { return -1; }
+inline float roughness_of(const mjModel*, int) { return -1; }
+
+inline LightType light_type(const mjModel* model, int light) {
+  const bool is_directional = model->light_directional[light];
+  return {is_directional, !is_directional && model->light_cutoff[light] <= 90};
+}
+inline bool is_orthographic(const mjModel*, int) { return false; }
+
 #else
 
 /// Enabled features that would make a world irreproducible: here sleeping, which hides state.
@@ -111,6 +149,37 @@ inline void place_what_follows(const mjModel* model, mjData* data) {
 
 inline std::pair<int, int> touching_geoms(const mjContact& contact) {
   return {contact.geom[0], contact.geom[1]};
+}
+
+inline MeshCorner mesh_corner(const mjModel* model, int mesh, int face, int corner) {
+  const int index = 3 * (model->mesh_faceadr[mesh] + face) + corner;
+  const int place = model->mesh_texcoordadr[mesh];
+  return {model->mesh_vertadr[mesh] + model->mesh_face[index],
+          model->mesh_normaladr[mesh] + model->mesh_facenormal[index],
+          place < 0 ? -1 : place + model->mesh_facetexcoord[index]};
+}
+
+inline int texture_of(const mjModel* model, int material) {
+  const int* textures = model->mat_texid + mjNTEXROLE * material;
+  return textures[mjTEXROLE_RGB] >= 0 ? textures[mjTEXROLE_RGB] : textures[mjTEXROLE_RGBA];
+}
+inline TextureData texture_data(const mjModel* model, int texture) {
+  return {model->tex_data + model->tex_adr[texture], model->tex_nchannel[texture]};
+}
+
+inline float metallic_of(const mjModel* model, int material) {
+  return model->mat_metallic[material];
+}
+inline float roughness_of(const mjModel* model, int material) {
+  return model->mat_roughness[material];
+}
+
+inline LightType light_type(const mjModel* model, int light) {
+  const int type = model->light_type[light];
+  return {type == mjLIGHT_DIRECTIONAL, type == mjLIGHT_SPOT && model->light_cutoff[light] <= 90};
+}
+inline bool is_orthographic(const mjModel* model, int camera) {
+  return model->cam_projection[camera] == mjPROJ_ORTHOGRAPHIC;
 }
 
 #endif

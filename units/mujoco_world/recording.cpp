@@ -10,7 +10,7 @@ using stride::Time;
 namespace {
 
 template <class Visit>
-void for_each(std::initializer_list<Recording*> recordings, Visit visit) {
+void for_each(const Recordings& recordings, Visit visit) {
   for (Recording* recording : recordings) {
     if (recording != nullptr) visit(*recording);
   }
@@ -18,8 +18,7 @@ void for_each(std::initializer_list<Recording*> recordings, Visit visit) {
 
 }  // namespace
 
-bool advance(World& world, std::initializer_list<Recording*> recordings, Time to,
-             bool stops_at_contacts) {
+bool advance(World& world, const Recordings& recordings, Time to, bool stops_at_contacts) {
   bool wants_contacts = stops_at_contacts;
   for_each(recordings, [&](Recording& recording) {
     recording.begin();

@@ -2,7 +2,7 @@
 #ifndef STRIDE_UNITS_MUJOCO_WORLD_RECORDING_H
 #define STRIDE_UNITS_MUJOCO_WORLD_RECORDING_H
 
-#include <initializer_list>
+#include <array>
 
 #include <stride/time.h>
 
@@ -35,9 +35,11 @@ class Recording {
   virtual bool wants_contact_changes() const { return false; }
 };
 
+using Recordings = std::array<Recording*, 2>;  ///< null pointers are none
+
 /// Moves the world as World::advance() does, with its lamps as they are now, and stops on the way
-/// where recordings take something; null pointers are none.
-bool advance(World& world, std::initializer_list<Recording*> recordings, stride::Time to,
+/// where recordings take something.
+bool advance(World& world, const Recordings& recordings, stride::Time to,
              bool stops_at_contacts = false);
 
 stride::Time first_multiple_at_or_after(stride::Time time, stride::Duration interval);

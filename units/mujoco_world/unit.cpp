@@ -1,8 +1,11 @@
 // Any MJCF world as an FMU: the variable table follows from the model in the resources folder.
 #include <algorithm>
+#include <array>
 #include <deque>
 #include <filesystem>
+#include <memory>
 #include <optional>
+#include <sstream>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -15,6 +18,7 @@
 #include "units/mujoco_world/model.h"
 #include "units/mujoco_world/names.h"
 #include "units/mujoco_world/recording.h"
+#include "units/mujoco_world/scene/scene.h"
 
 namespace {
 
@@ -32,14 +36,19 @@ constexpr double kVelocityTolerance = 1e-3;  // [rad/s], [m/s]
 constexpr double kSensorTolerance = 1e-3;    // in the sensor's unit
 
 /// Alone in the unit's own folder of results; otherwise the worlds have the working folder in
-/// common.
-std::filesystem::path film_folder(const stride::Setup& setup) {
-  if (!setup.results.empty()) return setup.results / "film";
+/// common, where there is one for each kind of files.
+std::filesystem::path results_of(const stride::Setup& setup, const char* kind) {
+  if (!setup.results.empty()) return setup.results;
   std::string name = setup.instance_name;
   std::replace(name.begin(), name.end(), '/', '_');
   if (name.find_first_not_of('.') == std::string::npos) name += '_';
-  std::error_code ignored;  // without a working folder, as long as there is no film
-  return std::filesystem::current_path(ignored) / "film" / name;
+  std::error_code ignored;  // without a working folder, as long as there is nothing to write
+  return std::filesystem::current_path(ignored) / kind / name;
+}
+
+std::filesystem::path film_folder(const stride::Setup& setup) {
+  const std::filesystem::path folder = results_of(setup, "film");
+  return setup.results.empty() ? folder : folder / "film";
 }
 
 std::string per_second(const std::string& unit) { return unit.empty() ? unit : unit + "/s"; }
@@ -47,7 +56,9 @@ std::string per_second(const std::string& unit) { return unit.empty() ? unit : u
 class MujocoWorld : public stride::Unit {
  public:
   explicit MujocoWorld(const stride::Setup& setup)
-      : film_folder_(film_folder(setup)), world_(setup.resources) {
+      : film_folder_(film_folder(setup)),
+        scene_file_(results_of(setup, "scene") / "world.glb"),
+        world_(setup.resources) {
     auto& info = describe("A MuJoCo world: its actuators in, its joints, sites and sensors out");
     info.fixed_step = world_.timestep();
     info.promises_idle = true;
@@ -67,6 +78,7 @@ class MujocoWorld : public stride::Unit {
     list_start();
     list_rest();
     list_film();
+    list_scene();
     state();
   }
 
@@ -76,6 +88,7 @@ class MujocoWorld : public stride::Unit {
     warn_of_flaws();
     says_whose_controls_ = start_.keyframe != mujoco_world::default_start(world_.model()).keyframe;
     set_film();
+    set_scene();
     show();
   }
 
@@ -83,18 +96,20 @@ class MujocoWorld : public stride::Unit {
     if (std::exchange(says_whose_controls_, false)) warn_of_controls();
     for (std::size_t i = 0; i < inputs_.size(); ++i) world_.set_input(i, inputs_[i]);
     const bool rests = world_.rests_until() >= step.to();
-    if (film_) set_lamps();
-    mujoco_world::advance(world_, {film_ ? &*film_ : nullptr}, step.to(),
-                          step.early_return_allowed());
+    if (film_ || scene_) set_lamps();
+    mujoco_world::advance(world_, recordings(), step.to(), step.early_return_allowed());
     if (world_.now() < step.to()) step.return_early(world_.now());
     if (!rests) show();
   }
 
   void terminate() override {
-    if (!film_) return;
-    set_lamps();
-    film_->begin();  // of a run without a step
-    film_->show_lamps();
+    if (film_ || scene_) set_lamps();
+    for (mujoco_world::Recording* recording : recordings()) {
+      if (recording == nullptr) continue;
+      recording->begin();  // of a run without a step
+      recording->show_lamps();
+    }
+    if (scene_) finish_scene();
   }
 
   stride::Time idle_until(stride::Time now) const override {
@@ -110,6 +125,7 @@ class MujocoWorld : public stride::Unit {
     writer.write_bytes(block_.data(), block_.size() * sizeof(double));
     writer.write(says_whose_controls_);
     writer.write(film_ ? film_->pictures() : std::nullopt);
+    (scene_ ? scene_->state() : mujoco_world::scene::SceneState{}).write(writer);
   }
 
   void load_state(stride::StateReader& reader) override {
@@ -120,15 +136,24 @@ class MujocoWorld : public stride::Unit {
     reader.read(says_whose_controls_);
     std::optional<std::size_t> pictures;
     reader.read(pictures);
+    mujoco_world::scene::SceneState scene;
+    scene.read(reader);
     set_film();
+    set_scene();
     if (film_ && !film_->go_on(pictures)) {
       log(stride::Severity::Warning, "the film in '" + film_folder_.string() +
                                          "' lacks pictures of what was before the restored state");
+    }
+    if (scene_ && !scene_->go_on(scene)) {
+      log(stride::Severity::Warning,
+          "'" + scene_file_.string() + "' lacks the motion before the restored state");
     }
     show();
   }
 
  private:
+  std::array<mujoco_world::Recording*, 2> recordings() { return {film_.get(), scene_.get()}; }
+
   void set_lamps() {
     for (std::size_t i = 0; i < lamps_.size(); ++i) world_.set_lamp(i, lamps_[i]);
   }
@@ -140,8 +165,31 @@ class MujocoWorld : public stride::Unit {
     if (wanted.interval == stride::Duration{}) {
       film_.reset();
     } else if (!film_ || !(film_->settings() == wanted)) {
-      film_.emplace(world_, wanted, film_folder_);
+      film_ = std::make_unique<mujoco_world::film::Film>(world_, wanted, film_folder_);
     }
+  }
+
+  void set_scene() {
+    const stride::Duration interval = stride::duration_from_seconds(scene_interval_);
+    if (interval == stride::Duration{}) {
+      scene_.reset();
+    } else if (!scene_ || scene_->interval() != interval) {
+      scene_ = std::make_unique<mujoco_world::scene::Scene>(world_, interval, scene_file_);
+    }
+  }
+
+  void finish_scene() {
+    scene_->write();
+    const auto& animation = scene_->animation();
+    const mujoco_world::scene::AnimationLimits usual;
+    if (animation.tolerance() == usual.tolerance && animation.resolution() == 0) return;
+    std::ostringstream text;
+    text << "'" << scene_file_.string() << "' would be too long: its poses are within "
+         << animation.tolerance() << " m and rad of the sampled ones";
+    if (animation.resolution() > 0) {
+      text << ", which are " << animation.resolution() << " s apart";
+    }
+    log(stride::Severity::Info, text.str());
   }
 
   /// As the importer has set it.
@@ -229,6 +277,13 @@ class MujocoWorld : public stride::Unit {
     parameter("film.height", view_.height).range(16, 4096).description("of a picture in pixels");
     parameter("film.camera", view_.camera)
         .description("of the model; empty: the one called film, or one that sees the whole world");
+  }
+
+  void list_scene() {
+    parameter("scene.interval", scene_interval_)
+        .unit("s")
+        .range(0, 1e6)
+        .description("simulated time between the poses of the scene in world.glb; 0: no scene");
   }
 
   struct Joint {
@@ -335,12 +390,15 @@ class MujocoWorld : public stride::Unit {
   }
 
   std::filesystem::path film_folder_;
+  std::filesystem::path scene_file_;
   World world_;
   mujoco_world::StartPose start_ = mujoco_world::default_start(world_.model());
   std::vector<std::string> flaws_;  // of the start that were reported
   double film_interval_ = 0;
   mujoco_world::film::View view_;
-  std::optional<mujoco_world::film::Film> film_;
+  std::unique_ptr<mujoco_world::film::Film> film_;
+  double scene_interval_ = 0;
+  std::unique_ptr<mujoco_world::scene::Scene> scene_;
   std::vector<double> inputs_;
   std::vector<double> described_inputs_;  // their start values
   bool says_whose_controls_ = false;

@@ -11,6 +11,7 @@
 #include <unistd.h>
 
 #include "units/mujoco_world/seconds.h"
+#include "units/mujoco_world/write_error.h"
 
 namespace mujoco_world::film {
 namespace {
@@ -19,13 +20,9 @@ namespace fs = std::filesystem;
 
 const std::string kHeader = "time,file\n";
 
-[[noreturn]] void fail(const fs::path& file) {
-  throw std::system_error(errno, std::generic_category(), "cannot write '" + file.string() + "'");
-}
-
 void write_file(const fs::path& path, const std::vector<std::uint8_t>& bytes) {
   const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-  if (file < 0) fail(path);
+  if (file < 0) fail_to_write(path);
   const ssize_t written = ::write(file, bytes.data(), bytes.size());
   // a partial write has not given its reason
   if (written >= 0 && static_cast<std::size_t>(written) < bytes.size()) errno = ENOSPC;
@@ -33,7 +30,7 @@ void write_file(const fs::path& path, const std::vector<std::uint8_t>& bytes) {
   const int reason = errno;
   ::close(file);
   errno = reason;
-  if (!is_whole) fail(path);
+  if (!is_whole) fail_to_write(path);
 }
 
 std::string picture_name(std::size_t number) {
@@ -50,7 +47,7 @@ Frames::Frames(const fs::path& folder) : folder_(folder) {
   if (error) throw std::system_error(error, "cannot make the folder '" + folder.string() + "'");
   const fs::path list = folder_ / "frames.csv";
   list_ = ::open(list.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
-  if (list_ < 0) fail(list);
+  if (list_ < 0) fail_to_write(list);
 }
 
 /// What is left of what another process wrote, from which this one was forked, is not of this film.
@@ -116,7 +113,7 @@ void Frames::replace_last(const std::vector<std::uint8_t>& jpeg) {
 void Frames::write_line(const std::string& line, off_t at) {
   const auto size = static_cast<ssize_t>(line.size());
   if (::ftruncate(list_, at) != 0 || ::pwrite(list_, line.data(), line.size(), at) != size) {
-    fail(folder_ / "frames.csv");
+    fail_to_write(folder_ / "frames.csv");
   }
 }
 
@@ -130,7 +127,7 @@ void Frames::remove_after(stride::Time time) {
 
 /// Removes what is behind the last row.
 void Frames::cut() {
-  if (::ftruncate(list_, end()) != 0) fail(folder_ / "frames.csv");
+  if (::ftruncate(list_, end()) != 0) fail_to_write(folder_ / "frames.csv");
   remove_pictures_from(rows_.size());
 }
 
