@@ -44,7 +44,7 @@ CONTENTS = {
     "README": {
         "Start": "All pages <docs/README>, docs/first-steps, docs/wheel, docs/container, docs/accelerometer",
         "Scenarios and runs": "docs/scenario, docs/cli, docs/report, docs/compare, docs/export, docs/checks, docs/coverage, docs/stimuli,"
-        " docs/checkpoints, docs/traces, docs/film, docs/hosts, docs/remote, scenarios/README",
+        " docs/checkpoints, docs/traces, docs/film, docs/scene, docs/hosts, docs/remote, scenarios/README",
         "Many runs": "docs/campaigns, docs/search, docs/distil",
         "Python and C": "docs/python, docs/site/python-api, docs/python-peers, docs/library, docs/site/c-api",
         "Units": "docs/unit-guide, docs/python-units, docs/wrap-systemc, docs/wrap-core, docs/bring-your-robot, docs/process-protocol,"

@@ -232,6 +232,65 @@ TEST_CASE("a lamp is an input that moves nothing", "[mujoco_world]") {
   }
 }
 
+TEST_CASE("a scene goes on where a serialised state is restored", "[mujoco_world]") {
+  const ScratchFolder scratch;
+  const auto start = [](WorldUnit& world) {
+    REQUIRE(world->set_real("scene.interval", 0.02) == fmi3OK);
+    REQUIRE(world->start_steps() == fmi3OK);
+    REQUIRE(world->step(0, 0.05) == fmi3OK);
+  };
+  WorldUnit whole(worlds::kTumble, scratch / "whole");
+  start(whole);
+  finish(whole);
+  std::vector<fmi3Byte> bytes;
+  {
+    WorldUnit cut(worlds::kTumble, scratch / "cut");
+    start(cut);
+    bytes = serialized(cut.instance());
+    REQUIRE(cut->step(0.05, 0.05) == fmi3OK);  // which is lost
+  }
+  const bool is_initialized = GENERATE(false, true);
+  WorldUnit resumed(worlds::kTumble, scratch / "cut");
+  if (is_initialized) {
+    REQUIRE(resumed->set_real("scene.interval", 0.02) == fmi3OK);
+    REQUIRE(resumed->start_steps() == fmi3OK);
+  }
+  REQUIRE(restore(resumed.instance(), bytes) == fmi3OK);
+  CHECK(serialized(resumed.instance()) == bytes);
+  finish(resumed);
+  CHECK((film_files(scratch / "cut").at("world.glb") ==
+         film_files(scratch / "whole").at("world.glb")));
+  CHECK(film_files(scratch / "whole").size() == 1);  // without states there is nothing else
+  CHECK(resumed.said("lacks the motion") == 0);
+}
+
+TEST_CASE("a state with a scene is restored where there is none, and the other way round",
+          "[mujoco_world]") {
+  const bool has_scene = GENERATE(false, true);
+  const ScratchFolder scratch;
+  WorldUnit with(worlds::kTumble, scratch / "with");
+  WorldUnit without(worlds::kTumble, scratch / "without");
+  REQUIRE(with->set_real("scene.interval", 0.02) == fmi3OK);
+  for (WorldUnit* world : {&with, &without}) {
+    REQUIRE((*world)->start_steps() == fmi3OK);
+    REQUIRE((*world)->step(0, 0.05) == fmi3OK);
+  }
+  WorldUnit& from = has_scene ? with : without;
+  WorldUnit& to = has_scene ? without : with;
+  REQUIRE(restore(to.instance(), serialized(from.instance())) == fmi3OK);
+  REQUIRE(to->step(0.05, 0.05) == fmi3OK);
+  REQUIRE(to->fmi.Terminate(to->handle) == fmi3OK);
+}
+
+TEST_CASE("a scene cannot be where the results cannot be written", "[mujoco_world]") {
+  const ScratchFolder scratch;
+  std::ofstream(scratch / "run") << "no folder";
+  WorldUnit world(worlds::kTumble, scratch / "run");
+  REQUIRE(world->set_real("scene.interval", 0.02) == fmi3OK);
+  CHECK(world->initialize() == fmi3Error);
+  CHECK_THAT(world->last_message(), Contains("cannot") && Contains((scratch / "run").string()));
+}
+
 TEST_CASE("the start is set by parameters", "[mujoco_world]") {
   WorldUnit world(worlds::kBounce);
   REQUIRE(world.set_keyframe("high") == fmi3OK);

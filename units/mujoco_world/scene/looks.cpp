@@ -137,9 +137,8 @@ int Looks::material_of(int geom) {
                      : roughness_of(id < 0 ? kDefaultSpecular : model_.mat_specular[id],
                                     id < 0 ? kDefaultShininess : model_.mat_shininess[id]);
   if (const float emission = id < 0 ? 0 : model_.mat_emission[id]; emission > 0) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      material.emissiveFactor[k] = linear(colour[k] * emission);
-    }
+    material.emissiveFactor =
+        light_of({colour[0] * emission, colour[1] * emission, colour[2] * emission, 1});
     material.emissiveTexture.index = texture.index;
   }
   if (colour[3] < 1) material.alphaMode = "BLEND";
