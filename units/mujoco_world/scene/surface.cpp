@@ -61,6 +61,9 @@ Surface turn(const std::vector<ProfilePoint>& profile, int slices, double x_scal
     }
   }
   for (std::uint32_t row = 0; row + 1 < profile.size(); ++row) {
+    const bool is_edge = profile[row].radius == profile[row + 1].radius &&
+                         profile[row].height == profile[row + 1].height;
+    if (is_edge) continue;  // where the normal changes
     const bool begins_at_pole = profile[row].radius == 0;
     const bool ends_at_pole = profile[row + 1].radius == 0;
     for (std::uint32_t i = row * columns; i + 1 < (row + 1) * columns; ++i) {

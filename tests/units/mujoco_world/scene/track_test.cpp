@@ -101,7 +101,7 @@ TEST_CASE("keyframes are within the tolerance of each sample, and fewer") {
   CHECK(error(type, samples, keyframes) <= tolerance * 1.0001 + 3e-7);  // of single precision
   CHECK(keyframes.front().time == samples.front().time);
   CHECK(keyframes.back().time == samples.back().time);
-  if (tolerance >= 1e-3) CHECK(keyframes.size() < samples.size() / 2);
+  if (tolerance >= 1e-3 && jump < 1) CHECK(keyframes.size() < samples.size() / 2);
 }
 
 TEST_CASE("what stands still or moves evenly has two keyframes") {
