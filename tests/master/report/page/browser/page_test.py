@@ -431,6 +431,16 @@ class PageTest(unittest.TestCase):
         browser = self.open({**Run().data(), "notes": ["signals.csv: of each 16 rows"]})
         self.assertEqual(browser.texts(".warning"), ["signals.csv: of each 16 rows"])
 
+    def test_coverage_is_a_map_that_leads_to_the_first_visit(self):
+        bins = [{"name": "low", "count": 9, "first": 0.5}, {"name": "high", "count": 0}]
+        point = {"name": "level", "kind": "values", "signal": "level", "unit": "m", "at_least": 1, "open": False,
+                 "percentage": 50, "bins": bins}
+        groups = [{"component": "tank", "percentage": 50, "points": [point]}]
+        browser = self.open({**Run().data(), "coverage": {"groups": groups}})
+        self.assertEqual(browser.texts(".coverage tbody td.number"), ["1 of 2", "50 %"])
+        browser.all(".bin")[0].click()
+        self.assertEqual(browser.run("return stride.view.cursor"), 0.5)
+
     def test_the_film_follows_the_cursor(self):
         run = Run()
         run.films = [{"component": "world", "times": page_data.pack("int64", [i * SECOND for i in range(11)]),
