@@ -15,6 +15,9 @@ namespace stride::recorders {
 /// write to its own folder and to nothing else, so what is outside of that can be trusted.
 inline constexpr const char* kUnitsFolder = "units";
 
+/// Where a unit puts its world in 3D, in its own folder: a binary glTF 2.0 file.
+inline constexpr const char* kWorldFile = "world.glb";
+
 /// Where a unit puts its film, in its own folder, and the list of the pictures there.
 inline constexpr const char* kFilmFolder = "film";
 inline constexpr const char* kFilmList = "frames.csv";

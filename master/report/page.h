@@ -19,6 +19,11 @@ std::string_view campaign_page();
 /// Likewise that of a comparison of two runs.
 std::string_view comparison_page();
 
+/// What draws worlds in 3D, for pages that have some: a script, as the blob of its bytes (UTF-8).
+std::string_view world_script();
+/// The licences of what that is made with: an element, and the end of its line.
+std::string_view world_licences();
+
 }  // namespace stride::report
 
 #endif

@@ -21,7 +21,8 @@ constexpr int kFormat = 1;
 
 void write_page(const std::filesystem::path& file, std::string_view page,
                 const std::string& version,
-                const std::function<void(core::OutputFile&)>& write_members) {
+                const std::function<void(core::OutputFile&)>& write_members,
+                std::string_view elements) {
   const std::size_t mark = page.find(kDataMark);
   if (mark == std::string_view::npos) {
     core::fail_input({}, "this stride was built without reports (STRIDE_REPORT=OFF)");
@@ -29,6 +30,7 @@ void write_page(const std::filesystem::path& file, std::string_view page,
   core::Replacement written(file);
   core::OutputFile& output = written.file();
   output.write(page.substr(0, mark));
+  output.write(elements);
   output.write(
       fmt::format(R"(<script type="application/json" id="stride-report">{{"format":{},"stride":{})",
                   kFormat, json_text(version)));

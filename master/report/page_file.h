@@ -13,11 +13,13 @@
 namespace stride::report {
 
 /// Writes the page with its data: a JSON object of the format, the version of stride, and what
-/// `write_members` writes, a comma before each member. The file has its new content at once or not
-/// at all. Throws core::Error, of Kind::Input where this stride was built without pages.
+/// `write_members` writes, a comma before each member; before it `elements` of HTML. The file has
+/// its new content at once or not at all. Throws core::Error, of Kind::Input where this stride was
+/// built without pages.
 void write_page(const std::filesystem::path& file, std::string_view page,
                 const std::string& version,
-                const std::function<void(core::OutputFile&)>& write_members);
+                const std::function<void(core::OutputFile&)>& write_members,
+                std::string_view elements = {});
 
 /// Writes a member of JSON text.
 void write_member(core::OutputFile& file, std::string_view name, std::string_view text);

@@ -54,6 +54,7 @@ class DataWriter {
     list("messages", results_.messages, [&](const RecordedMessage& message) { write(message); });
     list("activity", results_.activities, [&](const UnitActivities& entry) { write(entry); });
     list("films", results_.films, [&](const Film& film) { write(film); });
+    write_worlds();
     if (results_.coverage) member("coverage", json_text(coverage::to_json(*results_.coverage)));
     member("diagram", json_text(diagram(results_.run)));
   }
@@ -96,15 +97,31 @@ class DataWriter {
   }
 
   void write_picture(const fs::path& picture) {
-    const auto bytes = folder_.read(picture, kLargestPicture);
-    if (!bytes) {
-      core::fail_input({.where = {(results_.folder / picture).string(), 0}},
-                       "cannot read the picture");
-    }
+    const std::string bytes = read(picture, kLargestPicture, "picture");
     const bool is_png = picture.extension() == ".png";
     file_.write(is_png ? "\"data:image/png;base64," : "\"data:image/jpeg;base64,");
-    file_.write(base64({reinterpret_cast<const std::uint8_t*>(bytes->data()), bytes->size()}));
+    file_.write(base64({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()}));
     file_.write('"');
+  }
+
+  /// With what draws them, which is nearly as large as the rest of the page.
+  void write_worlds() {
+    if (results_.worlds.empty()) return;
+    list("worlds", results_.worlds, [&](const World& world) {
+      const std::string bytes = read(world.file, kLargestWorld, "world");
+      file_.write(fmt::format(R"({{"component":{},"file":)", json_text(world.component)));
+      file_.write(
+          blob(std::span(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size())));
+      file_.write('}');
+    });
+    member("world_script", std::string(world_script()));
+  }
+
+  std::string read(const fs::path& path, std::size_t most, const char* what) const {
+    auto bytes = folder_.read(path, most);
+    if (bytes) return std::move(*bytes);
+    core::fail_input({.where = {(results_.folder / path).string(), 0}},
+                     fmt::format("cannot read the {}", what));
   }
 
   static Json plots(const Results& results) {
@@ -152,8 +169,9 @@ std::vector<recorders::Plot> default_plots(std::span<const Column> columns,
 }
 
 void write_report(const fs::path& file, const Results& results, const std::string& version) {
-  write_page(file, page(), version,
-             [&](core::OutputFile& output) { DataWriter(output, results).write(); });
+  write_page(
+      file, page(), version, [&](core::OutputFile& output) { DataWriter(output, results).write(); },
+      results.worlds.empty() ? std::string_view() : world_licences());
 }
 
 }  // namespace stride::report

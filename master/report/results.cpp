@@ -1,7 +1,11 @@
 #include "master/report/results.h"
 
+#include <array>
 #include <cerrno>
+#include <cstdint>
+#include <cstdio>
 #include <map>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
@@ -174,6 +178,45 @@ std::vector<Film> read_films(const fs::path& folder, const RunFile& run, const L
   return films;
 }
 
+/// What is wrong with a world's file, in words; empty if its header is that of a whole one.
+std::string mistake_in_world(std::FILE* file, std::uintmax_t size) {
+  // https://registry.khronos.org/glTF/specs/2.0/glTF-2.0.html#binary-header, little-endian
+  constexpr std::size_t kHeader = 12;
+  constexpr std::string_view kBegin("glTF\2\0\0\0", 8);
+  if (size > kLargestWorld) return fmt::format("it is larger than {} MiB", kLargestWorld >> 20);
+  std::array<char, kHeader> header{};
+  if (std::fread(header.data(), 1, kHeader, file) != kHeader ||
+      !std::string_view(header.data(), kHeader).starts_with(kBegin)) {
+    return "it is no binary glTF 2.0 file";
+  }
+  std::uint32_t length = 0;
+  for (std::size_t i = kHeader; i-- > kBegin.size();) {
+    length = length << 8 | static_cast<unsigned char>(header[i]);
+  }
+  if (length == size) return "";
+  return fmt::format("it has {} bytes, but its header says {}", size, length);
+}
+
+std::vector<World> read_worlds(const fs::path& folder, const RunFile& run, Notes& notes) {
+  const core::UntrustedFolder results(folder);
+  std::vector<World> worlds;
+  for (const fs::path& unit : core::folder_entries(folder / recorders::kUnitsFolder)) {
+    const fs::path name = unit.filename();
+    const fs::path path = recorders::kUnitsFolder / name / recorders::kWorldFile;
+    const auto size = results.size(path);
+    if (!size && (errno == ENOENT || errno == ENOTDIR)) continue;
+    const core::FileStream file = results.open(path);
+    const std::string mistake = size && file ? mistake_in_world(file.get(), *size)
+                                             : std::string("it is a link, or no regular file");
+    if (mistake.empty()) {
+      worlds.push_back({component_of(name.string(), run.components), path});
+    } else {
+      notes.add(folder / path, fmt::format("left out: {}", mistake));
+    }
+  }
+  return worlds;
+}
+
 /// The file, if it was to be written; where there is none that could be read, that is noted.
 std::optional<fs::path> present(const fs::path& folder, const std::string& name, Notes& notes) {
   if (name.empty()) return std::nullopt;
@@ -242,6 +285,7 @@ Results read_results(const fs::path& folder, const recorders::ResultFiles& files
     return read_activities(file, notes);
   });
   results.films = read_films(folder, results.run, limits, notes);
+  results.worlds = read_worlds(folder, results.run, notes);
   results.coverage = read_coverage(folder, files.coverage, notes);
   results.notes = notes.texts();
   return results;

@@ -34,6 +34,15 @@ struct Film {
 /// A picture may have so many bytes.
 inline constexpr std::size_t kLargestPicture = std::size_t{16} << 20;
 
+/// A component's world in 3D: a binary glTF 2.0 file, of which no more than the header was read.
+struct World {
+  std::string component;
+  std::filesystem::path file;  ///< in the results folder
+};
+
+/// A world may have so many bytes.
+inline constexpr std::size_t kLargestWorld = std::size_t{64} << 20;
+
 struct Limits {
   SignalLimits signals{};
   std::size_t messages = 100'000;
@@ -42,13 +51,14 @@ struct Limits {
 };
 
 struct Results {
-  /// Where they are, and the pictures.
+  /// Where they are, the pictures and the worlds.
   std::filesystem::path folder;
   RunFile run;
   Signals signals;
   std::vector<RecordedMessage> messages;
   std::vector<UnitActivities> activities;
   std::vector<Film> films;
+  std::vector<World> worlds;
   std::optional<coverage::Report> coverage;
   /// In words, what is missing, cut off or left out.
   std::vector<std::string> notes;

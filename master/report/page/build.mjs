@@ -1,18 +1,19 @@
-// node build.mjs NODE_MODULES OUTPUT_FOLDER: bundles each page into one html text, such as report_page.html, and makes a
-// C++ source of all, page.cpp. NODE_MODULES is the folder into which `npm ci` installed the packages of
-// package-lock.json.
+// node build.mjs NODE_MODULES OUTPUT_FOLDER: bundles each page into one html text, such as report_page.html, and what
+// draws worlds in 3D into world_script.json and world_licences.html, and makes a C++ source of all, page.cpp.
+// NODE_MODULES is the folder into which `npm ci` installed the packages of package-lock.json.
 import { mkdir, readFile, writeFile } from "node:fs/promises";
 import { createRequire } from "node:module";
 import path from "node:path";
 import process from "node:process";
 import { fileURLToPath } from "node:url";
+import { deflateRawSync } from "node:zlib";
 
 const here = path.dirname(fileURLToPath(import.meta.url));
 const [nodeModules, output] = process.argv.slice(2).map((folder) => path.resolve(folder));
 const { build } = createRequire(path.join(nodeModules, "any.js"))("esbuild");
 
-/** The bundled text of one entry, and its input files. */
-async function bundle(entry) {
+/** The bundled text of one entry, and its input files. @param {object} [options] of esbuild */
+async function bundle(entry, options) {
   const result = await build({
     entryPoints: [path.join(here, entry)],
     nodePaths: [nodeModules],
@@ -26,6 +27,7 @@ async function bundle(entry) {
     metafile: true,
     absWorkingDir: here,
     logLevel: "error",
+    ...options,
   });
   return { text: result.outputFiles[0].text, inputs: Object.keys(result.metafile.inputs) };
 }
@@ -47,8 +49,11 @@ async function withDependencies(packages) {
   return [...found].sort();
 }
 
-/** The licences of all bundled packages, as their authors require; an empty text if there are none. */
-async function licences(inputs) {
+/**
+ * The licences of all bundled packages, as their authors require; an empty text if there are none.
+ * @param {string} what "this page"
+ */
+async function licences(inputs, what) {
   const packages = await withDependencies(inputs.map(packageOf).filter(Boolean));
   if (packages.length === 0) return "";
   const texts = packages.map(async (name) => {
@@ -56,7 +61,7 @@ async function licences(inputs) {
     return `${name}\n\n${text.trim()}`;
   });
   const all = escapeHtml((await Promise.all(texts)).join("\n\n\n"));
-  return `<details id="licences"><summary>Licences of what this page is made with</summary><pre>\n${all}\n</pre></details>`;
+  return `<details class="licences"><summary>Licences of what ${what} is made with</summary><pre>\n${all}\n</pre></details>`;
 }
 
 const escapeHtml = (text) => text.replace(/[&<>]/g, (c) => ({ "&": "&amp;", "<": "&lt;", ">": "&gt;" })[c]);
@@ -72,7 +77,7 @@ async function pageOf({ script, style, what }) {
     "<!-- stride:style -->": look.text,
     "<!-- stride:what -->": what,
     "<!-- stride:script -->": code.text.replaceAll("</script", "<\\/script"),
-    "<!-- stride:licences -->": await licences([...code.inputs, ...look.inputs]),
+    "<!-- stride:licences -->": await licences([...code.inputs, ...look.inputs], "this page"),
   };
   let html = template;
   for (const [mark, text] of Object.entries(parts)) {
@@ -85,9 +90,31 @@ async function pageOf({ script, style, what }) {
   return html;
 }
 
+/** In the form that the page unpacks (src/data/blob.js). */
+function blobOf(text) {
+  const bytes = Buffer.from(text, "utf8");
+  return JSON.stringify({
+    type: "uint8",
+    count: bytes.length,
+    data: deflateRawSync(bytes, { level: 9 }).toString("base64"),
+  });
+}
+
+/** What pages with worlds have in addition: the script that draws them, and its licences. */
+async function worldParts() {
+  const { text, inputs } = await bundle("src/world/main.js", {
+    globalName: "strideWorld",
+    loader: { ".css": "text" },
+  });
+  return {
+    world_script: { file: "world_script.json", text: blobOf(text) },
+    world_licences: { file: "world_licences.html", text: `${await licences(inputs, "the world in 3D")}\n` },
+  };
+}
+
 /** Compilers limit the length of a string literal, so the text is divided into many pieces. */
-function cppFunction(name, html) {
-  const pieces = html.match(/[^]{1,12000}/gu).map((piece) => `R"page(${piece})page"`);
+function cppFunction(name, text) {
+  const pieces = text.match(/[^]{1,12000}/gu).map((piece) => `R"page(${piece})page"`);
   return [
     `std::string_view ${name}() {`,
     "  static constexpr char kPage[] =",
@@ -128,11 +155,12 @@ const kPages = {
   },
 };
 
+const parts = await worldParts();
+for (const [name, page] of Object.entries(kPages)) parts[name] = { file: page.file, text: await pageOf(page) };
 await mkdir(output, { recursive: true });
 const functions = [];
-for (const [name, page] of Object.entries(kPages)) {
-  const html = await pageOf(page);
-  await writeFile(path.join(output, page.file), html);
-  functions.push(cppFunction(name, html));
+for (const [name, { file, text }] of Object.entries(parts)) {
+  await writeFile(path.join(output, file), text);
+  functions.push(cppFunction(name, text));
 }
 await writeFile(path.join(output, "page.cpp"), cppSource(functions));

@@ -6,5 +6,7 @@ namespace stride::report {
 std::string_view page() { return {}; }
 std::string_view campaign_page() { return {}; }
 std::string_view comparison_page() { return {}; }
+std::string_view world_script() { return {}; }
+std::string_view world_licences() { return {}; }
 
 }  // namespace stride::report

@@ -126,6 +126,30 @@ TEST_CASE("messages, activities, films and the diagram") {
     "connections": [{"from": "a.x", "to": "b.u", "kind": "value"}]})"));
 }
 
+TEST_CASE("worlds are in the data, with what draws them and its licences") {
+  const TemporaryFolder folder;
+  Results results = sample(folder);
+  folder.write("world.glb", "glTF and <more>");
+  results.worlds = {{"the <world>", "world.glb"}};
+  const json data = written(folder, results);
+  REQUIRE(data["worlds"].size() == 1);
+  CHECK(data["worlds"][0]["component"] == "the <world>");
+  const auto bytes = unpacked<std::uint8_t>(data["worlds"][0]["file"]);
+  CHECK(std::string(bytes.begin(), bytes.end()) == "glTF and <more>");
+  const auto script = unpacked<std::uint8_t>(data["world_script"]);
+  CHECK_THAT(std::string(script.begin(), script.end()), Contains("strideWorld"));
+  const std::string with_world = content(folder / "report.html");
+  CHECK(with_world.find(world_licences()) < with_world.find("stride-report"));
+}
+
+TEST_CASE("a page without a world has nothing of it") {
+  const TemporaryFolder folder;
+  const json data = written(folder, sample(folder));
+  CHECK_FALSE(data.contains("worlds"));
+  CHECK_FALSE(data.contains("world_script"));
+  CHECK(content(folder / "report.html").find(world_licences()) == std::string::npos);
+}
+
 TEST_CASE("plots are the scenario's, or else the default ones") {
   const TemporaryFolder folder;
   Results results = sample(folder);

@@ -47,6 +47,10 @@ struct Folder {
     folder.write("units/world/film/0.jpg", "zero");
     folder.write("units/world/film/1.jpg", "one");
   }
+  void world(const std::string& content) const {
+    std::filesystem::create_directories(folder / "units/world");
+    folder.write("units/world/world.glb", content);
+  }
 };
 
 }  // namespace
@@ -152,6 +156,48 @@ TEST_CASE("no link below the folder is followed to a film") {
     const Results results = f.read();
     CHECK(results.films.empty());
     CHECK_THAT(results.notes.at(0), Equals(std::string("units/world/film") + refused));
+  }
+}
+
+TEST_CASE("a component's world is a binary glTF 2.0 file, or is left out with the reason") {
+  const Folder f;
+  // magic, version, length: https://registry.khronos.org/glTF/specs/2.0/glTF-2.0.html
+  const std::string whole("glTF\2\0\0\0\x10\0\0\0rest", 16);
+  SECTION("whole") {
+    f.world(whole);
+    const Results results = f.read();
+    CHECK(results.notes.empty());
+    REQUIRE(results.worlds.size() == 1);
+    CHECK(results.worlds[0].component == "world");
+    CHECK(results.worlds[0].file == "units/world/world.glb");
+  }
+  SECTION("not whole") {
+    const auto [content, reason] = GENERATE_COPY(table<std::string, std::string>(
+        {{whole.substr(0, 15), "it has 15 bytes, but its header says 16"},
+         {whole + "more", "it has 20 bytes, but its header says 16"},
+         {whole.substr(0, 11), "it is no binary glTF 2.0 file"},
+         {"", "it is no binary glTF 2.0 file"},
+         {std::string("glTF\1\0\0\0\x10\0\0\0rest", 16), "it is no binary glTF 2.0 file"},
+         {"{\"asset\": {\"version\": \"2.0\"}}", "it is no binary glTF 2.0 file"}}));
+    f.world(content);
+    const Results results = f.read();
+    CHECK(results.worlds.empty());
+    REQUIRE(results.notes.size() == 1);
+    CHECK(results.notes[0] == "units/world/world.glb: left out: " + reason);
+  }
+  SECTION("too large") {
+    f.world(whole);
+    std::filesystem::resize_file(f.folder / "units/world/world.glb", kLargestWorld + 1);
+    CHECK(f.read().worlds.empty());
+    CHECK(f.read().notes.at(0) == "units/world/world.glb: left out: it is larger than 64 MiB");
+  }
+  SECTION("a link") {
+    f.world(whole);
+    std::filesystem::rename(f.folder / "units/world/world.glb", f.folder / "elsewhere.glb");
+    std::filesystem::create_symlink(f.folder / "elsewhere.glb", f.folder / "units/world/world.glb");
+    CHECK(f.read().worlds.empty());
+    CHECK(f.read().notes.at(0) ==
+          "units/world/world.glb: left out: it is a link, or no regular file");
   }
 }
 

@@ -3,10 +3,11 @@ import { moveByMessages, moveBySamples } from "./cursor.js";
 
 /** @returns {Record<string, (argument?: any) => void>} */
 export function actionsOf(context, theme, help) {
-  const { view } = context;
+  const { view, player } = context;
   return {
     moveBySamples: (count) => moveBySamples(context, count),
     moveByMessages: (direction) => moveByMessages(context, direction),
+    play: player && (() => player.toggle()),
     zoom: (factor) => view.zoom(factor),
     pan: (share) => view.pan(share),
     showWhole: () => view.showWhole(),

@@ -18,6 +18,7 @@ export const kBindings = [
   { keys: ["ArrowLeft"], shown: "←", text: "sample before (Shift: ten)", action: "moveBySamples", argument: -1 },
   { keys: ["n"], shown: "n", text: "next message", action: "moveByMessages", argument: 1 },
   { keys: ["p"], shown: "p", text: "message before", action: "moveByMessages", argument: -1 },
+  { keys: [" "], shown: "Space", text: "play or pause", action: "play" },
   { keys: ["Home"], shown: "Home", text: "first sample", action: "moveBySamples", argument: -Infinity },
   { keys: ["End"], shown: "End", text: "last sample", action: "moveBySamples", argument: Infinity },
   { keys: ["+", "="], shown: "+", text: "zoom in at the cursor", action: "zoom", argument: 0.5 },
@@ -44,15 +45,16 @@ export function actionOf({ key, shiftKey, ctrlKey, altKey, metaKey }) {
 }
 
 /** Keys that a part of the page needs for itself. */
-function isTaken(target) {
-  return target instanceof Element && target.closest("input, select, textarea, dialog, [contenteditable]") !== null;
+function isTaken({ target, key }) {
+  const takers = `input, select, textarea, dialog, [contenteditable]${key === " " ? ", button, summary" : ""}`;
+  return target instanceof Element && target.closest(takers) !== null;
 }
 
-/** @param {Record<string, (argument: any) => void>} actions by name */
+/** @param {Record<string, (argument: any) => void>} actions by name; keys of others do nothing */
 export function listenToKeys(actions) {
   document.addEventListener("keydown", (event) => {
-    const meant = isTaken(event.target) ? undefined : actionOf(event);
-    if (!meant) return;
+    const meant = isTaken(event) ? undefined : actionOf(event);
+    if (!meant || !actions[meant.action]) return;
     event.preventDefault();
     actions[meant.action](meant.argument);
   });

@@ -17,6 +17,7 @@ import { firstFailure, summary } from "./parts/verdicts.js";
 import { timeStack } from "./rows.js";
 import { startPage } from "./start.js";
 import { View } from "./view.js";
+import { loadWorldPart } from "./world_part.js";
 
 const coverage = ({ report, view, tip }) =>
   coverageSection(report.coverage, {
@@ -41,8 +42,10 @@ function build(report) {
   const view = new View(report.whole);
   const tip = new Tip();
   const theme = new Theme();
-  const help = helpDialog();
-  const context = { report, view, tip };
+  const { worldPart } = report;
+  const player = worldPart && new worldPart.Player(view);
+  const context = { report, view, tip, player, worldPart };
+  const help = helpDialog(worldPart?.kWorldMouse);
   const actions = actionsOf(context, theme, help);
   const stack = timeStack(context, actions);
   document.title = pageTitle(report.run.system ?? "run", summary(report.run).kind === "bad", "report");
@@ -63,7 +66,19 @@ function build(report) {
   theme.addEventListener("change", () => stack.redraw());
   printWell(theme, stack);
   openAtFailure(context);
-  return { report, view, stack, theme };
+  return { report, view, stack, theme, player };
 }
 
-startPage("Reading the run", readReport, build);
+/** With what shows worlds, where there are some. */
+async function read(data, progress) {
+  const report = await readReport(data, progress);
+  if (report.worlds.length === 0) return report;
+  try {
+    report.worldPart = await loadWorldPart(data.world_script);
+  } catch (error) {
+    report.notes.push(`The world in 3D cannot be shown: ${error.message}.`);
+  }
+  return report;
+}
+
+startPage("Reading the run", read, build);

@@ -87,15 +87,24 @@ function addActivity(context, stack) {
   }
 }
 
-/** Stays in sight while the others scroll: the time axis, and the films, if there are some. */
+/** Stays in sight while the others scroll: the time axis, and films and worlds, if there are some. */
 function headRow(context) {
-  const parts = [new Ruler(context), ...filmStrips(context)];
+  const films = filmStrips(context);
+  const worlds = context.worldPart?.worldViews(context, films) ?? [];
+  const parts = [new Ruler(context), ...films, ...worlds];
   const pictures = parts.map(({ picture }) => picture).filter(Boolean);
+  const strips = films.length + worlds.filter(({ strip }) => strip).length;
   const element = row(
-    h("div", { style: { "--films": String(pictures.length) } }, ...parts.map(({ box }) => box)),
+    h("div", { style: { "--films": String(strips) } }, ...parts.map(({ box }) => box)),
     pictures.length > 0 ? h("div.film-pictures", {}, ...pictures) : null,
   );
-  return { element, draw: (width) => parts.forEach((part) => part.draw(width)) };
+  element.classList.toggle("with-world", worlds.length > 0);
+  return {
+    element,
+    worlds,
+    draw: (width) => parts.forEach((part) => part.draw(width)),
+    print: () => worlds.forEach((world) => world.print()),
+  };
 }
 
 /** @param {Record<string, (argument?: any) => void>} actions of the keys */
@@ -105,6 +114,7 @@ export function timeStack(context, actions) {
   const head = h("div.timebar", {}, toolbar.box, top.element);
   const stack = new Stack(context.view, head, top.element.firstChild, failureTimes(context.report.run));
   stack.add(top, head);
+  stack.worlds = top.worlds;
   for (const name of ["view", "cursor"]) context.view.addEventListener(name, () => toolbar.update());
   toolbar.update();
   addMessages(context, stack);

@@ -8,10 +8,14 @@ const kClick = 4;
 /** The zoom factor of one turn of the wheel. */
 const kWheel = 1.0015;
 
+/** Whether it is over a part of the page to which the mouse does something else. */
+const hasOwnMouse = (event) => event.target.closest(".own-mouse") !== null;
+
 /**
  * @typedef {object} Row
  * @property {HTMLElement} element with the drawing at its left edge
  * @property {(width: number) => void} draw
+ * @property {() => void} [print] what paper needs beside
  */
 
 export class Stack {
@@ -75,7 +79,10 @@ export class Stack {
 
   /** Draws all rows, for paper. */
   drawEverything() {
-    for (const row of this.#rows.values()) row.draw(this.width);
+    for (const row of this.#rows.values()) {
+      row.draw(this.width);
+      row.print?.();
+    }
   }
 
   #onSight(entries) {
@@ -127,7 +134,7 @@ export class Stack {
     this.element.addEventListener("pointerup", (event) => this.#onUp(event));
     this.element.addEventListener("pointercancel", () => this.#endDrag());
     this.element.addEventListener("pointerleave", () => this.#onLeave());
-    this.element.addEventListener("dblclick", (event) => this.#timeAt(event).isInside && this.view.showWhole());
+    this.element.addEventListener("dblclick", (event) => this.#onDoubleClick(event));
     this.element.addEventListener("wheel", (event) => this.#onWheel(event), { passive: false });
   }
 
@@ -144,6 +151,7 @@ export class Stack {
 
   #onMove(event) {
     const place = this.#timeAt(event);
+    if (!this.drag && hasOwnMouse(event)) return;
     if (!this.drag) {
       if (!this.view.isHeld) this.view.moveCursor(place.isInside ? place.time : null);
       return;
@@ -184,9 +192,13 @@ export class Stack {
     this.selection.style.width = `${Math.max(0, right - left)}px`;
   }
 
+  #onDoubleClick(event) {
+    if (this.#timeAt(event).isInside && !hasOwnMouse(event)) this.view.showWhole();
+  }
+
   #onWheel(event) {
     const place = this.#timeAt(event);
-    if (!place.isInside || !(event.ctrlKey || event.shiftKey)) return;
+    if (!place.isInside || hasOwnMouse(event) || !(event.ctrlKey || event.shiftKey)) return;
     event.preventDefault();
     const turn = event.deltaY || event.deltaX;
     if (event.ctrlKey) this.view.zoom(kWheel ** turn, place.time);

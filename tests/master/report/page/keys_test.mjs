@@ -3,6 +3,7 @@ import { readFileSync } from "node:fs";
 import test from "node:test";
 import { actionOf, kBindings } from "../../../../master/report/page/src/keys.js";
 import { kMouse } from "../../../../master/report/page/src/parts/help.js";
+import { kWorldMouse } from "../../../../master/report/page/src/world/mouse.js";
 
 const documented = () => readFileSync(new URL("../../../../docs/report.md", import.meta.url), "utf8");
 
@@ -38,9 +39,15 @@ test("docs/report.md has all keys", () => {
   assert.deepEqual(keys.sort(), kBindings.map(({ shown }) => shown).sort());
 });
 
+/** The first column of the table in docs/report.md that begins with this head. */
+function firstColumn(head) {
+  const [, table] = documented().match(new RegExp(`^\\| ${head} \\|.*\\n\\|---.*\\n((?:\\|.*\\n)+)`, "m"));
+  return [...table.matchAll(/^\| ([^|]+) \|/gm)].map(([, what]) => what);
+}
+
 test("docs/report.md and the help have all that the mouse does", () => {
   const names = kMouse.map(([what]) => what.replace(" + ", " and "));
   assert.ok(names.includes("Shift and wheel"));
-  const [, table] = documented().match(/^\| mouse \|.*\n\|---.*\n((?:\|.*\n)+)/m);
-  assert.deepEqual([...table.matchAll(/^\| ([^|]+) \|/gm)].map(([, what]) => what), names);
+  assert.deepEqual(firstColumn("mouse"), names);
+  assert.deepEqual(firstColumn("in the world"), kWorldMouse.map(([what]) => what.replace(" + ", " and ")));
 });

@@ -4,6 +4,7 @@
 
 #include <regex>
 #include <string>
+#include <string_view>
 
 #include <catch2/catch.hpp>
 
@@ -45,4 +46,11 @@ TEST_CASE("the page of a run carries the licences of what is bundled") {
     CHECK(page.find(std::string("\n") + name + "\n") != std::string::npos);
   }
   CHECK(page.find("Permission is hereby granted") != std::string::npos);
+}
+
+TEST_CASE("what draws worlds has its licences apart, since it is not in all pages") {
+  const std::string licences(report::world_licences());
+  CHECK(licences.find("\nthree\n") != std::string::npos);
+  CHECK(licences.find("Permission is hereby granted") != std::string::npos);
+  CHECK(report::page().find("\nthree\n") == std::string_view::npos);
 }

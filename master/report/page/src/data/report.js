@@ -137,6 +137,7 @@ export async function readReport(data, progress) {
     activity,
     idle: allIdle(units, activity),
     films: await Promise.all((data.films ?? []).map(readFilm)),
+    worlds: data.worlds ?? [],
     coverage: data.coverage,
     diagram: data.diagram ?? { components: [], connections: [] },
   };

@@ -12,17 +12,21 @@ export const kMouse = [
   ["double click", "the whole run"],
 ];
 
+const tableOf = (entries) => h("table", {}, h("tbody", {}, ...entries.map(row)));
 const row = ([what, text]) => h("tr", {}, h("th", { scope: "row" }, h("kbd", {}, what)), h("td", {}, text));
 
-export function helpDialog() {
-  const keys = kBindings.map(({ shown, text }) => [shown, text]);
+/** @param {string[][]} [worldMouse] what the mouse does in a world, if there is one, which can also be played */
+export function helpDialog(worldMouse) {
+  const bindings = kBindings.filter(({ action }) => action !== "play" || worldMouse);
+  const keys = bindings.map(({ shown, text }) => [shown, text]);
   const dialog = h(
     "dialog.help",
     { "aria-label": "Keys" },
     h("h2", {}, "Keys"),
-    h("table", {}, h("tbody", {}, ...keys.map(row))),
+    tableOf(keys),
     h("h2", {}, "Mouse"),
-    h("table", {}, h("tbody", {}, ...kMouse.map(row))),
+    tableOf(kMouse),
+    ...(worldMouse ? [h("h2", {}, "The world in 3D"), tableOf(worldMouse)] : []),
     h("button", { type: "button", onclick: () => dialog.close() }, "Close"),
   );
   dialog.addEventListener("click", (event) => event.target === dialog && dialog.close());

@@ -23,6 +23,7 @@ export class Toolbar {
       h(
         "span.buttons",
         {},
+        context.player ? context.worldPart.playerButtons(context.player) : null,
         button("‹ msg", "Message before (p)", () => actions.moveByMessages(-1)),
         button("msg ›", "Next message (n)", () => actions.moveByMessages(1)),
         button("−", "Zoom out (−)", () => actions.zoom(2)),

@@ -13,9 +13,11 @@ from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.by import By
 from selenium.webdriver.common.keys import Keys
 
-SWITCHES = ["--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--hide-scrollbars",
+SWITCHES = ["--headless", "--no-sandbox", "--disable-quic", "--no-first-run", "--hide-scrollbars",
             "--disable-background-networking", "--disable-component-update", "--disable-sync",
             "--window-size=1400,1000"]
+WITHOUT_WEBGL = ["--disable-gpu", "--disable-3d-apis"]
+IN_SOFTWARE = ["--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
 PATIENCE = 120  # s, for a page to be read; no measure of how long it takes
 
 
@@ -29,14 +31,14 @@ def find_or_skip():
 
 
 class Browser:
-    """One browser; each `open` is one page."""
+    """One browser; each `open` is one page. WebGL is drawn in software, if at all."""
 
-    def __init__(self):
+    def __init__(self, webgl=False):
         binary, driver = find_or_skip()
         self.profile = tempfile.mkdtemp()
         options = webdriver.ChromeOptions()
         options.binary_location = binary
-        for switch in [*SWITCHES, f"--user-data-dir={self.profile}"]:
+        for switch in [*SWITCHES, *(IN_SOFTWARE if webgl else WITHOUT_WEBGL), f"--user-data-dir={self.profile}"]:
             options.add_argument(switch)
         options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
         self.driver = webdriver.Chrome(options=options, service=Service(driver))
