@@ -56,7 +56,7 @@ export class WorldView {
     this.kinds = kindSwitch((kind) => this.choose(kind));
     this.strip = this.film ? undefined : new WorldStrip(this.context, component);
     this.controls = h("div.world-controls", { role: "group", "aria-label": `World of ${component}` });
-    const name = h("span.lane-name", { title: component }, this.strip ? "" : component);
+    const name = h("span.lane-name", { title: component }, this.context.report.worlds.length > 1 ? component : "");
     this.box = h("div.world", {}, this.strip?.box, h("div.world-bar", {}, name, this.controls));
     this.choose(this.film ? "film" : "3D");
   }
