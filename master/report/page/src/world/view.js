@@ -148,6 +148,7 @@ export class WorldView {
     this.larger.setAttribute("aria-pressed", String(isLarge));
     this.frame.style.height = ""; // as the user has drawn it
     this.#widen();
+    this.picture.scrollIntoView({ block: "nearest" });
   }
 
   /** The place of a large world is as wide as the page. */

@@ -5,6 +5,8 @@ import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 /** The field of view of the free camera [degree], and the direction in which it stands at first. */
 const kFieldOfView = 45;
 const kDirection = new Vector3(0.6, 0.6, 1).normalize();
+/** How far, as a share of where all of the sphere around the world is seen: most worlds do not fill it. */
+const kDistance = 0.85;
 /** The farthest that is seen, as a multiple of the nearest; what a depth buffer distinguishes well. */
 const kDepth = 2e4;
 /** Steps of the keys: [rad], [px], a factor. */
@@ -135,7 +137,7 @@ export class Eye extends EventTarget {
   #stand(camera, aspect) {
     const { center, radius } = this.bounds.solid;
     const half = Math.tan(MathUtils.degToRad(kFieldOfView / 2)) * Math.min(1, aspect);
-    camera.position.copy(center).addScaledVector(kDirection, radius / Math.sin(Math.atan(half)));
+    camera.position.copy(center).addScaledVector(kDirection, (kDistance * radius) / Math.sin(Math.atan(half)));
     camera.lookAt(center);
   }
 

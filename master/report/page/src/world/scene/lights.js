@@ -8,20 +8,22 @@ const kShadowPixels = 1024;
 
 /**
  * @param {object} scene that is lit
- * @param {object} camera of the eye
  * @param {{center: Vector3, radius: number}} bounds of what casts shadows
+ * @returns {(camera: object) => void} to be called before each drawing
  */
-export function light(scene, camera, bounds) {
+export function light(scene, bounds) {
   const lights = [];
   scene.traverse((node) => node.isLight && lights.push(node));
   const isLit = lights.length > 0;
   const ambient = new HemisphereLight("#ffffff", "#b8b4ae", (isLit ? 0.3 : 0.55) * kFull);
   const headlight = new DirectionalLight("#ffffff", (isLit ? 0.25 : 0.5) * kFull);
-  camera.add(headlight, headlight.target);
-  headlight.target.position.set(0, 0, -1);
-  scene.add(ambient, camera);
+  scene.add(ambient, headlight, headlight.target);
   const shadowing = lights.find((each) => each.isDirectionalLight || each.isSpotLight);
   if (shadowing) castShadows(scene, shadowing, bounds);
+  return (camera) => {
+    headlight.position.copy(camera.position);
+    camera.getWorldDirection(headlight.target.position).add(camera.position);
+  };
 }
 
 function castShadows(scene, lamp, bounds) {

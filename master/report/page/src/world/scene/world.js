@@ -12,6 +12,7 @@ const kMostPixels = 2;
 export class World extends EventTarget {
   #model;
   #scene = new Scene();
+  #aimLight;
   #renderer;
   #contactPaint = contactPaint();
   #marks;
@@ -25,7 +26,7 @@ export class World extends EventTarget {
     this.#scene.add(model.root);
     const bounds = model.bounds();
     this.eye = new Eye(canvas, model.cameras, bounds);
-    light(this.#scene, this.eye.camera, bounds.solid);
+    this.#aimLight = light(this.#scene, bounds.solid);
     this.#marks = {
       contacts: contactMarks(model.contacts, this.#contactPaint),
       frames: siteMarks(model.sites),
@@ -121,14 +122,13 @@ export class World extends EventTarget {
     const { width, height } = this.#size;
     this.eye.update(width / height);
     for (const marks of Object.values(this.#marks)) marks.fit(this.eye.camera, height);
-    this.#renderer.render(this.#scene, this.eye.camera);
+    this.#render(this.eye.camera);
     this.dispatchEvent(new Event("drawn"));
   }
 
-  /** The picture as it is drawn, as an address of its data. */
-  picture() {
-    this.draw();
-    return this.canvas.toDataURL();
+  #render(camera) {
+    this.#aimLight(camera);
+    this.#renderer.render(this.#scene, camera);
   }
 
   /**
@@ -143,7 +143,7 @@ export class World extends EventTarget {
     this.#setSize(width, height);
     times.forEach((seconds, index) => {
       this.#model.pose(seconds);
-      this.#renderer.render(this.#scene, camera);
+      this.#render(camera);
       take(index, this.canvas);
     });
     this.#model.pose(posed);
