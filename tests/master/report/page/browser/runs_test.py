@@ -48,7 +48,7 @@ class RunsTest(unittest.TestCase):
 
     @classmethod
     def setUpClass(cls):
-        cls.browser = Browser()
+        cls.browser = Browser(webgl=True)
 
     @classmethod
     def tearDownClass(cls):
@@ -123,6 +123,44 @@ class RunsTest(unittest.TestCase):
         self.assertTrue(browser.run(f"const box = {led}.getBoundingClientRect();"
                                     "return box.top >= 0 && box.bottom <= innerHeight"))
 
+    def test_the_world_of_the_flagship_is_where_the_signals_say(self):
+        results = self.run_scenario(self.scenarios / "nfc_approach" / "nfc_approach.ssd", "--scene",
+                                    "--signals", "world.site.*", "--signals", "sensor.led")
+        with open(results / "signals.csv", newline="", encoding="utf-8") as file:
+            rows = [{name.split(" [")[0]: value for name, value in row.items()} for row in csv.DictReader(file)]
+        browser = self.open_report(results)
+        browser.wait_for("return document.querySelector('.world-picture').ariaBusy === 'false'")
+        samples = [row for row in rows if row["time"] in {str(3 * i) for i in range(11)}]
+        self.assertEqual(len(samples), 11)
+        for row in samples:  # between them the motion is interpolated
+            browser.run("stride.view.holdCursor(Number(arguments[0])); stride.view.flush()", row["time"])
+            for site in ("tag_coil", "reader_coil"):
+                place = browser.run("return stride.stack.worlds[0].world.positionOf(arguments[0])", site)
+                for axis, value in zip("xyz", place):
+                    self.assertAlmostEqual(value, float(row[f"world.site.{site}.position.{axis}"]), delta=1e-5)
+        switched = [(before, row) for before, row in zip(rows, rows[1:]) if before["sensor.led"] != row["sensor.led"]]
+        self.assertGreaterEqual(len(switched), 2)
+        for before, row in switched:
+            lit = {entry["sensor.led"]: self.lit_pixels(browser, entry["time"]) for entry in (before, row)}
+            self.assertEqual(lit["false"], 0, row["time"])
+            self.assertGreater(lit["true"], 0, row["time"])
+
+    @staticmethod
+    def lit_pixels(browser, seconds):
+        """The pixels of the world's picture that are as red as the LED where it shines."""
+        return browser.run("""
+          const { world } = stride.stack.worlds[0];
+          stride.view.holdCursor(Number(arguments[0])); stride.view.flush();
+          world.draw();
+          const copy = document.createElement("canvas");
+          Object.assign(copy, { width: world.canvas.width, height: world.canvas.height });
+          const context = copy.getContext("2d");
+          context.drawImage(world.canvas, 0, 0);
+          const { data } = context.getImageData(0, 0, copy.width, copy.height);
+          let count = 0;
+          for (let i = 0; i < data.length; i += 4) count += data[i] > 200 && data[i + 1] < 80 && data[i + 2] < 80;
+          return count;""", seconds)
+
     def test_a_million_samples(self):
         scenario = million_samples(self.folder)
         results = self.run_scenario(scenario, "--set", "f0.u=1", "--set", "f0.time_constant=1e-3")
@@ -141,4 +179,4 @@ if __name__ == "__main__":
     RunsTest.program = sys.argv[1]
     RunsTest.scenarios, RunsTest.folder = (Path(argument) for argument in sys.argv[2:4])
     os.makedirs(RunsTest.folder, exist_ok=True)
-    unittest.main(argv=sys.argv[:1])
+    unittest.main(argv=[sys.argv[0], *sys.argv[4:]])
