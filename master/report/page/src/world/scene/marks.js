@@ -41,6 +41,7 @@ export class Marks {
   /** @param {{node: object}[]} entries @param {() => object} make @param {number} size [px] */
   constructor(entries, make, size) {
     this.#size = size;
+    this.areShown = false;
     this.#marks = entries.map(({ node }) => {
       const mark = make();
       mark.visible = false;
@@ -51,6 +52,7 @@ export class Marks {
 
   /** @param {boolean} areShown */
   show(areShown) {
+    this.areShown = areShown;
     for (const mark of this.#marks) mark.visible = areShown;
   }
 

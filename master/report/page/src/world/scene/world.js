@@ -132,13 +132,15 @@ export class World extends EventTarget {
   }
 
   /**
-   * Small pictures of some instants, as the world is seen at first. What is on the canvas stays.
+   * Small pictures of some instants, without marks, as the world is seen at first. What is on the canvas stays.
    * @param {number[]} times [s] @param {number} width @param {number} height [px]
    * @param {(index: number, picture: HTMLCanvasElement) => void} take is called with each
    */
   pictures(times, width, height, take) {
     if (this.#renderer.getContext().isContextLost()) return;
     const { posed } = this;
+    const marks = Object.values(this.#marks).filter(({ areShown }) => areShown);
+    marks.forEach((each) => each.show(false));
     const camera = this.eye.first(width / height);
     this.#setSize(width, height);
     times.forEach((seconds, index) => {
@@ -147,6 +149,7 @@ export class World extends EventTarget {
       take(index, this.canvas);
     });
     this.#model.pose(posed);
+    marks.forEach((each) => each.show(true));
     this.#setSize(this.#size.width, this.#size.height);
     this.draw();
   }
