@@ -106,6 +106,12 @@ class WorldTest(WorldPage):
           for (const button of document.querySelectorAll('.world-controls [aria-pressed=true]')) button.click();""")
         self.browser.run(f"{WORLD}.eye.reset()")
 
+    def wait_for_strip(self):
+        """Until the pictures along the axis are drawn, for which the page waits a little: timers are called in turn."""
+        self.browser.settle()
+        self.browser.driver.execute_async_script("setTimeout(arguments[0], 500)")
+        self.browser.settle()
+
     def choose(self, label, text):
         Select(self.browser.one(f"select[aria-label={label}]")).select_by_visible_text(text)
         self.browser.settle()
@@ -146,7 +152,7 @@ class WorldTest(WorldPage):
 
     def test_nothing_is_drawn_while_nothing_changes(self):
         browser = self.browser
-        browser.settle()
+        self.wait_for_strip()
         browser.run(f"window.drawn = 0; {WORLD}.addEventListener('drawn', () => ++window.drawn)")
         for _ in range(5):
             browser.settle()
@@ -158,7 +164,7 @@ class WorldTest(WorldPage):
 
     def test_pictures_along_the_axis_are_of_their_instants(self):
         browser = self.browser
-        browser.wait_for("return [...document.querySelectorAll('.film-track canvas')].every((c) => c.width !== 300)")
+        self.wait_for_strip()
         shares = browser.run(f"""return [...document.querySelectorAll('.film-track canvas')].map((canvas) => {{
           const found = (function () {{{COUNT}}})(canvas, arguments[0]); return found.x / found.width; }})""", RED)
         self.assertGreater(len(shares), 3)
