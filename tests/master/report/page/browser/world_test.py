@@ -364,6 +364,16 @@ class PagesTest(WorldPage):
         self.assertIn("cannot be shown", self.browser.one(".world-controls .note").text)
         self.assertEqual(len(self.browser.all("[role=alert]")), 0)
 
+    def test_a_page_whose_part_for_worlds_does_not_run_is_whole_without_it(self):
+        data = run_of()
+        data["worlds"] = [{"component": "world", "file": page_data.pack("uint8", world_file.sample())}]
+        data["world_script"] = page_data.pack("uint8", b"this is no script")
+        self.open_data("no_script", data)
+        self.assertEqual(self.browser.texts(".warning"),
+                         ["The world in 3D cannot be shown: its script does not run in this browser."])
+        self.assertEqual(len(self.browser.all(".pane")), 1)
+        self.assertEqual(len(self.browser.all(".world-picture, .play")), 0)
+
     def test_a_world_that_names_other_files_loads_none(self):
         world = world_file.WorldFile()
         world.node("box", mesh=world.box([1, 1, 1]))
