@@ -49,5 +49,8 @@ test("docs/report.md and the help have all that the mouse does", () => {
   const names = kMouse.map(([what]) => what.replace(" + ", " and "));
   assert.ok(names.includes("Shift and wheel"));
   assert.deepEqual(firstColumn("mouse"), names);
-  assert.deepEqual(firstColumn("in the world"), kWorldMouse.map(([what]) => what.replace(" + ", " and ")));
+  assert.deepEqual(
+    firstColumn("in the world"),
+    kWorldMouse.map(([what]) => what.replace(" + ", " and ")),
+  );
 });

@@ -29,7 +29,7 @@ export class WorldView {
     this.canvas = h("canvas.world-canvas", {
       tabIndex: 0,
       role: "application",
-      "aria-label": `World of ${component} in 3D. Arrow keys turn it, with Shift they move it, + and - go nearer and away`,
+      "aria-label": `World of ${component} in 3D. Arrow keys turn it, with Shift they move it, + and - zoom`,
       onkeydown: (event) => this.#onKey(event),
       onpointermove: (event) => this.#onMove(event),
       onpointerleave: () => this.context.tip.hide(),
@@ -64,8 +64,9 @@ export class WorldView {
   async #open(packed) {
     const bytes = await unpack(packed);
     this.world = await World.open(this.canvas, bytes.buffer);
-    this.world.addEventListener("drawn", () => this.#caption());
-    this.world.addEventListener("lost", () => this.#say("The browser has taken the graphics away, and may give it back."));
+    this.world.addEventListener("lost", () =>
+      this.#say("The browser has taken the graphics away, and may give them back."),
+    );
     this.world.addEventListener("restored", () => this.#say(""));
     new ResizeObserver(() => this.#fit()).observe(this.frame);
     this.controls.replaceChildren(...worldControls(this.world));
@@ -102,8 +103,10 @@ export class WorldView {
 
   /** Poses the world as it was at the cursor; without one as at the begin of what is shown, as a film does. */
   update() {
+    if (!this.world) return;
     const { view } = this.context;
-    this.world?.pose(view.cursor ?? view.from);
+    this.world.pose(view.cursor ?? view.from);
+    this.#caption();
   }
 
   draw(width) {

@@ -53,19 +53,23 @@ def run_of(rows=101, **more):
                             [("Place", ["a.x"])], run=run)
 
 
+def tearDownModule():
+    for browser in WorldPage.browsers.values():
+        browser.close()
+
+
 class WorldPage(unittest.TestCase):
     """What all tests need: a browser, and pages with the sample of world_file.py."""
 
     page = script = folder = None
     has_webgl = True
+    browsers = {}
 
     @classmethod
     def setUpClass(cls):
-        cls.browser = Browser(webgl=cls.has_webgl)
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.browser.close()
+        if cls.has_webgl not in cls.browsers:
+            cls.browsers[cls.has_webgl] = Browser(webgl=cls.has_webgl)
+        cls.browser = cls.browsers[cls.has_webgl]
 
     @classmethod
     def open_world(cls, name, *, world=None, film=False, data=None, **options):

@@ -1,5 +1,5 @@
-// Light: that of the file, with the shadows of one of its lamps, and some that comes from everywhere and from the eye, so
-// that worlds without lights are seen.
+// Light: that of the file, with the shadows of one of its lights, and some that comes from everywhere and from the eye,
+// so that worlds without lights are seen.
 import { DirectionalLight, HemisphereLight, Vector3 } from "three";
 
 /** A white surface that faces a directional light of this strength is white. */

@@ -84,10 +84,6 @@ export function siteMarks(sites) {
     return bar;
   };
   const make = () =>
-    new Group().add(
-      turned(mesh(kBar, x), "y", Math.PI / 2),
-      turned(mesh(kBar, y), "x", -Math.PI / 2),
-      mesh(kBar, z),
-    );
+    new Group().add(turned(mesh(kBar, x), "y", Math.PI / 2), turned(mesh(kBar, y), "x", -Math.PI / 2), mesh(kBar, z));
   return new Marks(sites, make, kAxis);
 }

@@ -93,7 +93,10 @@ export class Model {
     return names;
   }
 
-  /** Around the whole world, and around what is not flat in it, as it is posed. @returns {{all: Sphere, solid: Sphere}} */
+  /**
+   * Around the whole world, and around what is not flat in it, as it is posed.
+   * @returns {{all: Sphere, solid: Sphere}}
+   */
   bounds() {
     const all = new Box3();
     const solid = new Box3();

@@ -8,7 +8,9 @@ import { Model } from "./model.js";
 /** More device pixels than these for each CSS pixel are not seen, but take their time. */
 const kMostPixels = 2;
 
-/** Events: "drawn"; "choice" if another camera or target is chosen; "lost" and "restored" of the WebGL context. */
+/**
+ * Events: "drawn", for tests; "choice" if another camera or target is chosen; "lost" and "restored" of WebGL.
+ */
 export class World extends EventTarget {
   #model;
   #scene = new Scene();
