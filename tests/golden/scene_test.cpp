@@ -41,7 +41,7 @@ TEST_CASE("the sites of the scene are where the signals have them") {
       const std::string site = "world.site.reader_coil.";
       // 1e-6 rad of each of six joints, up to a metre away
       CHECK(pose.translation()[i] ==
-            Approx(run.at(time, site + "position." + names[i])).margin(5e-6));
+            Approx(run.at(time, site + "position." + names[i] + " [m]")).margin(5e-6));
       CHECK(pose.linear()(i, 2) == Approx(run.at(time, site + "axis." + names[i])).margin(1e-5));
     }
   }
