@@ -7,4 +7,4 @@ source scripts/packages.sh
 install_packages "${packages_build[@]}"
 cmake --preset release -DSTRIDE_BUILD_TESTS=OFF --log-level=WARNING
 cmake --build --preset release
-exec build/release/bin/stride run scenarios/nfc_approach/nfc_approach.ssd --out results/nfc_approach --film=0.2 "$@"
+exec build/release/bin/stride run scenarios/nfc_approach/nfc_approach.ssd --out results/nfc_approach --film=0.2 --scene "$@"
