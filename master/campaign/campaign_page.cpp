@@ -136,7 +136,7 @@ Json sources_json(const Fingerprints& fingerprints) {
 /// Writes the members of the data one after the other.
 class PageWriter {
  public:
-  PageWriter(core::OutputFile& file, const Plan& plan, const CaseColumns& columns)
+  PageWriter(report::Sink& file, const Plan& plan, const CaseColumns& columns)
       : file_(file), plan_(plan), columns_(columns) {}
 
   void write(const std::string& working_folder, const std::vector<std::string>& links) {
@@ -233,7 +233,7 @@ class PageWriter {
     return made;
   }
 
-  core::OutputFile& file_;
+  report::Sink& file_;
   const Plan& plan_;
   const CaseColumns& columns_;
 };
@@ -263,7 +263,7 @@ void write_campaign_page(const fs::path& file, const Plan& plan, const CaseFolde
                          std::uint64_t most_cases) {
   const CaseColumns columns = read_case_columns(plan, cases, most_cases, std::move(coverage));
   report::write_page(
-      file, report::campaign_page(), plan.fingerprints().version, [&](core::OutputFile& output) {
+      file, report::campaign_page(), plan.fingerprints().version, [&](report::Sink& output) {
         PageWriter(output, plan, columns)
             .write(seen_from(file, fs::current_path()), links_to(cases, columns, file, report));
       });

@@ -49,18 +49,23 @@ bool start(std::vector<std::string> command) {
   return ::posix_spawnp(&process, arguments[0], nullptr, nullptr, arguments.data(), environ) == 0;
 }
 
-}  // namespace
-
-void open_in_browser(const std::filesystem::path& file) {
-  const std::string path = std::filesystem::absolute(file).string();
+void open(const std::string& what, const std::string& shown) {
   for (const std::string& browser : browsers()) {
-    if (start(words(browser, path))) return;
+    if (start(words(browser, what))) return;
   }
   core::fail_run({},
                  fmt::format("cannot open {}: there is no xdg-open, and BROWSER names no program "
                              "that can be started",
-                             file.string()),
-                 fmt::format("open {} in a browser", path));
+                             shown),
+                 fmt::format("open {} in a browser", what));
 }
+
+}  // namespace
+
+void open_in_browser(const std::filesystem::path& file) {
+  open(std::filesystem::absolute(file).string(), file.string());
+}
+
+void open_address_in_browser(const std::string& address) { open(address, address); }
 
 }  // namespace stride::cli

@@ -119,6 +119,8 @@ RecordedRun::RecordedRun(const RunSetup& setup, std::vector<std::unique_ptr<core
   setup_.capture.follow(simulation_);
   if (!setup_.capture.is_empty()) simulation_.add_observer(setup_.capture);
   if (!setup_.display.quiet) simulation_.add_observer(summary_, summary_.signals());
+  // its line comes before that of the progress, which is rewritten
+  if (setup_.display.live != nullptr) add_live_report();
   if (setup_.display.progress != ProgressStyle::None) simulation_.add_observer(progress_);
   if (setup_.display.real_time) {
     real_time_.emplace(*setup_.display.real_time, *setup_.options.interrupted);
@@ -130,6 +132,15 @@ RecordedRun::RecordedRun(const RunSetup& setup, std::vector<std::unique_ptr<core
 
 void RecordedRun::announce() const {
   if (const auto file = records_.announce(); !file.empty()) note_run_file(file);
+}
+
+void RecordedRun::add_live_report() {
+  live_.emplace(*setup_.display.live, setup_.results, [this] { flush(); });
+  live_->set_ready([opens = setup_.display.open_report](const std::string& address) {
+    put(stderr, fmt::format("The report while the run goes on: {}\n", address));
+    if (opens) warn_of_failure([&] { open_address_in_browser(address); });
+  });
+  simulation_.add_observer(*live_);
 }
 
 void RecordedRun::run() {
@@ -286,6 +297,7 @@ void RecordedRun::write_statistics(std::optional<std::string> error) {
 void RecordedRun::write_page() const {
   const std::filesystem::path page = records_.write_page();
   if (page.empty() || !setup_.display.open_report) return;
+  if (setup_.display.live != nullptr && setup_.display.live->has_started()) return;
   warn_of_failure([&] { open_in_browser(page); });
 }
 

@@ -14,6 +14,7 @@
 #include "master/algorithm/verdict.h"
 #include "master/capture/capture.h"
 #include "master/checkpoint/checkpoint_file.h"
+#include "master/cli/live_report.h"
 #include "master/cli/progress.h"
 #include "master/cli/real_time.h"
 #include "master/cli/run_arguments.h"
@@ -29,9 +30,10 @@ namespace stride::cli {
 struct RunDisplay {
   ProgressStyle progress = ProgressStyle::Auto;
   bool quiet = false;        ///< no summary
-  bool open_report = false;  ///< in a browser, when the run is over
+  bool open_report = false;  ///< in a browser, when the run is over, or when the live one is there
   std::optional<double>
-      real_time{};  ///< simulated seconds in one of the wall clock; none: no limit
+      real_time{};             ///< simulated seconds in one of the wall clock; none: no limit
+  LiveServer* live = nullptr;  ///< null: nobody looks on; must outlive the run
 };
 
 /// What a run is made from, and must outlive it.
@@ -99,6 +101,7 @@ class RecordedRun {
   void conclude_failure(const std::string& error);
   void conclude();
   void announce() const;
+  void add_live_report();
   void write_statistics(std::optional<std::string> error);
   void write_page() const;
   void tell_real_time() const;
@@ -114,6 +117,7 @@ class RecordedRun {
   std::optional<std::string> failure_{};
   Summary summary_;
   Progress progress_;
+  std::optional<LiveReport> live_{};
   std::optional<RealTime> real_time_{};
 };
 

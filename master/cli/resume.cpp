@@ -133,6 +133,7 @@ void change(RunArguments& arguments, Resumption& resumption, const RunArguments&
   arguments.real_time = changes.real_time;
   arguments.quiet = changes.quiet;
   arguments.open = changes.open;
+  arguments.live = changes.live;
 }
 
 void add_options(CLI::App& command, ResumeArguments& arguments) {

@@ -32,6 +32,7 @@ RunArguments full_run(const RunArguments& arguments) {
   full.captures.clear();
   full.junit.clear();
   full.real_time.reset();
+  full.live.clear();
   full.scenario.film.clear();
   full.scenario.scene.clear();
   full.no_trace = full.no_report = full.quiet = true;
@@ -93,6 +94,10 @@ void run_with_checks(RunArguments arguments) {
   if (arguments.checkpoints.are_wanted() || arguments.branches.request) {
     core::fail_input({}, "--check-idle cannot be combined with checkpoints and branches",
                      "use it in a run of its own");
+  }
+  if (!arguments.live.empty()) {
+    core::fail_input({}, "--check-idle and --live exclude each other",
+                     "look on at a run without --check-idle");
   }
   arguments.full_run = results_folder(arguments) / kFullRunFolder;
   arguments.promise_failure =

@@ -62,7 +62,12 @@ void add_display_options(CLI::App& command, RunArguments& arguments) {
           "Let the run wait for the wall clock where it is ahead of it; 1 is real time, 2 twice as "
           "fast")
       ->type_name("FACTOR");
-  command.add_flag("--open", arguments.open, "Open the report in a browser when the run is over");
+  // a flag, so that what follows a blank is the scenario
+  command.add_flag("--live", arguments.live,
+                   "Serve the report while the run goes on, to browsers on this machine: at a free "
+                   "port, or as in --live=PORT");
+  command.add_flag("--open", arguments.open,
+                   "Open the report in a browser when the run is over; with --live, when it begins");
   command.add_flag("--quiet,-q", arguments.quiet, "Print nothing but warnings and errors");
 }
 

@@ -38,6 +38,9 @@ struct ChildFailure {
   bool is_of_input = false;  ///< what the user gave is wrong
 };
 
+/// The value of a flag without one: --live.
+inline constexpr const char* kAnyLivePort = "true";
+
 struct RunArguments {
   scenario::ScenarioRequest scenario;
   std::filesystem::path out;
@@ -50,6 +53,7 @@ struct RunArguments {
   std::optional<ProgressStyle> progress;
   std::optional<double>
       real_time{};  ///< simulated seconds in one of the wall clock; none: no limit
+  std::string live{};  ///< a port, or kAnyLivePort; empty: no live report
   bool no_trace = false;
   bool no_report = false;
   bool open = false;  ///< the report

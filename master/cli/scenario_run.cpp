@@ -20,6 +20,7 @@
 #include "master/cli/end_note.h"
 #include "master/cli/idle_check.h"
 #include "master/cli/interruption.h"
+#include "master/cli/live_server.h"
 #include "master/cli/output.h"
 #include "master/cli/recorded_run.h"
 #include "master/cli/result_folders.h"
@@ -85,9 +86,11 @@ recorders::ResultFiles chosen_files(const RunArguments& arguments,
   recorders::ResultFiles files = results::possible_files(loaded);
   if (arguments.no_trace) files.trace.clear();
   if (arguments.no_report) files.report.clear();
-  if (arguments.open && files.report.empty()) {
-    core::fail_input({}, "--open: this run writes no report",
-                     "leave --open out, or let the run write its report");
+  for (const auto& [option, is_given] :
+       {std::pair{"--open", arguments.open}, std::pair{"--live", !arguments.live.empty()}}) {
+    if (!is_given || !files.report.empty()) continue;
+    core::fail_input({}, fmt::format("{}: this run writes no report", option),
+                     fmt::format("leave {} out, or let the run write its report", option));
   }
   return files;
 }
@@ -281,7 +284,7 @@ class UnitsOfRun {
 /// A run and all that belongs to it, from the first file that is read to the last that is written.
 class ScenarioRun {
  public:
-  ScenarioRun(const RunArguments& arguments, Records& records);
+  ScenarioRun(const RunArguments& arguments, Records& records, LiveServer* live);
 
   void run(CrashGuard& guard);
 
@@ -313,7 +316,7 @@ class ScenarioRun {
   BranchRuns branch_runs_;
 };
 
-ScenarioRun::ScenarioRun(const RunArguments& arguments, Records& records)
+ScenarioRun::ScenarioRun(const RunArguments& arguments, Records& records, LiveServer* live)
     : arguments_(arguments),
       records_(records),
       loaded_(arguments.scenario),
@@ -326,7 +329,8 @@ ScenarioRun::ScenarioRun(const RunArguments& arguments, Records& records)
       unit_folders_(results_.target().folder, loaded_.component_names()),
       units_(arguments, loaded_, results_.target().folder, options_),
       capture_(begin()),
-      display_{progress_style(arguments), arguments.quiet, arguments.open, arguments.real_time},
+      display_{progress_style(arguments), arguments.quiet, arguments.open, arguments.real_time,
+               live},
       recorded_({loaded_, options_, provenance_, results_.target(), display_, capture_,
                  records.tests, arguments.resumed.get(), &checkpoints_},
                 units_.take(capture_, options_)),
@@ -406,12 +410,21 @@ void run_scenario(RunArguments arguments) {
     core::fail_input({}, "--branch and checkpoints exclude each other",
                      "let one run write the checkpoint, and another one have the branches");
   }
+  if (arguments.branches.request && !arguments.live.empty()) {
+    core::fail_input({}, "--branch and --live exclude each other",
+                     "look on at a run without branches");
+  }
   arguments.scenario.files = check_output_paths(arguments);
   arguments.scenario.hosts.interrupted = &Interruption::flag();
   const core::ProcessState process;
   Records records{{arguments.junit, arguments.scenario.scenario}};
   if (core::is_file(arguments.junit))
     note_test_report(arguments.junit, arguments.scenario.scenario);
+  // closed when the files are complete and no unit is left
+  std::optional<LiveServer> live;
+  if (!arguments.live.empty()) {
+    live.emplace(arguments.live == kAnyLivePort ? 0 : parse_live_port(arguments.live));
+  }
   const core::SpareFiles spare;
   CrashGuard guard([&](const std::string& error) {
     core::SpareFiles::release_all();
@@ -419,7 +432,7 @@ void run_scenario(RunArguments arguments) {
     records.add(error);
   });
   try {
-    ScenarioRun(arguments, records).run(guard);
+    ScenarioRun(arguments, records, live ? &*live : nullptr).run(guard);
   } catch (const std::exception& failure) {
     process.restore();
     if (!records.tests.is_written()) records.tests.write(failure.what());

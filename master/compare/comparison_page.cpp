@@ -29,7 +29,7 @@ void keep_differing(report::Signals& signals, const Differences& differences) {
                 [&](const report::Column& column) { return !names.contains(column.name()); });
 }
 
-void write_run(core::OutputFile& file, const char* name, const report::Results& results) {
+void write_run(report::Sink& file, const char* name, const report::Results& results) {
   report::write_member(file, name, "{\"run\":");
   file.write(json_text(report::with_exact_integers(results.run.json)));
   report::write_member(file, "notes", json_text(results.notes));
@@ -44,7 +44,7 @@ void write_comparison_page(const std::filesystem::path& file, const Comparison& 
   report::Results a = read(comparison.a);
   report::Results b = read(comparison.b);
   keep_differing(b.signals, comparison.differences);
-  report::write_page(file, report::comparison_page(), version, [&](core::OutputFile& output) {
+  report::write_page(file, report::comparison_page(), version, [&](report::Sink& output) {
     report::write_member(output, "comparison", json_text(comparison_json(comparison, settings)));
     write_run(output, "a", a);
     write_run(output, "b", b);

@@ -18,7 +18,8 @@ namespace stride::report {
 /// in the folder, wherever that is, so that the same results make the same page.
 class Notes {
  public:
-  explicit Notes(std::filesystem::path folder) : folder_(std::move(folder)) {}
+  explicit Notes(std::filesystem::path folder, bool is_going_on = false)
+      : folder_(std::move(folder)), is_going_on_(is_going_on) {}
 
   void add(const std::filesystem::path& file, const std::string& text) {
     texts_.push_back(fmt::format("{}: {}", name(file), text));
@@ -33,9 +34,10 @@ class Notes {
   void add_unread(const std::filesystem::path& file, const std::optional<Table::Unread>& rows) {
     if (rows) texts_.push_back(fmt::format("{}:{}: {}", name(file), rows->line, rows->text));
   }
-  /// Of a file whose last line, if any, was cut off.
+  /// Of a file whose last line, if any, was cut off. Of a run that goes on it is still to be
+  /// written.
   void add_cut(const std::filesystem::path& file, std::optional<std::size_t> line) {
-    if (!line) return;
+    if (!line || is_going_on_) return;
     texts_.push_back(
         fmt::format("{}:{}: the last line was cut off and is left out", name(file), *line));
   }
@@ -47,6 +49,7 @@ class Notes {
   }
 
   std::filesystem::path folder_;
+  bool is_going_on_;
   std::vector<std::string> texts_;
 };
 

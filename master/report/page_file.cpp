@@ -9,6 +9,7 @@
 #include "master/report/page.h"
 #include "master/report/page_data.h"
 #include "master/util/error.h"
+#include "master/util/output_file.h"
 #include "master/util/replacement.h"
 
 namespace stride::report {
@@ -17,48 +18,84 @@ namespace {
 /// The scripts of the pages know it.
 constexpr int kFormat = 1;
 
-}  // namespace
+class FileSink final : public Sink {
+ public:
+  explicit FileSink(core::OutputFile& file) : file_(file) {}
+  void write(std::string_view text) override { file_.write(text); }
 
-void write_page(const std::filesystem::path& file, std::string_view page,
-                const std::string& version,
-                const std::function<void(core::OutputFile&)>& write_members,
-                std::string_view elements) {
+ private:
+  core::OutputFile& file_;
+};
+
+class TextSink final : public Sink {
+ public:
+  void write(std::string_view text) override { text_ += text; }
+  std::string take() { return std::move(text_); }
+
+ private:
+  std::string text_;
+};
+
+/// Where the data belong in the page.
+std::size_t data_mark(std::string_view page) {
   const std::size_t mark = page.find(kDataMark);
   if (mark == std::string_view::npos) {
     core::fail_input({}, "this stride was built without reports (STRIDE_REPORT=OFF)");
   }
-  core::Replacement written(file);
-  core::OutputFile& output = written.file();
-  output.write(page.substr(0, mark));
-  output.write(elements);
-  output.write(
+  return mark;
+}
+
+void write_to(Sink& sink, std::string_view page, const std::string& version,
+              const WriteMembers& write_members, std::string_view elements) {
+  const std::size_t mark = data_mark(page);
+  sink.write(page.substr(0, mark));
+  sink.write(elements);
+  sink.write(
       fmt::format(R"(<script type="application/json" id="stride-report">{{"format":{},"stride":{})",
                   kFormat, json_text(version)));
-  write_members(output);
-  output.write("}</script>\n");
-  output.write(page.substr(mark + kDataMark.size()));
+  write_members(sink);
+  sink.write("}</script>\n");
+  sink.write(page.substr(mark + kDataMark.size()));
+}
+
+}  // namespace
+
+void write_page(const std::filesystem::path& file, std::string_view page,
+                const std::string& version, const WriteMembers& write_members,
+                std::string_view elements) {
+  data_mark(page);
+  core::Replacement written(file);
+  FileSink sink(written.file());
+  write_to(sink, page, version, write_members, elements);
   written.commit();
 }
 
-void write_member(core::OutputFile& file, std::string_view name, std::string_view text) {
-  file.write(fmt::format(",\"{}\":", name));
-  file.write(text);
+std::string page_text(std::string_view page, const std::string& version,
+                      const WriteMembers& write_members, std::string_view elements) {
+  TextSink sink;
+  write_to(sink, page, version, write_members, elements);
+  return sink.take();
 }
 
-void write_signals(core::OutputFile& file, const Signals& signals) {
-  write_member(file, "time", blob(std::span(signals.times)));
-  write_member(file, "rows", std::to_string(signals.times.size()));
-  write_member(file, "columns", "[");
+void write_member(Sink& sink, std::string_view name, std::string_view text) {
+  sink.write(fmt::format(",\"{}\":", name));
+  sink.write(text);
+}
+
+void write_signals(Sink& sink, const Signals& signals) {
+  write_member(sink, "time", blob(std::span(signals.times)));
+  write_member(sink, "rows", std::to_string(signals.times.size()));
+  write_member(sink, "columns", "[");
   bool is_first = true;
   for (const Column& column : signals.columns) {
-    file.write(fmt::format(R"({}{{"name":{},"unit":{},"type":"{}","stepped":{},"values":)",
+    sink.write(fmt::format(R"({}{{"name":{},"unit":{},"type":"{}","stepped":{},"values":)",
                            std::exchange(is_first, false) ? "" : ",", json_text(column.name()),
                            json_text(column.unit()), core::name(column.type()),
                            column.is_stepped()));
-    file.write(blob(column.values()));
-    file.write('}');
+    sink.write(blob(column.values()));
+    sink.write('}');
   }
-  file.write(']');
+  sink.write(']');
 }
 
 }  // namespace stride::report

@@ -43,7 +43,7 @@ std::string title(std::string_view component, const Column& column) {
 /// Writes the members of the data, one after the other, so that no two large ones are in memory.
 class DataWriter {
  public:
-  DataWriter(core::OutputFile& file, const Results& results)
+  DataWriter(Sink& file, const Results& results)
       : file_(file), results_(results), folder_(results.folder) {}
 
   void write() {
@@ -146,10 +146,14 @@ class DataWriter {
     return {{"components", components}, {"connections", connections}};
   }
 
-  core::OutputFile& file_;
+  Sink& file_;
   const Results& results_;
   const core::UntrustedFolder folder_;
 };
+
+std::string_view elements_of(const Results& results) {
+  return results.worlds.empty() ? std::string_view() : world_licences();
+}
 
 }  // namespace
 
@@ -170,8 +174,23 @@ std::vector<recorders::Plot> default_plots(std::span<const Column> columns,
 
 void write_report(const fs::path& file, const Results& results, const std::string& version) {
   write_page(
-      file, page(), version, [&](core::OutputFile& output) { DataWriter(output, results).write(); },
-      results.worlds.empty() ? std::string_view() : world_licences());
+      file, page(), version, [&](Sink& output) { DataWriter(output, results).write(); },
+      elements_of(results));
+}
+
+std::string live_report(const Results& results, const std::string& version) {
+  constexpr std::string_view kPolicy =
+      R"(<meta http-equiv="Content-Security-Policy")"
+      "\n"
+      R"(  content=")";
+  std::string html(page());
+  if (const std::size_t at = html.find(kPolicy); at != html.npos) {
+    html.insert(at + kPolicy.size(), "connect-src 'self'; ");
+    html.insert(at, "<meta name=\"stride-live\">\n");
+  }
+  return page_text(
+      html, version, [&](Sink& output) { DataWriter(output, results).write(); },
+      elements_of(results));
 }
 
 }  // namespace stride::report

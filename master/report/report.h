@@ -25,6 +25,10 @@ std::vector<recorders::Plot> default_plots(std::span<const Column> columns,
 void write_report(const std::filesystem::path& file, const Results& results,
                   const std::string& version);
 
+/// The same page, made anew whenever it is asked for while the run goes on: it may connect to where
+/// it comes from, for the events that tell it of something new.
+std::string live_report(const Results& results, const std::string& version);
+
 }  // namespace stride::report
 
 #endif

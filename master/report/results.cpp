@@ -270,10 +270,10 @@ recorders::ResultFiles named_files(const fs::path& run) {
 }  // namespace
 
 Results read_results(const fs::path& folder, const recorders::ResultFiles& files,
-                     const Limits& limits) {
+                     const Limits& limits, RunState state) {
   Results results;
   results.folder = folder;
-  Notes notes(folder);
+  Notes notes(folder, state == RunState::GoingOn);
   results.run = read_present(folder, files.statistics, notes, &read_run_file);
   if (const auto file = present(folder, files.signals, notes)) {
     results.signals = read_signals(*file, results.run.signals, limits.signals, notes);

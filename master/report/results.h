@@ -50,6 +50,9 @@ struct Limits {
   std::uintmax_t picture_bytes = std::uintmax_t{1} << 30;  ///< of a film
 };
 
+/// Whether its files may end in the middle of a line because the rest is still to be written.
+enum class RunState { Over, GoingOn };
+
 struct Results {
   /// Where they are, the pictures and the worlds.
   std::filesystem::path folder;
@@ -70,7 +73,7 @@ struct Results {
 /// and films that cannot be read are left out, which is noted. Throws core::Error (Input) for a
 /// mistake in the signals, which names file, line and column, and what was expected there.
 Results read_results(const std::filesystem::path& folder, const recorders::ResultFiles& files,
-                     const Limits& limits = {});
+                     const Limits& limits = {}, RunState state = RunState::Over);
 
 /// The names in run.json, or else the usual ones. Throws core::Error (Input) where it is no
 /// folder with the results of a run.

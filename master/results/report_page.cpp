@@ -15,4 +15,11 @@ std::vector<std::string> write_report(const std::filesystem::path& folder,
   return results.notes;
 }
 
+std::string live_report(const std::filesystem::path& folder, const recorders::ResultFiles& files,
+                        bool is_over) {
+  using report::RunState;
+  const RunState state = is_over ? RunState::Over : RunState::GoingOn;
+  return report::live_report(report::read_results(folder, files, {}, state), STRIDE_VERSION);
+}
+
 }  // namespace stride::results

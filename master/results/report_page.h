@@ -19,6 +19,11 @@ std::vector<std::string> write_report(const std::filesystem::path& folder,
                                       const recorders::ResultFiles& files,
                                       const std::filesystem::path& report);
 
+/// The page of a run that goes on, as its files are now. `is_over`: they are complete. Throws
+/// core::Error.
+std::string live_report(const std::filesystem::path& folder, const recorders::ResultFiles& files,
+                        bool is_over);
+
 }  // namespace stride::results
 
 #endif

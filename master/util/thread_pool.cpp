@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <array>
-#include <csignal>
 #include <system_error>
 
 #include <fmt/format.h>
 #include <pthread.h>
 
+#include "master/util/blocked_signals.h"
 #include "master/util/error.h"
 
 namespace stride::core {
@@ -27,23 +27,6 @@ void pause() {
   asm volatile("yield");
 #endif
 }
-
-/// While it exists, threads that are started take no signal but those that their own code raises.
-class BlockedSignals {
- public:
-  BlockedSignals() {
-    sigset_t signals;
-    sigfillset(&signals);
-    for (const int own : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGTRAP, SIGABRT, SIGSYS}) {
-      sigdelset(&signals, own);
-    }
-    pthread_sigmask(SIG_BLOCK, &signals, &before_);
-  }
-  ~BlockedSignals() { pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
-
- private:
-  sigset_t before_;
-};
 
 }  // namespace
 

@@ -17,13 +17,14 @@ export function actionsOf(context, theme, help) {
   };
 }
 
-/** Printed pages are light and complete. */
-export function printWell(theme, stack) {
+/** Printed pages are light and complete. @param {AbortSignal} [signal] that it ends */
+export function printWell(theme, stack, signal) {
   let chosen = null;
-  window.addEventListener("beforeprint", () => {
+  const prepare = () => {
     chosen = theme.chosen;
     theme.choose("light");
     stack.drawEverything();
-  });
-  window.addEventListener("afterprint", () => theme.choose(chosen));
+  };
+  window.addEventListener("beforeprint", prepare, { signal });
+  window.addEventListener("afterprint", () => theme.choose(chosen), { signal });
 }

@@ -50,12 +50,16 @@ function isTaken({ target, key }) {
   return target instanceof Element && target.closest(takers) !== null;
 }
 
-/** @param {Record<string, (argument: any) => void>} actions by name; keys of others do nothing */
-export function listenToKeys(actions) {
-  document.addEventListener("keydown", (event) => {
+/**
+ * @param {Record<string, (argument: any) => void>} actions by name; keys of others do nothing
+ * @param {AbortSignal} [signal] that it ends
+ */
+export function listenToKeys(actions, signal) {
+  const listen = (event) => {
     const meant = isTaken(event) ? undefined : actionOf(event);
     if (!meant || !actions[meant.action]) return;
     event.preventDefault();
     actions[meant.action](meant.argument);
-  });
+  };
+  document.addEventListener("keydown", listen, { signal });
 }

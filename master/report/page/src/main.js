@@ -4,6 +4,8 @@ import { coverageSection } from "./coverage/section.js";
 import { readReport } from "./data/report.js";
 import { h } from "./dom.js";
 import { listenToKeys } from "./keys.js";
+import { isLive } from "./live/follow.js";
+import { buildLivePage } from "./live/page.js";
 import { costs } from "./parts/costs.js";
 import { diagramSection } from "./parts/diagram.js";
 import { header } from "./parts/header.js";
@@ -38,10 +40,43 @@ function openAtFailure({ report, view }) {
   view.holdCursor(seconds);
 }
 
-function build(report) {
+/** What is missing or left out, in words. */
+function notesBox({ report, view }) {
+  const box = h("div");
+  const fill = () => box.replaceChildren(...report.notes.map((text) => h("p.warning", {}, text)));
+  view.addEventListener("data", fill);
+  fill();
+  return box;
+}
+
+/** The top, which is made anew with other data if it is another one then. */
+function headerBox(context) {
+  let shown = header(context);
+  context.view.addEventListener("data", () => {
+    const now = header(context);
+    if (now.isEqualNode(shown)) return;
+    shown.replaceWith(now);
+    shown = now;
+  });
+  return shown;
+}
+
+function messageTable(context) {
+  if (context.report.messages.length === 0) return null;
+  const table = new MessageTable(context);
+  context.view.addEventListener("data", () => table.update());
+  return table.box;
+}
+
+/**
+ * @param {object} [options] of a page that is made anew in the course of its run
+ * @param {AbortSignal} [options.signal] that it listens no longer
+ * @param {Theme} [options.theme] that was there before
+ * @param {HTMLElement} [options.top] above all else
+ */
+function build(report, { signal, theme = new Theme(), top = null } = {}) {
   const view = new View(report.whole);
   const tip = new Tip();
-  const theme = new Theme();
   const { worldPart } = report;
   const player = worldPart && new worldPart.Player(view);
   const context = { report, view, tip, player, worldPart };
@@ -50,10 +85,11 @@ function build(report) {
   const stack = timeStack(context, actions);
   document.title = pageTitle(report.run.system ?? "run", summary(report.run).kind === "bad", "report");
   const parts = [
-    header(context),
-    ...report.notes.map((text) => h("p.warning", {}, text)),
+    top,
+    headerBox(context),
+    notesBox(context),
     stack.element,
-    report.messages.length > 0 ? new MessageTable(context).box : null,
+    messageTable(context),
     coverage(context),
     costs(report.run),
     diagramSection(context),
@@ -62,9 +98,9 @@ function build(report) {
     help,
   ];
   document.getElementById("report").replaceChildren(...parts.filter(Boolean));
-  listenToKeys(actions);
-  theme.addEventListener("change", () => stack.redraw());
-  printWell(theme, stack);
+  listenToKeys(actions, signal);
+  theme.addEventListener("change", () => stack.redraw(), { signal });
+  printWell(theme, stack, signal);
   openAtFailure(context);
   return { report, view, stack, theme, player };
 }
@@ -81,4 +117,7 @@ async function read(data, progress) {
   return report;
 }
 
-startPage("Reading the run", read, build);
+const ignore = () => {};
+const readLater = (data) => read(data, ignore);
+
+startPage("Reading the run", read, (report) => (isLive() ? buildLivePage(report, readLater, build) : build(report)));

@@ -33,6 +33,7 @@ function addMessages(context, stack) {
   const lanes = new MessageLanes(context);
   const { messages, run } = context.report;
   const none = run.outcome === "running" ? "No messages are written yet." : "No messages were sent.";
+  context.view.addEventListener("data", () => lanes.update());
   const words = lanes.isEmpty ? none : legend(messages);
   stack.add({ element: row(lanes.box, note(words)), draw: (width) => lanes.draw(width) });
 }
@@ -80,8 +81,13 @@ function addActivity(context, stack) {
   stack.body.append(h("h3.lanes-head", {}, "What the units did", activityKey()));
   for (const component of report.units) {
     const lane = new ActivityLane(context, component);
+    const words = h("div.lane-summary.clipped", { title: lane.summary }, lane.summary);
+    context.view.addEventListener("data", () => {
+      lane.update();
+      words.textContent = words.title = lane.summary;
+    });
     stack.add({
-      element: row(lane.box, h("div.lane-summary.clipped", { title: lane.summary }, lane.summary)),
+      element: row(lane.box, words),
       draw: (width) => lane.draw(width),
     });
   }

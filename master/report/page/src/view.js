@@ -6,7 +6,7 @@ const kLeastSpan = 2e-11;
 
 /**
  * Events: "view" when another time range is shown, "cursor" when the cursor has moved. Both are dispatched at most
- * once per animation frame, however many changes there were before.
+ * once per animation frame, however many changes there were before. And "data" when the report has others.
  */
 export class View extends EventTarget {
   #changed = new Set();
@@ -42,6 +42,15 @@ export class View extends EventTarget {
     if (start === this.from && start + span === this.until) return;
     this.from = start;
     this.until = span === whole.until - whole.from ? whole.until : start + span;
+    this.#tell("view");
+  }
+
+  /** The run has gone on, which is followed if the whole is shown; "data" is dispatched at once. */
+  grow(whole) {
+    const follows = this.isWhole;
+    this.whole = whole;
+    if (follows) Object.assign(this, { from: whole.from, until: whole.until });
+    this.dispatchEvent(new Event("data"));
     this.#tell("view");
   }
 

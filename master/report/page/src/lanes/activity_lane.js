@@ -21,17 +21,24 @@ const kTicks = [
 
 export class ActivityLane {
   constructor({ report, view }, component) {
+    this.report = report;
     this.view = view;
     this.component = component;
-    this.activity = report.activity.get(component) ?? new Map();
+    this.canvas = h("canvas", { role: "img" });
+    this.box = h("div.activity-lane", {}, h("span.lane-name", { title: component }, component), this.canvas);
+    this.update();
+  }
+
+  /** Takes what the report has now. */
+  update() {
+    this.activity = this.report.activity.get(this.component) ?? new Map();
     this.ticks = kTicks
       .filter(({ kind }) => this.activity.has(kind))
       .map((ticks) => {
         const intervals = this.activity.get(ticks.kind);
         return { ...ticks, instants: ticks.isAtEnd ? endsOf(intervals) : intervals };
       });
-    this.canvas = h("canvas", { role: "img", "aria-label": `${component}: ${this.summary}` });
-    this.box = h("div.activity-lane", {}, h("span.lane-name", { title: component }, component), this.canvas);
+    this.canvas.setAttribute("aria-label", `${this.component}: ${this.summary}`);
   }
 
   /** As text: "idle 5.9 s, 1 event, 2 rejections". */

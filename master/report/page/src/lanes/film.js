@@ -14,7 +14,6 @@ export class FilmStrip {
       role: "slider",
       "aria-label": `Film of ${film.component}`,
       "aria-valuemin": "0",
-      "aria-valuemax": String(film.frames.length - 1),
       onkeydown: (event) => this.#onKey(event),
     });
     this.box = h("div.film", {}, h("span.lane-name", { title: film.component }, film.component), this.track);
@@ -38,12 +37,14 @@ export class FilmStrip {
 
   update() {
     const index = this.current;
-    if (index === this.shown) return;
-    this.shown = index;
+    const count = this.film.frames.length;
+    if (index === this.shown && count === this.count) return;
+    Object.assign(this, { shown: index, count });
+    this.track.setAttribute("aria-valuemax", String(count - 1));
     this.image.src = this.film.frames[index];
     const time = `${timeText(this.film.times[index])} s`;
     this.image.alt = `${this.film.component} at ${time}`;
-    const caption = `${this.film.component} at ${time}, picture ${index + 1} of ${this.film.frames.length}`;
+    const caption = `${this.film.component} at ${time}, picture ${index + 1} of ${count}`;
     this.caption.textContent = this.caption.title = caption;
     this.track.setAttribute("aria-valuenow", String(index));
     this.track.setAttribute("aria-valuetext", time);

@@ -13,18 +13,22 @@ const kOpened = 0.1;
 
 export class MessageLanes {
   constructor({ report, view, tip }) {
+    this.report = report;
     this.view = view;
     this.tip = tip;
-    this.lanes = [...byComponent(report.messages)].map(([component, messages]) => {
+    this.box = h("div.message-lanes", { role: "group", "aria-label": "Messages along time" });
+    this.update();
+  }
+
+  /** Takes what the report has now. */
+  update() {
+    this.tip.hide(); // its mark goes
+    this.lanes = [...byComponent(this.report.messages)].map(([component, messages]) => {
       const track = h("div.message-track");
       const element = h("div.message-lane", {}, h("span.lane-name", { title: component }, component), track);
       return { component, messages, track, element };
     });
-    this.box = h(
-      "div.message-lanes",
-      { role: "group", "aria-label": "Messages along time" },
-      ...this.lanes.map((lane) => lane.element),
-    );
+    this.box.replaceChildren(...this.lanes.map((lane) => lane.element));
   }
 
   get isEmpty() {

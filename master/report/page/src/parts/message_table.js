@@ -43,7 +43,7 @@ export function endsOf({ sent, received, intervention }) {
 
 export class MessageTable {
   constructor({ report, view }) {
-    this.rows = transmissionsOf(report.messages, report.diagram.connections);
+    this.report = report;
     this.view = view;
     this.body = h("tbody");
     this.count = h("p.count", { role: "status" });
@@ -71,18 +71,25 @@ export class MessageTable {
       h("div.scroll", { tabIndex: 0 }, table),
       this.more,
     );
-    this.#filter();
+    this.update();
   }
 
-  #filter() {
+  /** Takes what the report has now; as many rows as before are shown. */
+  update() {
+    const shown = Math.max(kRows, this.body.children.length);
+    this.rows = transmissionsOf(this.report.messages, this.report.diagram.connections);
+    this.#filter(shown);
+  }
+
+  #filter(count = kRows) {
     this.found = matching(this.rows, this.text.value, this.kind.value);
     this.body.replaceChildren();
-    this.#addRows();
+    this.#addRows(count);
   }
 
-  #addRows() {
+  #addRows(count = kRows) {
     const begin = this.body.children.length;
-    this.body.append(...this.found.slice(begin, begin + kRows).map((row) => this.#row(row)));
+    this.body.append(...this.found.slice(begin, begin + count).map((row) => this.#row(row)));
     const shown = this.body.children.length;
     const [all, found] = [this.rows.length, this.found.length].map((count) => count.toLocaleString("en"));
     this.count.textContent =

@@ -48,11 +48,14 @@ class Browser:
         shutil.rmtree(self.profile, ignore_errors=True)
 
     def open(self, path, dark=False, width=1400, height=1000):
+        return self.open_address(path.resolve().as_uri(), dark, width, height)
+
+    def open_address(self, address, dark=False, width=1400, height=1000):
         self.set_dark(dark)
         self.resize(width, height)
         for kind in ("browser", "performance"):
             self.driver.get_log(kind)  # what was before is not of this page
-        self.driver.get(path.resolve().as_uri())
+        self.driver.get(address)
         self.wait_for("return document.getElementById('report').getAttribute('aria-busy') === 'false'"
                       " || document.querySelector('[role=alert]') !== null")
         return self

@@ -1,0 +1,366 @@
+#include "master/cli/live_server.h"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <cstddef>
+#include <exception>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string_view>
+#include <system_error>
+#include <thread>
+#include <utility>
+
+#include <arpa/inet.h>
+#include <boost/asio.hpp>
+#include <boost/beast/core.hpp>
+#include <boost/beast/http.hpp>
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <netinet/in.h>
+#include <sys/random.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include "master/util/blocked_signals.h"
+#include "master/util/descriptor.h"
+#include "master/util/error.h"
+
+namespace stride::cli {
+namespace {
+
+namespace asio = boost::asio;
+namespace beast = boost::beast;
+namespace http = beast::http;
+using asio::use_awaitable;
+using asio::ip::tcp;
+using namespace std::chrono_literals;
+
+constexpr std::size_t kMostConnections = 16;
+/// Of a client that sends or takes nothing.
+constexpr auto kClientPatience = 10s;
+constexpr std::uint32_t kLongestHeader = 8192;
+/// So that clients, and what is between, know that the other side is there.
+constexpr auto kSignOfLife = 15s;
+/// For the request of the last page, and until it is made and sent.
+constexpr auto kLastMoment = 2s, kLastPage = 8s;
+constexpr auto kPoll = 5ms;
+
+std::string random_token() {
+  std::array<unsigned char, 16> bytes{};
+  if (::getrandom(bytes.data(), bytes.size(), 0) != static_cast<ssize_t>(bytes.size())) {
+    core::fail_run({}, "--live: the system has no random numbers");
+  }
+  std::string token;
+  for (const unsigned char byte : bytes) token += fmt::format("{:02x}", byte);
+  return token;
+}
+
+[[noreturn]] void fail_to_listen(std::uint16_t port, int error) {
+  const std::string reason = std::generic_category().message(error);
+  if (error != EADDRINUSE && error != EACCES) {
+    core::fail_run({}, fmt::format("--live: cannot listen at port {}: {}", port, reason));
+  }
+  core::fail_input({}, fmt::format("--live={}: this port cannot be had: {}", port, reason),
+                   "name another one, or none: --live takes one that is free");
+}
+
+core::Descriptor listening_at(std::uint16_t port) {
+  core::Descriptor listener(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_port = htons(port);
+  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  const int on = 1;  // the port of a run that has just ended can be had
+  if (!listener.is_open() ||
+      ::setsockopt(listener.number(), SOL_SOCKET, SO_REUSEADDR, &on, sizeof on) != 0 ||
+      ::bind(listener.number(), reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0 ||
+      ::listen(listener.number(), SOMAXCONN) != 0) {
+    fail_to_listen(port, errno);
+  }
+  return listener;
+}
+
+std::uint16_t port_of(int listener) {
+  sockaddr_in address{};
+  socklen_t size = sizeof address;
+  if (::getsockname(listener, reinterpret_cast<sockaddr*>(&address), &size) != 0) {
+    core::fail_run({}, "--live: the system does not tell the port");
+  }
+  return ntohs(address.sin_port);
+}
+
+/// Counts for as long as it exists.
+class Counted {
+ public:
+  explicit Counted(std::size_t& count) : count_(count) { ++count_; }
+  ~Counted() { --count_; }
+  Counted(const Counted&) = delete;
+  Counted& operator=(const Counted&) = delete;
+
+ private:
+  std::size_t& count_;
+};
+
+using Request = http::request<http::empty_body>;
+using Response = http::response<http::string_body>;
+
+Response response_to(const Request& request, http::status status, std::string body,
+                     std::string_view type = "text/plain; charset=utf-8") {
+  Response response(status, request.version());
+  response.set(http::field::content_type, beast::string_view(type.data(), type.size()));
+  response.set(http::field::cache_control, "no-store");
+  response.set("X-Content-Type-Options", "nosniff");
+  response.set("Referrer-Policy", "no-referrer");
+  response.set("Cross-Origin-Resource-Policy", "same-origin");
+  response.keep_alive(request.keep_alive());
+  const std::size_t size = body.size();
+  if (request.method() != http::verb::head) response.body() = std::move(body);
+  response.content_length(size);
+  return response;
+}
+
+}  // namespace
+
+/// All but the constructor, announce_update() and end() happens in one thread, and what makes pages
+/// in another one.
+class LiveServer::Connections {
+ public:
+  Connections(const LiveServer& server, MakePage make_page);
+
+  void announce_update() {
+    asio::post(context_, [this] { tell_update(); });
+  }
+  void end();
+
+ private:
+  struct Site {
+    std::string page, events, host, other_host;
+  };
+
+  void tell_update();
+  asio::awaitable<void> accept();
+  asio::awaitable<void> serve(tcp::socket socket);
+  asio::awaitable<bool> answer(beast::tcp_stream& stream, const Request& request);
+  asio::awaitable<Response> page_for(const Request& request);
+  asio::awaitable<void> send(beast::tcp_stream& stream, std::string text);
+  asio::awaitable<void> send_events(beast::tcp_stream& stream);
+  asio::awaitable<void> end_all();
+
+  template <class Coroutine>
+  void spawn(Coroutine&& coroutine) {
+    asio::co_spawn(context_, std::forward<Coroutine>(coroutine), asio::detached);
+  }
+
+  const Site site_;
+  const MakePage make_page_;
+  std::size_t open_ = 0;       ///< connections
+  std::size_t listeners_ = 0;  ///< to events
+  std::size_t in_work_ = 0;    ///< pages that are made or sent
+  std::size_t last_pages_ = 0;
+  std::uint64_t version_ = 1;  ///< counts what was new
+  bool is_over_ = false;
+  std::set<asio::steady_timer*> waiting_;  ///< of listeners
+  // joined before the context ends, whose coroutines it calls back
+  std::optional<asio::thread_pool> maker_;
+  asio::io_context context_{1};
+  asio::posix::stream_descriptor listener_{context_};
+  std::thread thread_;
+};
+
+LiveServer::Connections::Connections(const LiveServer& server, MakePage make_page)
+    : site_{fmt::format("/{}/", server.token_), fmt::format("/{}/events", server.token_),
+            fmt::format("127.0.0.1:{}", server.port_), fmt::format("localhost:{}", server.port_)},
+      make_page_(std::move(make_page)) {
+  listener_.assign(::fcntl(server.listener_, F_DUPFD_CLOEXEC, 3));
+  spawn(accept());
+  const core::BlockedSignals blocked;
+  maker_.emplace(1);
+  thread_ = std::thread([this] { context_.run(); });
+}
+
+void LiveServer::Connections::end() {
+  asio::post(context_, [this] { spawn(end_all()); });
+  thread_.join();
+  maker_->join();
+}
+
+void LiveServer::Connections::tell_update() {
+  ++version_;
+  for (asio::steady_timer* const timer : waiting_) timer->cancel();
+}
+
+asio::awaitable<void> LiveServer::Connections::end_all() {
+  const auto begin = std::chrono::steady_clock::now();
+  const auto is_within = [&](auto time) { return std::chrono::steady_clock::now() - begin < time; };
+  const std::size_t awaited = listeners_;
+  is_over_ = true;
+  tell_update();
+  asio::steady_timer timer(context_);
+  while ((last_pages_ < awaited && is_within(kLastMoment)) ||
+         (in_work_ > 0 && is_within(kLastPage))) {
+    timer.expires_after(kPoll);
+    co_await timer.async_wait(use_awaitable);
+  }
+  context_.stop();
+}
+
+/// Not by Asio, which leaves sockets open in programs that are started.
+asio::awaitable<void> LiveServer::Connections::accept() {
+  for (;;) {
+    co_await listener_.async_wait(asio::posix::descriptor_base::wait_read, use_awaitable);
+    core::Descriptor accepted(
+        ::accept4(listener_.native_handle(), nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK));
+    if (!accepted.is_open()) {
+      if (errno == EAGAIN || errno == EINTR || errno == ECONNABORTED) continue;
+      asio::steady_timer timer(context_, kPoll);  // too many open files, say
+      co_await timer.async_wait(use_awaitable);
+      continue;
+    }
+    if (open_ >= kMostConnections) continue;
+    tcp::socket socket(context_);
+    socket.assign(tcp::v4(), accepted.release());
+    spawn(serve(std::move(socket)));
+  }
+}
+
+/// A client that breaks off, or is too slow, is one less.
+asio::awaitable<void> LiveServer::Connections::serve(tcp::socket socket) {
+  const Counted counted(open_);
+  try {
+    beast::tcp_stream stream(std::move(socket));
+    beast::flat_buffer buffer;
+    for (bool goes_on = true; goes_on;) {
+      http::request_parser<http::empty_body> parser;
+      parser.header_limit(kLongestHeader);
+      stream.expires_after(kClientPatience);
+      co_await http::async_read(stream, buffer, parser, use_awaitable);
+      goes_on = co_await answer(stream, parser.get());
+    }
+    stream.socket().shutdown(tcp::socket::shutdown_send);
+  } catch (const boost::system::system_error&) {
+  }
+}
+
+/// Returns whether the connection goes on.
+asio::awaitable<bool> LiveServer::Connections::answer(beast::tcp_stream& stream,
+                                                      const Request& request) {
+  const Counted counted(in_work_);
+  const bool is_last = is_over_;
+  const beast::string_view host = request[http::field::host];
+  const bool is_here = host == site_.host || host == site_.other_host;
+  const bool is_read =
+      request.method() == http::verb::get || request.method() == http::verb::head;
+  std::optional<Response> response;
+  if (!is_here) {
+    response = response_to(request, http::status::forbidden, "This host is not served here.\n");
+  } else if (!is_read) {
+    response = response_to(request, http::status::method_not_allowed, "Only GET and HEAD.\n");
+    response->set(http::field::allow, "GET, HEAD");
+  } else if (request.target() == site_.events && request.method() == http::verb::get) {
+    co_await send_events(stream);
+    co_return false;
+  } else if (request.target() == site_.page) {
+    response = co_await page_for(request);
+  } else {
+    response = response_to(request, http::status::not_found, "There is no such page here.\n");
+  }
+  stream.expires_after(kClientPatience);
+  co_await http::async_write(stream, *response, use_awaitable);
+  if (is_last && request.target() == site_.page) ++last_pages_;
+  co_return response->keep_alive();
+}
+
+asio::awaitable<Response> LiveServer::Connections::page_for(const Request& request) {
+  std::string text, mistake;
+  try {
+    text = co_await asio::co_spawn(
+        *maker_,
+        [this, is_over = is_over_]() -> asio::awaitable<std::string> {
+          co_return make_page_(is_over);
+        },
+        use_awaitable);
+  } catch (const std::exception& failure) {
+    mistake = failure.what();
+  }
+  if (!mistake.empty()) {
+    co_return response_to(request, http::status::internal_server_error, mistake + "\n");
+  }
+  co_return response_to(request, http::status::ok, std::move(text), "text/html; charset=utf-8");
+}
+
+asio::awaitable<void> LiveServer::Connections::send(beast::tcp_stream& stream, std::string text) {
+  stream.expires_after(kClientPatience);
+  co_await asio::async_write(stream, asio::buffer(text), use_awaitable);
+  stream.expires_never();
+}
+
+asio::awaitable<void> LiveServer::Connections::send_events(beast::tcp_stream& stream) {
+  const Counted counted(listeners_);
+  --in_work_;  // it is not waited for
+  struct Again {
+    std::size_t& in_work;
+    ~Again() { ++in_work; }
+  } const again{in_work_};
+  co_await send(stream,
+                "HTTP/1.1 200 OK\r\nContent-Type: text/event-stream\r\nCache-Control: no-store\r\n"
+                "X-Content-Type-Options: nosniff\r\nConnection: close\r\n\r\n");
+  asio::steady_timer timer(context_);
+  for (std::uint64_t told = 0; !is_over_;) {
+    if (told != version_) {
+      told = version_;
+      co_await send(stream, fmt::format("event: update\ndata: {}\n\n", told));
+      continue;
+    }
+    timer.expires_after(kSignOfLife);
+    waiting_.insert(&timer);
+    boost::system::error_code error;
+    co_await timer.async_wait(asio::redirect_error(use_awaitable, error));
+    waiting_.erase(&timer);
+    if (!error) co_await send(stream, ": the run goes on\n\n");
+  }
+  co_await send(stream, fmt::format("event: end\ndata: {}\n\n", version_));
+}
+
+std::uint16_t parse_live_port(const std::string& text) {
+  constexpr std::uint64_t kMost = 65535;
+  const bool is_number = !text.empty() && text.size() <= 5 &&
+                         std::ranges::all_of(text, [](char c) { return c >= '0' && c <= '9'; });
+  const std::uint64_t port = is_number ? std::stoul(text) : 0;
+  if (port > 0 && port <= kMost) return static_cast<std::uint16_t>(port);
+  core::fail_input({}, fmt::format("--live={}: expected the number of a port, 1 to {}", text, kMost),
+                   "--live alone takes one that is free");
+}
+
+LiveServer::LiveServer(std::uint16_t port)
+    : listener_(listening_at(port).release()),
+      token_(random_token()),
+      port_(port_of(listener_)) {
+  address_ = fmt::format("http://127.0.0.1:{}/{}/", port_, token_);
+}
+
+LiveServer::~LiveServer() {
+  end();
+  ::close(listener_);
+}
+
+void LiveServer::start(MakePage make_page) {
+  try {
+    connections_ = std::make_unique<Connections>(*this, std::move(make_page));
+  } catch (const std::system_error& failure) {
+    core::fail_run({}, fmt::format("--live: cannot start its threads: {}", failure.what()));
+  }
+}
+
+void LiveServer::announce_update() { connections_->announce_update(); }
+
+void LiveServer::end() {
+  if (connections_ == nullptr) return;
+  connections_->end();
+  connections_.reset();
+}
+
+}  // namespace stride::cli
