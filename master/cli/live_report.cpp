@@ -26,10 +26,8 @@ void LiveReport::on_communication_point(Time) {
   flush_();
   if (server_.has_started()) return server_.announce_update();
   // a unit may change the working folder
-  server_.start([folder = std::filesystem::absolute(results_.folder),
-                 files = results_.files](bool is_over) {
-    return results::live_report(folder, files, is_over);
-  });
+  server_.start([folder = std::filesystem::absolute(results_.folder), files = results_.files](
+                    bool is_over) { return results::live_report(folder, files, is_over); });
   if (ready_) ready_(server_.address());
 }
 

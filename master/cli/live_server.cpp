@@ -252,8 +252,7 @@ asio::awaitable<bool> LiveServer::Connections::answer(beast::tcp_stream& stream,
   const bool is_last = is_over_;
   const beast::string_view host = request[http::field::host];
   const bool is_here = host == site_.host || host == site_.other_host;
-  const bool is_read =
-      request.method() == http::verb::get || request.method() == http::verb::head;
+  const bool is_read = request.method() == http::verb::get || request.method() == http::verb::head;
   std::optional<Response> response;
   if (!is_here) {
     response = response_to(request, http::status::forbidden, "This host is not served here.\n");
@@ -331,14 +330,13 @@ std::uint16_t parse_live_port(const std::string& text) {
                          std::ranges::all_of(text, [](char c) { return c >= '0' && c <= '9'; });
   const std::uint64_t port = is_number ? std::stoul(text) : 0;
   if (port > 0 && port <= kMost) return static_cast<std::uint16_t>(port);
-  core::fail_input({}, fmt::format("--live={}: expected the number of a port, 1 to {}", text, kMost),
+  core::fail_input({},
+                   fmt::format("--live={}: expected the number of a port, 1 to {}", text, kMost),
                    "--live alone takes one that is free");
 }
 
 LiveServer::LiveServer(std::uint16_t port)
-    : listener_(listening_at(port).release()),
-      token_(random_token()),
-      port_(port_of(listener_)) {
+    : listener_(listening_at(port).release()), token_(random_token()), port_(port_of(listener_)) {
   address_ = fmt::format("http://127.0.0.1:{}/{}/", port_, token_);
 }
 

@@ -12,10 +12,11 @@ namespace stride::cli {
 /// From the text of --live=PORT. Throws core::Error (Input).
 std::uint16_t parse_live_port(const std::string& text);
 
-/// Serves one page at http://127.0.0.1:PORT/TOKEN/, and at TOKEN/events a stream of events: "update"
-/// where there is something new, also at its beginning, and "end" when the run is over. The token
-/// is a random number, which other users of the machine do not know; only requests whose Host is
-/// this machine itself are answered, so pages of other hosts cannot have their names lead here.
+/// Serves one page at http://127.0.0.1:PORT/TOKEN/, and at TOKEN/events a stream of events:
+/// "update" where there is something new, also at its beginning, and "end" when the run is over.
+/// The token is a random number, which other users of the machine do not know; only requests whose
+/// Host is this machine itself are answered, so pages of other hosts cannot have their names lead
+/// here.
 ///
 /// Its threads take no signals, and call no unit. Its files are closed in programs that are started
 /// meanwhile.

@@ -66,8 +66,9 @@ void add_display_options(CLI::App& command, RunArguments& arguments) {
   command.add_flag("--live", arguments.live,
                    "Serve the report while the run goes on, to browsers on this machine: at a free "
                    "port, or as in --live=PORT");
-  command.add_flag("--open", arguments.open,
-                   "Open the report in a browser when the run is over; with --live, when it begins");
+  command.add_flag(
+      "--open", arguments.open,
+      "Open the report in a browser when the run is over; with --live, when it begins");
   command.add_flag("--quiet,-q", arguments.quiet, "Print nothing but warnings and errors");
 }
 

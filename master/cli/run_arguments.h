@@ -52,7 +52,7 @@ struct RunArguments {
   std::size_t threads = 1;
   std::optional<ProgressStyle> progress;
   std::optional<double>
-      real_time{};  ///< simulated seconds in one of the wall clock; none: no limit
+      real_time{};     ///< simulated seconds in one of the wall clock; none: no limit
   std::string live{};  ///< a port, or kAnyLivePort; empty: no live report
   bool no_trace = false;
   bool no_report = false;

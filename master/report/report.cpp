@@ -179,10 +179,9 @@ void write_report(const fs::path& file, const Results& results, const std::strin
 }
 
 std::string live_report(const Results& results, const std::string& version) {
-  constexpr std::string_view kPolicy =
-      R"(<meta http-equiv="Content-Security-Policy")"
-      "\n"
-      R"(  content=")";
+  constexpr std::string_view kPolicy = R"(<meta http-equiv="Content-Security-Policy")"
+                                       "\n"
+                                       R"(  content=")";
   std::string html(page());
   if (const std::size_t at = html.find(kPolicy); at != html.npos) {
     html.insert(at + kPolicy.size(), "connect-src 'self'; ");

@@ -174,7 +174,7 @@ TEST_CASE("an interrupted run tells its end, too") {
 TEST_CASE("a run that fails tells its end, too") {
   const Workspace workspace(Parts{component("first", "minimal.fmu"), "",
                                   "<stride:Step size=\"1e-3\"/><stride:Checks><stride:Always "
-                                  "name=\"never so\" expression=\"first.y &lt; -1\"/>"
+                                  "name=\"never so\" signal=\"first.y\" max=\"-1\"/>"
                                   "</stride:Checks>"});
   LiveRun run(workspace, kSlowly);
   const std::string address = run.address();
@@ -187,7 +187,7 @@ TEST_CASE("a run that fails tells its end, too") {
 
 TEST_CASE("units' processes have nothing of the server") {
   const Workspace workspace(two_filters());
-  LiveRun run(workspace, {"--quiet", "--realtime", "0.001", "--isolate", "first"});
+  LiveRun run(workspace, {"--quiet", "--realtime", "0.001", "--isolate=first"});
   const std::string address = run.address();
   const std::string socket = listening_socket(port_in(address));
   REQUIRE(socket != "");

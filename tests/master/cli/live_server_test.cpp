@@ -120,8 +120,7 @@ TEST_CASE("a name of another host that leads here is refused") {
         fmt::format("127.0.0.1:{}.example.org", port)}) {
     INFO(host);
     CHECK_THAT(answer(bench.server, {.host = host}), StartsWith("HTTP/1.1 403 "));
-    CHECK_THAT(answer(bench.server, {.path = "events", .host = host}),
-               StartsWith("HTTP/1.1 403 "));
+    CHECK_THAT(answer(bench.server, {.path = "events", .host = host}), StartsWith("HTTP/1.1 403 "));
   }
   CHECK(bench.pages == 1);
 }

@@ -33,6 +33,19 @@ test("zooming in ends where doubles do, and zooming out at the whole run", () =>
   assert.ok(view.isWhole);
 });
 
+test("a run that goes on is followed where the whole of it is shown", () => {
+  const view = makeView();
+  let told = 0;
+  view.addEventListener("data", () => ++told);
+  view.grow({ from: 0, until: 40 });
+  assert.deepEqual([view.from, view.until, view.isWhole, told], [0, 40, true, 1]);
+  view.show(10, 20);
+  view.grow({ from: 0, until: 50 });
+  assert.deepEqual([view.from, view.until, view.isWhole, told], [10, 20, false, 2]);
+  view.showWhole();
+  assert.deepEqual([view.from, view.until], [0, 50]);
+});
+
 test("moving along ends at the ends", () => {
   const view = makeView();
   view.show(10, 20);

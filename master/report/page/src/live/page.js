@@ -4,6 +4,12 @@ import { Kept, keepView } from "./kept.js";
 import { LiveMark } from "./mark.js";
 import { isAlike, keepRow, takeOver } from "./update.js";
 
+/** Without its end it may have been killed, but not if it answers. */
+function knownToGoOn(report) {
+  report.run.goesOn = report.run.outcome === "running";
+  return report;
+}
+
 /**
  * @param {object} report
  * @param {(data: object) => Promise<object>} read makes a report of the data
@@ -14,6 +20,7 @@ export function buildLivePage(report, read, build) {
   const root = document.getElementById("report");
   const mark = new LiveMark((isPaused) => follower.pause(isPaused));
   const life = { controller: null, kept: null };
+  const readNow = async (data) => knownToGoOn(await read(data));
   const fill = (shown, theme) => {
     life.controller?.abort();
     life.controller = new AbortController();
@@ -30,7 +37,7 @@ export function buildLivePage(report, read, build) {
   };
   const tell = () => mark.tell(window.stride.report.whole.until);
   const show = async (data) => {
-    const later = await read(data);
+    const later = await readNow(data);
     const { report: shown, view } = window.stride;
     if (isAlike(shown, later)) {
       const before = shown.seconds;
@@ -43,11 +50,11 @@ export function buildLivePage(report, read, build) {
     tell();
   };
   const conclude = async (data) => {
-    rebuild(await read(data));
+    rebuild(await readNow(data));
     tell();
   };
   const follower = new Follower({ update: show, conclude }, mark);
-  fill(report);
+  fill(knownToGoOn(report));
   mark.show("live");
   tell();
   follower.start();

@@ -65,7 +65,7 @@ function restText(run) {
 
 export function costs(run) {
   const units = run.units ?? [];
-  if (units.length === 0) return null;
+  if (units.length === 0 || run.goesOn) return null;
   const most = Math.max(...units.map(total), Number.MIN_VALUE);
   const swatch = ([name, color]) =>
     h("th", { scope: "col" }, h("span.dot", { style: { background: `var(${color})` } }), `${name} [s]`);

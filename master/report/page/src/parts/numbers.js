@@ -28,7 +28,7 @@ export function keyNumbers({ run, messages, times }) {
     ["suspended", share === null ? null : `${(share * 100).toFixed(1)} % of the units’ time`],
     ["steps", run.communication_steps?.toLocaleString("en")],
     ["messages sent", sent.toLocaleString("en")],
-    ["rejected steps", units.length > 0 ? sum(units, "rejections").toLocaleString("en") : null],
+    ["rejected steps", units.length > 0 && !run.goesOn ? sum(units, "rejections").toLocaleString("en") : null],
     ["samples", times.length.toLocaleString("en")],
   ];
   return found.filter(([, text]) => text !== null && text !== undefined);

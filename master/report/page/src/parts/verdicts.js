@@ -46,6 +46,7 @@ export function summary(run) {
   const failed = all.filter(({ passed }) => passed === false);
   const open = all.filter(({ passed }) => passed === null);
   if (run.outcome === "failed") return { kind: "bad", text: "The run failed" };
+  if (run.goesOn) return { kind: "none", text: "Not judged yet: the run goes on" };
   if (run.outcome === "running") return { kind: "open", text: "Not judged: the run was killed, or goes on" };
   if (failed.length > 0) {
     const timed = failed.filter(({ time }) => time !== null);

@@ -50,6 +50,10 @@ class Run:
                 [LiveTest.program, "run", "--live", scenario, "--out", self.results, "--quiet", "--realtime", "1",
                  "--set", "first.u=1", "--set", "first.time_constant=0.5"], stderr=log)
 
+    def end(self):
+        self.process.kill()
+        self.process.wait()
+
     def address(self):
         end = time.monotonic() + PATIENCE
         while time.monotonic() < end:
@@ -72,6 +76,7 @@ class LiveTest(unittest.TestCase):
         cls.browser.close()
 
     def open(self, run):
+        self.addCleanup(run.end)
         self.browser.open_address(run.address())
         self.assertEqual(self.browser.errors(), [])
         return self.browser
@@ -90,7 +95,7 @@ class LiveTest(unittest.TestCase):
         # what the reader does with it stays
         browser.one("button.signal[title='Hide or show first.y']").click()
         browser.run("document.querySelector('.made-from details, details.made-from').open = true;"
-                    "stride.view.show(0.1, 0.4); stride.view.holdCursor(0.25); stride.view.flush()")
+                    "stride.view.show(0.125, 0.375); stride.view.holdCursor(0.25); stride.view.flush()")
         before = browser.run(f"return {SAMPLES}")
         browser.wait_for(f"return {SAMPLES} > arguments[0]", before)
         self.assert_kept(browser)
@@ -106,7 +111,7 @@ class LiveTest(unittest.TestCase):
         self.assertEqual(browser.run(CONTENT), last)
 
     def assert_kept(self, browser):
-        self.assertEqual(browser.view(), (0.1, 0.4))
+        self.assertEqual(browser.view(), (0.125, 0.375))
         self.assertEqual(browser.run("return [stride.view.cursor, stride.view.isHeld]"), [0.25, True])
         self.assertEqual(browser.one("button.signal[title='Hide or show first.y']").get_attribute("aria-pressed"),
                          "false")
@@ -125,8 +130,7 @@ class LiveTest(unittest.TestCase):
         self.assertEqual(browser.run(f"return {SAMPLES}"), before)
         browser.one(".live button").click()
         browser.wait_for(f"return {SAMPLES} > arguments[0]", before)
-        run.process.kill()
-        run.process.wait()
+        run.end()
         browser.wait_for("return document.querySelector('.live strong').textContent === 'connection lost'")
         self.assertGreater(browser.run(f"return {SAMPLES}"), 1)
 
