@@ -21,8 +21,8 @@ using report::Json;
 /// Options that say where results go and what is printed.
 constexpr std::array<std::string_view, 5> kOutputOptions = {"--out", "--output", "-o", "--junit",
                                                             "--progress"};
-constexpr std::array<std::string_view, 6> kOutputFlags = {"-q",        "--quiet",     "--open",
-                                                          "--verbose", "--no-report", "--no-trace"};
+constexpr std::array<std::string_view, 7> kOutputFlags = {
+    "-q", "--quiet", "--open", "--live", "--verbose", "--no-report", "--no-trace"};
 
 /// Each name with its values, in the order of the file.
 using Named = std::map<std::string, std::vector<std::string>>;

@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "master/util/descriptor.h"
+#include "tests/build.h"
 #include "tests/cli/failures.h"
 #include "tests/master/cli/live_client.h"
 #include "tests/master/report/support.h"
@@ -183,6 +184,34 @@ TEST_CASE("a run that fails tells its end, too") {
   CHECK_THAT(events.receive(), Contains("event: end\n"));
   page_at(address);
   CHECK(run.process().wait().exit_code == 1);
+}
+
+TEST_CASE("a run that a unit crashes ends as it does without anybody who looks on") {
+  if (kSanitized) return;
+  const Workspace workspace(
+      Parts{component("filter", "minimal.fmu") + component("faulty", "faulty.fmu")});
+  const FaultOrder order("segfault", "step", "0.5");
+  LiveRun run(workspace, kSlowly);
+  const std::string address = run.address();
+  LiveClient events(port_in(address));
+  events.get(address, "events");
+  CHECK_THAT(events.receive(), !Contains("event: end\n"));  // the connection is lost
+  CHECK(run.process().wait().exit_code == 1);
+  CHECK_THAT(run.errors(), Contains("SIGSEGV"));
+  const json run_file = run_json(workspace);
+  CHECK(run_file["outcome"] == "failed");
+  CHECK(data_of(workspace.result("report.html"))["run"] == run_file);
+}
+
+TEST_CASE("a resumed run has a page if it is asked for, and not because the first one had") {
+  const Workspace workspace(two_filters());
+  REQUIRE(workspace.run({"--quiet", "--checkpoint", "0.5", "--live"}).exit_code == 0);
+  const Outcome outcome = workspace.stride({"resume", "out", "--quiet"});
+  CHECK(outcome.exit_code == 0);
+  CHECK(outcome.err == "");
+  const Outcome live = workspace.stride({"resume", "out", "--quiet", "--live"});
+  CHECK(live.exit_code == 0);
+  CHECK_THAT(live.err, Contains("The report while the run goes on: http://127.0.0.1:"));
 }
 
 TEST_CASE("units' processes have nothing of the server") {

@@ -35,7 +35,7 @@ TEST_CASE("dates, machines, paths and where results go are no inputs") {
   CHECK(inputs_with("2026-11-27", "2026-11-28").empty());
   CHECK(inputs_with("here", "there").empty());
   CHECK(inputs_with("/a/gauge.fmu", "/b/c/gauge.fmu").empty());
-  CHECK(inputs_with(R"("--out", "a")", R"("-o", "b", "--quiet")").empty());
+  CHECK(inputs_with(R"("--out", "a")", R"("-o", "b", "--quiet", "--live=8080")").empty());
   CHECK(inputs_with("tank.ssd", "other/tank.ssd").empty());
   CHECK(inputs_with(R"("calls": 7)", R"("calls": 8)").empty());
 }

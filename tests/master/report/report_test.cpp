@@ -229,3 +229,17 @@ TEST_CASE("where the components are not known, the first point ends one") {
   CHECK(default_plots(columns, {}) ==
         std::vector<Plot>{{"a [m]", {"a.b.x", "a.c"}}, {"d [m]", {"d"}}});
 }
+
+TEST_CASE("a live page is the same, but that it may connect to where it comes from") {
+  const TemporaryFolder folder;
+  const Results results = sample(folder);
+  write_report(folder / "report.html", results, "1.2.3");
+  std::string live = live_report(results, "1.2.3");
+  for (const std::string added : {"<meta name=\"stride-live\">\n", "connect-src 'self'; "}) {
+    INFO(added);
+    const std::size_t at = live.find(added);
+    REQUIRE(at < live.find("<title>"));
+    live.erase(at, added.size());
+  }
+  CHECK(live == content(folder / "report.html"));
+}

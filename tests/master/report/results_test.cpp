@@ -257,6 +257,17 @@ TEST_CASE("a film in a folder whose name is shortened has the whole name of its 
   CHECK_THAT(f.read().films.at(0).component, Catch::StartsWith("nnn") && Catch::EndsWith("n…"));
 }
 
+TEST_CASE("of a run that goes on the rest of a line is still to come, which is not reported") {
+  const Folder f;
+  f.folder.write("signals.csv", "time,a.x [m]\n0,1\n0.0");
+  f.folder.write("events.csv", "time,index,component,variable,direction,payload\n0,0,a");
+  const Results results = read_results(f.folder / "", {}, {}, RunState::GoingOn);
+  CHECK(results.signals.times.size() == 1);
+  CHECK(results.messages.empty());
+  for (const std::string& note : results.notes) CHECK_THAT(note, !Contains("cut off"));
+  CHECK(f.read().notes.size() == results.notes.size() + 2);
+}
+
 TEST_CASE("the results of a killed run are shown, and what was cut off is reported") {
   const Folder f;
   std::filesystem::remove(f.folder / "run.json");
