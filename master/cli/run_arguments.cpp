@@ -64,8 +64,8 @@ void add_display_options(CLI::App& command, RunArguments& arguments) {
       ->type_name("FACTOR");
   // a flag, so that what follows a blank is the scenario
   command.add_flag("--live", arguments.live,
-                   "Serve the report while the run goes on, to browsers on this machine: at a free "
-                   "port, or as in --live=PORT");
+                   "Serve the report to browsers on this machine while the run goes on, at a free "
+                   "port unless one is named");
   command.add_flag(
       "--open", arguments.open,
       "Open the report in a browser when the run is over; with --live, when it begins");

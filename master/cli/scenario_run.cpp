@@ -366,7 +366,17 @@ checkpoint::Checkpoint ScenarioRun::take(Time now) {
   return taken;
 }
 
+/// The files are complete then; the units' libraries are unloaded later, and would not be while
+/// there are threads that are newer than they.
+struct EndOfLiveReport {
+  LiveServer* server;
+  ~EndOfLiveReport() {
+    if (server != nullptr) server->end();
+  }
+};
+
 void ScenarioRun::run(CrashGuard& guard) {
+  const EndOfLiveReport end_of_live_report{display_.live};
   const CrashGuard::Scope scope(guard, [&](const std::string& error) {
     recorded_.abandon(error);
     print_branches();
@@ -420,7 +430,6 @@ void run_scenario(RunArguments arguments) {
   Records records{{arguments.junit, arguments.scenario.scenario}};
   if (core::is_file(arguments.junit))
     note_test_report(arguments.junit, arguments.scenario.scenario);
-  // closed when the files are complete and no unit is left
   std::optional<LiveServer> live;
   if (!arguments.live.empty()) {
     live.emplace(arguments.live == kAnyLivePort ? 0 : parse_live_port(arguments.live));

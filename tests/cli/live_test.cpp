@@ -122,6 +122,7 @@ TEST_CASE("the page has what is recorded so far, and in the end what report.html
   CHECK(last == data_of(workspace.result("report.html")));
   CHECK(rows(last) == 1001);
   CHECK(run.process().wait().exit_code == 0);
+  CHECK(run.errors() == "The report while the run goes on: " + address + "\n");
   CHECK_THAT(workspace.result("report.html"),
              !Contains("<meta name=\"stride-live\">") && !Contains("connect-src 'self'"));
 }

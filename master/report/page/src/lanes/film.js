@@ -5,7 +5,8 @@ import { kGutter } from "../plot/layout.js";
 
 export class FilmStrip {
   /** @param {{component: string, times: BigInt64Array, seconds: Float64Array, frames: string[]}} film */
-  constructor({ view }, film) {
+  constructor({ report, view }, film) {
+    this.report = report;
     this.view = view;
     this.film = film;
     this.ratio = 4 / 3;
@@ -29,9 +30,10 @@ export class FilmStrip {
     this.update();
   }
 
-  /** The picture at the cursor: the last one before it, or the first of all. */
+  /** The picture at the cursor: the last one before it, or the first of all; of a run that goes on the newest one. */
   get current() {
-    const time = this.view.cursor ?? this.view.from;
+    const { cursor, from, until } = this.view;
+    const time = cursor ?? (this.report.run.goesOn ? until : from);
     return Math.max(0, lastAtOrBefore(this.film.seconds, time));
   }
 
