@@ -27,11 +27,11 @@ using WriteMembers = std::function<void(Sink&)>;
 /// built without pages.
 void write_page(const std::filesystem::path& file, std::string_view page,
                 const std::string& version, const WriteMembers& write_members,
-                std::string_view elements = {});
+                std::string_view elements = "");
 
 /// The same in memory, without a file.
 std::string page_text(std::string_view page, const std::string& version,
-                      const WriteMembers& write_members, std::string_view elements = {});
+                      const WriteMembers& write_members, std::string_view elements = "");
 
 /// Writes a member of JSON text.
 void write_member(Sink& sink, std::string_view name, std::string_view text);

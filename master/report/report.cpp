@@ -152,7 +152,7 @@ class DataWriter {
 };
 
 std::string_view elements_of(const Results& results) {
-  return results.worlds.empty() ? std::string_view() : world_licences();
+  return results.worlds.empty() ? std::string_view("") : world_licences();
 }
 
 }  // namespace
