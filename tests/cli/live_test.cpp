@@ -190,7 +190,7 @@ TEST_CASE("a run that fails tells its end, too") {
 TEST_CASE("a run that a unit crashes ends as it does without anybody who looks on") {
   if (kSanitized) return;
   const Workspace workspace(
-      Parts{component("filter", "minimal.fmu") + component("faulty", "faulty.fmu")});
+      Parts{component("filter", "minimal.fmu") + component("faulty", "fmi3_faulty.fmu")});
   const FaultOrder order("segfault", "step", "0.5");
   LiveRun run(workspace, kSlowly);
   const std::string address = run.address();
