@@ -36,7 +36,7 @@ END
 files=()
 for scenario in "$folder/every_geom.ssd" "$@"; do
   out=$folder/$(basename "$scenario" .ssd)
-  "$stride" run "$scenario" --scene --stop 1 --no-checks --quiet --out "$out" || [ $? -eq 1 ]
+  "$stride" run "$scenario" --scene --no-checks --quiet --out "$out" || [ $? -eq 1 ]
   files+=("$out"/units/*/world.glb)
 done
 node "$here/validate.mjs" "$folder" "${files[@]}"
