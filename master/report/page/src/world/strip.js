@@ -30,7 +30,9 @@ export class WorldStrip {
   #drawPictures(world, width, height) {
     const canvases = [...this.track.children];
     const { from, span } = this.view;
-    const times = canvases.map((_, i) => from + ((i + 0.5) / canvases.length) * span);
+    const all = canvases.map((_, i) => from + ((i + 0.5) / canvases.length) * span);
+    const times = all.filter((time) => world.has(time));
+    for (const canvas of canvases.slice(times.length)) Object.assign(canvas, { width: 0, height: 0 });
     world.pictures(times, Math.ceil(width), height, (index, picture) => {
       const canvas = canvases[index];
       canvas.width = picture.width;

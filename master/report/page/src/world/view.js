@@ -139,10 +139,12 @@ export class WorldView {
 
   #caption() {
     const { view } = this.context;
-    const [time] = timeTickTexts([this.world.posed], ticks(view.from, view.until, 1000).step);
+    const { posed, until } = this.world;
+    const isKnown = this.world.has(posed);
+    const [time] = timeTickTexts([isKnown ? posed : until], ticks(view.from, view.until, 1000).step);
     const count = this.world.contactCount;
     const contacts = this.world.hasContacts ? `, ${count} ${count === 1 ? "contact" : "contacts"}` : "";
-    const text = `${this.component} at ${time} s${contacts}`;
+    const text = `${this.component} at ${time} s${isKnown ? contacts : ", the last time that is known of it"}`;
     if (this.caption.textContent !== text) this.caption.textContent = this.caption.title = text;
   }
 

@@ -334,6 +334,17 @@ class PagesTest(WorldPage):
             self.put_cursor(seconds)
             self.assertAlmostEqual(self.browser.run(f"return {WORLD}.positionOf('block')[0]"), x, delta=1e-6)
 
+    def test_times_behind_the_end_of_a_world_are_not_known(self):
+        self.open_world("shorter", world=world_file.sample("-4"))
+        for seconds, text in ((5, "world at 5.00 s, "), (8, "world at 6.00 s, the last time that is known of it")):
+            self.put_cursor(seconds)
+            self.assertTrue(self.browser.one(".world-picture figcaption").text.startswith(text))
+        self.browser.wait_for("return document.querySelector('.film-track canvas').width > 0")
+        self.browser.settle()
+        widths = self.browser.run("return [...document.querySelectorAll('.film-track canvas')].map((each) => each.width)")
+        known = round(len(widths) * 0.6)
+        self.assertEqual([width > 0 for width in widths], [i < known for i in range(len(widths))])
+
     def test_a_run_that_failed_is_posed_at_its_first_failure(self):
         check = {"name": "limit", "passed": False, "failed_at": 7, "time": 7}
         self.open_world("failed", data=run_of(checks=[check]))

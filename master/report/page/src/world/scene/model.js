@@ -70,6 +70,11 @@ export class Model {
     return this.#of("contact");
   }
 
+  /** Its last instant [s]: of a run that goes on, or was killed, there may be later ones. */
+  get until() {
+    return this.startTime + (this.#action?.getClip().duration ?? Infinity);
+  }
+
   /** Poses all nodes as they were at an instant [s]. */
   pose(seconds) {
     if (this.#action) {

@@ -7,6 +7,8 @@ import { Model } from "./model.js";
 
 /** More device pixels than these for each CSS pixel are not seen, but take their time. */
 const kMostPixels = 2;
+/** Of times in single precision, relative. */
+const kRounding = 2 ** -22;
 
 /**
  * Events: "drawn", for tests; "choice" if another camera or target is chosen; "lost" and "restored" of WebGL.
@@ -71,6 +73,17 @@ export class World extends EventTarget {
 
   get hasSites() {
     return this.#model.sites.length > 0;
+  }
+
+  /** Whether it has this time [s], but for the rounding of its own times, which are floats. */
+  has(seconds) {
+    const { until } = this.#model;
+    return seconds <= until + Math.abs(until) * kRounding;
+  }
+
+  /** The last time that it has [s]. */
+  get until() {
+    return this.#model.until;
   }
 
   /** As it is posed. */
