@@ -40,9 +40,9 @@ using asio::ip::tcp;
 using namespace std::chrono_literals;
 
 constexpr std::size_t kMostConnections = 16;
-/// Of a client that sends or takes nothing.
-constexpr auto kClientPatience = 10s;
 constexpr std::uint32_t kLongestHeader = 8192;
+/// What the system keeps of an answer: so small that a slow client is seen to take something.
+constexpr int kSendBuffer = 256 * 1024;
 /// So that clients, and what is between, know that the other side is there.
 constexpr auto kSignOfLife = 15s;
 /// For the request of the last page, and until it is made and sent.
@@ -146,6 +146,7 @@ class LiveServer::Connections {
   asio::awaitable<void> serve(tcp::socket socket);
   asio::awaitable<bool> answer(beast::tcp_stream& stream, const Request& request);
   asio::awaitable<Response> page_for(const Request& request);
+  asio::awaitable<void> send(beast::tcp_stream& stream, Response& response);
   asio::awaitable<void> send(beast::tcp_stream& stream, std::string text);
   asio::awaitable<void> send_events(beast::tcp_stream& stream);
   asio::awaitable<void> end_all();
@@ -157,6 +158,7 @@ class LiveServer::Connections {
 
   const Site site_;
   const MakePage make_page_;
+  const std::chrono::milliseconds patience_;
   std::size_t open_ = 0;       ///< connections
   std::size_t listeners_ = 0;  ///< to events
   std::size_t in_work_ = 0;    ///< pages that are made or sent
@@ -174,7 +176,8 @@ class LiveServer::Connections {
 LiveServer::Connections::Connections(const LiveServer& server, MakePage make_page)
     : site_{fmt::format("/{}/", server.token_), fmt::format("/{}/events", server.token_),
             fmt::format("127.0.0.1:{}", server.port_), fmt::format("localhost:{}", server.port_)},
-      make_page_(std::move(make_page)) {
+      make_page_(std::move(make_page)),
+      patience_(server.patience_) {
   listener_.assign(::fcntl(server.listener_, F_DUPFD_CLOEXEC, 3));
   spawn(accept());
   const core::BlockedSignals blocked;
@@ -223,6 +226,8 @@ asio::awaitable<void> LiveServer::Connections::accept() {
     if (open_ >= kMostConnections) continue;
     tcp::socket socket(context_);
     socket.assign(tcp::v4(), accepted.release());
+    boost::system::error_code ignored;
+    socket.set_option(tcp::socket::send_buffer_size(kSendBuffer), ignored);
     spawn(serve(std::move(socket)));
   }
 }
@@ -236,7 +241,7 @@ asio::awaitable<void> LiveServer::Connections::serve(tcp::socket socket) {
     for (bool goes_on = true; goes_on;) {
       http::request_parser<http::empty_body> parser;
       parser.header_limit(kLongestHeader);
-      stream.expires_after(kClientPatience);
+      stream.expires_after(patience_);
       co_await http::async_read(stream, buffer, parser, use_awaitable);
       goes_on = co_await answer(stream, parser.get());
     }
@@ -267,8 +272,7 @@ asio::awaitable<bool> LiveServer::Connections::answer(beast::tcp_stream& stream,
   } else {
     response = response_to(request, http::status::not_found, "There is no such page here.\n");
   }
-  stream.expires_after(kClientPatience);
-  co_await http::async_write(stream, *response, use_awaitable);
+  co_await send(stream, *response);
   if (is_last && request.target() == site_.page) ++last_pages_;
   co_return response->keep_alive();
 }
@@ -291,8 +295,17 @@ asio::awaitable<Response> LiveServer::Connections::page_for(const Request& reque
   co_return response_to(request, http::status::ok, std::move(text), "text/html; charset=utf-8");
 }
 
+/// However long a large page takes, as through a tunnel.
+asio::awaitable<void> LiveServer::Connections::send(beast::tcp_stream& stream, Response& response) {
+  http::response_serializer<http::string_body> rest(response);
+  while (!rest.is_done()) {
+    stream.expires_after(patience_);
+    co_await http::async_write_some(stream, rest, use_awaitable);
+  }
+}
+
 asio::awaitable<void> LiveServer::Connections::send(beast::tcp_stream& stream, std::string text) {
-  stream.expires_after(kClientPatience);
+  stream.expires_after(patience_);
   co_await asio::async_write(stream, asio::buffer(text), use_awaitable);
   stream.expires_never();
 }
@@ -335,8 +348,11 @@ std::uint16_t parse_live_port(const std::string& text) {
                    "--live alone takes one that is free");
 }
 
-LiveServer::LiveServer(std::uint16_t port)
-    : listener_(listening_at(port).release()), token_(random_token()), port_(port_of(listener_)) {
+LiveServer::LiveServer(std::uint16_t port, std::chrono::milliseconds patience)
+    : listener_(listening_at(port).release()),
+      patience_(patience),
+      token_(random_token()),
+      port_(port_of(listener_)) {
   address_ = fmt::format("http://127.0.0.1:{}/{}/", port_, token_);
 }
 

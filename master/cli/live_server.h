@@ -2,6 +2,7 @@
 #ifndef STRIDE_MASTER_CLI_LIVE_SERVER_H
 #define STRIDE_MASTER_CLI_LIVE_SERVER_H
 
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -25,9 +26,10 @@ class LiveServer {
   /// Makes the page, in a thread of the server. `is_over`: the last one.
   using MakePage = std::function<std::string(bool is_over)>;
 
-  /// Takes the port, or a free one if it is 0; answers nothing yet. Throws core::Error: Input if
-  /// the port is taken.
-  explicit LiveServer(std::uint16_t port);
+  /// Takes the port, or a free one if it is 0; answers nothing yet. `patience`: with a client that
+  /// sends or takes nothing. Throws core::Error: Input if the port is taken.
+  explicit LiveServer(std::uint16_t port,
+                      std::chrono::milliseconds patience = std::chrono::seconds(10));
   /// Behind end().
   ~LiveServer();
   LiveServer(const LiveServer&) = delete;
@@ -48,6 +50,7 @@ class LiveServer {
   class Connections;
 
   int listener_;
+  std::chrono::milliseconds patience_;
   std::string token_;
   std::string address_;
   std::uint16_t port_ = 0;

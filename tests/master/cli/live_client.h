@@ -46,6 +46,16 @@ class LiveClient {
     send("GET " + path_in(address) + file + " HTTP/1.1\r\nHost: 127.0.0.1:" +
          std::to_string(port_in(address)) + "\r\nConnection: close\r\n\r\n");
   }
+  /// So much, or less if the other side has closed the connection. Returns how much there is.
+  std::size_t receive_size(std::size_t size) {
+    char piece[4096];
+    while (received_.size() < size) {
+      const ssize_t more = ::recv(socket_.number(), piece, sizeof piece, 0);
+      if (more <= 0) break;
+      received_.append(piece, static_cast<std::size_t>(more));
+    }
+    return received_.size();
+  }
   /// All until the other side has closed the connection, or until this is in it.
   std::string receive(const std::string& until = {}) {
     char piece[4096];

@@ -8,6 +8,7 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include <catch2/catch.hpp>
@@ -199,6 +200,29 @@ TEST_CASE("many connections, and further ones") {
   last.send(text_of(bench.server, {.more = ""}));
   last.receive("page 2");
   CHECK(Client(bench.server).receive() == "");
+}
+
+TEST_CASE("who takes a large page slowly gets all of it, and who takes nothing is one less") {
+  constexpr std::size_t kSize = std::size_t{48} << 20;  // more than the system keeps of it
+  constexpr std::size_t kPiece = std::size_t{1} << 20;
+  constexpr auto kPatience = 1s;
+  LiveServer server(0, kPatience);
+  server.start([](bool) { return std::string(kSize, 'x') + "the last line"; });
+  Client silent(server);
+  Client slow(server);
+  Client idle(server);
+  for (Client* const client : {&slow, &idle}) client->send(text_of(server, {}));
+  const auto begin = std::chrono::steady_clock::now();
+  for (std::size_t size = kPiece; size < kSize && slow.receive_size(size) >= size; size += kPiece) {
+    std::this_thread::sleep_for(50ms);
+  }
+  CHECK(std::chrono::steady_clock::now() - begin > 2 * kPatience);
+  // not by matchers, which would print all of it
+  const bool is_whole = slow.receive().ends_with("xxxthe last line");
+  CHECK(is_whole);
+  const bool is_cut = !idle.receive().ends_with("the last line");
+  CHECK(is_cut);
+  CHECK(silent.receive() == "");
 }
 
 TEST_CASE("the port is one of the loopback, and can be named") {
