@@ -9,6 +9,7 @@
 #include <memory>
 #include <optional>
 #include <set>
+#include <stdexcept>
 #include <string_view>
 #include <system_error>
 #include <thread>
@@ -91,6 +92,12 @@ std::uint16_t port_of(int listener) {
     core::fail_run({}, "--live: the system does not tell the port");
   }
   return ntohs(address.sin_port);
+}
+
+core::Descriptor duplicate_of(int file) {
+  core::Descriptor duplicate(::fcntl(file, F_DUPFD_CLOEXEC, 0));
+  if (!duplicate.is_open()) throw std::system_error(errno, std::generic_category());
+  return duplicate;
 }
 
 /// Counts for as long as it exists.
@@ -178,7 +185,7 @@ LiveServer::Connections::Connections(const LiveServer& server, MakePage make_pag
             fmt::format("127.0.0.1:{}", server.port_), fmt::format("localhost:{}", server.port_)},
       make_page_(std::move(make_page)),
       patience_(server.patience_) {
-  listener_.assign(::fcntl(server.listener_, F_DUPFD_CLOEXEC, 3));
+  listener_.assign(duplicate_of(server.listener_).release());
   spawn(accept());
   const core::BlockedSignals blocked;
   maker_.emplace(1);
@@ -364,8 +371,9 @@ LiveServer::~LiveServer() {
 void LiveServer::start(MakePage make_page) {
   try {
     connections_ = std::make_unique<Connections>(*this, std::move(make_page));
-  } catch (const std::system_error& failure) {
-    core::fail_run({}, fmt::format("--live: cannot start its threads: {}", failure.what()));
+  } catch (const std::runtime_error& failure) {  // Boost's are not always std::system_error
+    core::fail_run({}, fmt::format("--live: cannot serve the page: {}", failure.what()),
+                   "raise the limits of open files (ulimit -n) and of threads (ulimit -u)");
   }
 }
 

@@ -37,7 +37,7 @@ class LiveServer {
 
   const std::string& address() const { return address_; }
 
-  /// Answers from here on. Throws core::Error (Run) if there can be no further threads.
+  /// Answers from here on. Throws core::Error (Run) if there can be no further files or threads.
   void start(MakePage make_page);
   bool has_started() const { return connections_ != nullptr; }
   /// There is something new. Does not wait for anybody.

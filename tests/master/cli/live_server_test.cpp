@@ -13,6 +13,7 @@
 
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
+#include <sys/resource.h>
 
 #include "master/util/error.h"
 #include "tests/master/cli/live_client.h"
@@ -223,6 +224,26 @@ TEST_CASE("who takes a large page slowly gets all of it, and who takes nothing i
   const bool is_cut = !idle.receive().ends_with("the last line");
   CHECK(is_cut);
   CHECK(silent.receive() == "");
+}
+
+TEST_CASE("a server that cannot be started says what is missing") {
+  LiveServer server(0);
+  rlimit before{};
+  REQUIRE(::getrlimit(RLIMIT_NOFILE, &before) == 0);
+  const rlimit none{0, before.rlim_max};
+  REQUIRE(::setrlimit(RLIMIT_NOFILE, &none) == 0);
+  std::string text = "no failure";
+  try {
+    server.start([](bool) { return std::string(); });
+  } catch (const stride::core::Error& error) {
+    text = error.what();
+  } catch (const std::exception& error) {
+    text = std::string("of the library: ") + error.what();
+  }
+  REQUIRE(::setrlimit(RLIMIT_NOFILE, &before) == 0);
+  CHECK_THAT(text, StartsWith("--live: cannot serve the page: ") &&
+                       Contains("Too many open files") && Contains("ulimit -n"));
+  CHECK(!server.has_started());
 }
 
 TEST_CASE("the port is one of the loopback, and can be named") {
