@@ -7,6 +7,8 @@ from typing import Any, Optional, TypeVar
 
 __all__ = ["Error", "InputError", "MisuseError", "RunError"]
 
+_HINT = "\n  hint: "
+
 
 class Error(Exception):
     """What stride says of a mistake or a failure: `str(error)` is all of it, the attributes are its parts.
@@ -35,7 +37,7 @@ class Error(Exception):
         variable: Optional[str] = None,
         time: Optional[float] = None,
     ) -> None:
-        super().__init__(message)
+        super().__init__(f"{message}{_HINT}{hint}" if hint and _HINT not in message else message)
         self.text = message if text is None else text
         self.hint = hint
         self.file = file

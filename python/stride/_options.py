@@ -21,6 +21,12 @@ def word_of(value: Any, what: str) -> str:
     return text
 
 
+def file_word(value: Any, what: str) -> str:
+    """Of a path, which may begin as an option does."""
+    word = word_of(value, what)
+    return f"./{word}" if word.startswith("-") else word
+
+
 def _text(value: Any) -> str:
     if isinstance(value, bool):
         return "true" if value else "false"
@@ -52,15 +58,15 @@ def settings(options: Mapping[str, Any]) -> list[Setting]:
     """
     found: list[Setting] = []
     for keyword, value in options.items():
-        name = keyword.rstrip("_").replace("_", "-")
-        if name in ("help", "h", "version"):
-            raise InputError(f"'{keyword}' is for a command line, where it is all that is done")
+        name = word_of(keyword, "an option").rstrip("_").replace("_", "-")
+        if name in ("help", "h", "version", "progress", "json"):
+            raise InputError(f"'{keyword}' is an option for a command line, and none of a call from Python")
         if value is None or value is False:
             continue
         if value is True:
             found.append((name, None))
         elif isinstance(value, Mapping):
-            found.extend((name, f"{key}={_text(item)}") for key, item in value.items())
+            found.extend((name, f"{word_of(key, 'a name')}={_text(item)}") for key, item in value.items())
         elif isinstance(value, (str, os.PathLike)) or not isinstance(value, Iterable):
             found.append((name, _text(value)))
         else:

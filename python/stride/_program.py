@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 import logging
 import os
 import shutil
@@ -16,7 +15,8 @@ import numpy as np
 
 from ._errors import Error, InputError, RunError, parse_error
 from ._installed import program
-from ._options import word_of, words
+from ._options import file_word, word_of, words
+from ._rows import read_table
 from .results import Run, TemporaryFolder
 
 __all__ = ["Campaign", "campaign", "run"]
@@ -116,8 +116,7 @@ def run(scenario: PathLike, *, out: Optional[PathLike] = None, **options: Any) -
         RunError: The run has failed on the way; its attribute `run` is what has happened up to there (None, where that could
             not be written: the disk is full, the program was killed).
     """
-    name = word_of(scenario, "the scenario")
-    return run_words([f"./{name}" if name.startswith("-") else name], out=out, **options)
+    return run_words([file_word(scenario, "the scenario")], out=out, **options)
 
 
 def run_words(
@@ -128,7 +127,7 @@ def run_words(
     if out is None:
         keeper = TemporaryFolder()
         out = keeper.name
-    results = Path(out).absolute()
+    results = Path(word_of(out, "out")).absolute()
     code, output, messages = _call(["run", *arguments, f"--out={results}", "--progress=none", *words(options)], folder)
     if code == 2:
         raise _failure(messages, InputError)
@@ -156,15 +155,15 @@ class Campaign:
 
     def __init__(self, folder: Union[str, Path], summary: str = "") -> None:
         """Reads cases.csv in this folder. Raises InputError if there is none."""
-        self.folder = Path(folder).absolute()
+        self.folder = Path(word_of(folder, "a folder of a campaign")).absolute()
         self.summary = summary
         table = self.folder / "cases.csv"
         if not table.is_file():
             raise InputError(f"{self.folder} has no table of cases", file=str(table))
-        with table.open(newline="", encoding="utf-8") as lines:
-            reader = csv.DictReader(lines)
-            self.rows = list(reader)
-            self.columns = list(reader.fieldnames or [])
+        self.columns, found = read_table(table)
+        if not {"case", "seed", "outcome"} <= {*self.columns}:
+            raise InputError(f"{table}:1: there is no column case, seed or outcome", file=str(table), line=1)
+        self.rows = [dict(zip(self.columns, row)) for row in found]
 
     def __len__(self) -> int:
         return len(self.rows)
@@ -182,7 +181,10 @@ class Campaign:
             raise KeyError(f"no column '{column}'; there are: {', '.join(self.columns)}")
         texts = [row[column] for row in self.rows]
         if column in ("case", "seed"):  # a seed has more digits than a float
-            return np.array([int(text) for text in texts], dtype=np.uint64)
+            try:
+                return np.array([int(text) for text in texts], dtype=np.uint64)
+            except (ValueError, OverflowError) as error:
+                raise InputError(f"{self.folder / 'cases.csv'}: column '{column}': {error}") from None
         try:
             return np.array([float(text) if text else np.nan for text in texts])
         except ValueError:
@@ -225,11 +227,11 @@ def campaign(file: PathLike, *, out: Optional[PathLike] = None, **options: Any) 
         InputError: The campaign, its scenario or an option is wrong.
         RunError: The campaign could not be run. Cases that fail are none of an exception.
     """
-    file = word_of(file, "the campaign")
+    file = file_word(file, "the campaign")
     for name in ("case", "cases"):
         if options.get(name) is not None:
             raise InputError(f"'{name}' runs cases without making the table; stride.run runs a scenario like a case")
-    folder = Path("campaigns", Path(file).stem) if out is None else Path(out)
+    folder = Path("campaigns", Path(file).stem) if out is None else Path(word_of(out, "out"))
     code, output, messages = _call(
         ["campaign", "run", file, f"--out={folder}", "--progress=none", *words(options)]
     )

@@ -14,27 +14,38 @@ from ._errors import InputError
 _log = logging.getLogger("stride")
 
 
+def signal_header(signals: list[dict[str, Any]]) -> list[str]:
+    """That of signals.csv; the signals are those of run.json."""
+    return ["time", *(f"{each['name']} [{each['unit']}]" if each["unit"] else each["name"] for each in signals)]
+
+
 def rows(file: Path, header: list[str]) -> Iterator[tuple[int, list[str]]]:
     """The number of the line, and the fields, of each row below the header.
 
-    A last line that was cut off, as a run that was killed leaves it, is left out with a warning. Raises InputError
-    where the header or the number of fields is another one.
+    A last line that was cut off, as a run that was killed leaves it, is left out with a warning; that may be the
+    header. Raises InputError where the header or the number of fields is another one.
     """
+    found = _whole_lines(file)
+    _, first = next(found, (0, header))
+    if first != header:
+        text = f"its columns are {', '.join(first)}; expected {', '.join(header)}"
+        raise InputError(f"{file}:1: {text}", file=str(file), line=1)
+    for line, row in found:
+        if len(row) != len(header):
+            text = f"there are {len(row)} fields; expected {len(header)}"
+            raise InputError(f"{file}:{line}: {text}", file=str(file), line=line)
+        yield line, row
+
+
+def read_table(file: Path) -> tuple[list[str], list[list[str]]]:
+    """The header, whatever it is, and the rows below it; likewise."""
+    _, header = next(_whole_lines(file), (0, []))
+    return header, [row for _, row in rows(file, header)]
+
+
+def _whole_lines(file: Path) -> Iterator[tuple[int, list[str]]]:
     with file.open(newline="", encoding="utf-8", errors="replace") as lines:
-        reader = csv.reader(lines, strict=True)
-        first = next(reader, None)
-        if first is None:
-            return  # killed before the header was written
-        if len(first) != len(header) or first[:1] != header[:1]:
-            raise InputError(
-                f"{file}:1: its columns are {', '.join(first)}; expected {', '.join(header)}", file=str(file), line=1
-            )
-        for line, row in _without_cut_end(file, reader):
-            if len(row) != len(header):
-                raise InputError(
-                    f"{file}:{line}: there are {len(row)} fields; expected {len(header)}", file=str(file), line=line
-                )
-            yield line, row
+        yield from _without_cut_end(file, csv.reader(lines, strict=True))
 
 
 def _without_cut_end(file: Path, reader: Any) -> Iterator[tuple[int, list[str]]]:

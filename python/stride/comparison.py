@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import json
-import os
 import tempfile
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Optional, Union
 
-from ._options import words
+from ._options import file_word, words
 from ._program import PathLike, answer_of
 from .results import Run
 
@@ -104,7 +103,7 @@ def compare(a: Union[Run, PathLike], b: Union[Run, PathLike], **options: Any) ->
     Raises:
         InputError: One of them is no folder of results, a file is malformed, or an option is wrong.
     """
-    folders = [os.fspath(each.folder if isinstance(each, Run) else each) for each in (a, b)]
+    folders = [file_word(each.folder if isinstance(each, Run) else each, "a folder of results") for each in (a, b)]
     with tempfile.TemporaryDirectory(prefix="stride-") as folder:
         file = Path(folder, "comparison.json")
         output = answer_of(["compare", *folders, f"--json={file}", *words(options)], file)

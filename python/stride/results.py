@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import functools
 import html
+import itertools
 import json
+import math
 import os
 import shutil
 import tempfile
@@ -18,8 +20,9 @@ from typing import TYPE_CHECKING, Any, Optional, Union
 import numpy as np
 
 from ._errors import InputError
-from ._rows import rows
-from .simulation import Message, Verdict
+from ._options import word_of
+from ._rows import rows, signal_header
+from .simulation import TYPES, Message, Verdict
 
 if TYPE_CHECKING:
     from .export import McapFile
@@ -37,24 +40,23 @@ class Signals(Mapping[str, np.ndarray]):
     of measure.
     """
 
-    def __init__(self, file: Path, types: Mapping[str, str], keeper: Any = None) -> None:
+    def __init__(self, file: Path, signals: list[dict[str, Any]], keeper: Any = None) -> None:
+        """`signals` are those of run.json."""
         self._keeper = keeper  # of the file
         self._file = file
-        self._types = types
+        self._header = signal_header(signals)
+        self._types = {each["name"]: each["type"] for each in signals}
         self._made: dict[str, np.ndarray] = {}
 
     @functools.cached_property
     def _columns(self) -> dict[str, Any]:
         if not self._file.is_file():
             raise InputError(f"the signals of this run are gone: there is no {self._file}")
-        if self._file.stat().st_size == 0:
-            raise InputError(f"{self._file} is empty: the run was ended before it was written")
+        with self._file.open("rb") as content:
+            if not content.readline().endswith(b"\n"):
+                raise InputError(f"{self._file} is empty: the run was ended before its first line was written")
         columns: list[Any] = list(zip(*(row for _, row in self._rows()))) or [()] * len(self._header)
-        return dict(zip(self._header, columns))
-
-    @property
-    def _header(self) -> list[str]:
-        return ["time", *self._types]
+        return dict(zip(["time", *self._types], columns))
 
     def _rows(self) -> Iterator[tuple[int, list[str]]]:
         return rows(self._file, self._header)
@@ -63,9 +65,11 @@ class Signals(Mapping[str, np.ndarray]):
     def time(self) -> np.ndarray:
         """[s], not falling."""
         times = self._column("time", "Float64")
-        back = np.flatnonzero(~(np.diff(times) >= 0))
-        if back.size > 0:
-            raise InputError(f"{self._file}: its times go back behind {times[back[0]]} s", file=str(self._file))
+        wrong = np.flatnonzero(~((np.diff(times, prepend=times[:1]) >= 0) & np.isfinite(times)))
+        if wrong.size > 0:
+            line, row = next(itertools.islice(self._rows(), int(wrong[0]), None))
+            text = f"{self._file}:{line}: the time goes back, or is none: '{row[0]}'"
+            raise InputError(text, file=str(self._file), line=line)
         return times
 
     def _column(self, name: str, type_: str) -> np.ndarray:
@@ -76,7 +80,7 @@ class Signals(Mapping[str, np.ndarray]):
 
     def _mistake(self, name: str, type_: str) -> InputError:
         """The first value that is none."""
-        index = self._header.index(name)
+        index = ["time", *self._types].index(name)
         for line, row in self._rows():
             try:
                 _array([row[index]], type_)
@@ -89,6 +93,7 @@ class Signals(Mapping[str, np.ndarray]):
         if name not in self._types:
             raise KeyError(f"no signal '{name}' was recorded; there are: {', '.join(self._types) or 'none'}")
         if name not in self._made:
+            self.time  # noqa: B018 - where it goes back, the rows are not those of a run
             self._made[name] = self._column(name, self._types[name])
         return self._made[name]
 
@@ -123,30 +128,40 @@ def _array(texts: Any, type_: str) -> np.ndarray:
 
 
 _EVENTS = ["time", "index", "component", "variable", "direction", "payload", "content"]
+_DIRECTIONS = ("sent", "received", "intervention")
 
 
 def _message(file: Path, line: int, row: list[str]) -> Message:
     time, index, component, variable, direction, payload, content = row
     try:
+        if direction not in _DIRECTIONS:
+            raise ValueError(f"'{direction}' is none of {', '.join(_DIRECTIONS)}")
         is_received = direction == "received"
         return Message(float(time), f"{component}.{variable}", is_received, payload or None, content, int(index))
     except ValueError as error:
         raise InputError(f"{file}:{line}: a value is wrong: {error}", file=str(file), line=line) from None
 
 
-def _damaged(file: Path, why: str) -> InputError:
+def _damaged(file: Path, why: str, line: Optional[int] = None) -> InputError:
     hint = f"'stride report {file.parent}' shows what there is"
-    return InputError(f"{file} is not whole: {why}", file=str(file), hint=hint)
+    place = f"{file}:{line}" if line else f"{file}"
+    return InputError(f"{place}: the account is not whole: {why}", file=str(file), line=line, hint=hint)
 
 
-#: What run.json has in any case: the type of each member, and the members of the entries of a list.
-_ACCOUNT: dict[str, tuple[type, tuple[str, ...]]] = {
-    "system": (str, ()),
-    "outcome": (str, ()),
-    "files": (dict, ()),
-    "signals": (list, ("name", "unit", "type")),
-    "verdicts": (list, ("component", "passed", "text")),
-    "checks": (list, ("name", "passed", "text")),
+_NOTHING = type(None)
+_NUMBER = (int, float, _NOTHING)
+_PASSED = (bool, _NOTHING)
+
+#: What run.json is for this package: the type of each member, and those of the members of the entries of a list.
+_ACCOUNT: dict[str, Any] = {
+    "system": str,
+    "outcome": str,
+    "error": (str, _NOTHING),
+    "reached": _NUMBER,
+    "files": dict,
+    "signals": {"name": str, "unit": str, "type": str},
+    "verdicts": {"component": str, "passed": _PASSED, "text": str},
+    "checks": {"name": str, "passed": _PASSED, "text": str, "time": _NUMBER, "margin": (dict, _NOTHING)},
 }
 
 
@@ -154,12 +169,26 @@ def _require_account(file: Path, info: Any) -> None:
     """Raises InputError where it is not what a run writes."""
     if not isinstance(info, dict):
         raise _damaged(file, "it is no object of JSON")
-    for name, (kind, members) in _ACCOUNT.items():
-        if not isinstance(info.get(name), kind):
+    for name, kind in _ACCOUNT.items():
+        is_list = isinstance(kind, dict)
+        if not isinstance(info.get(name), list if is_list else kind):
             raise _damaged(file, f"there is no '{name}', or it is another one than a run writes")
-        for entry in info[name] if members else ():
-            if not isinstance(entry, dict) or any(member not in entry for member in members):
-                raise _damaged(file, f"an entry of '{name}' lacks one of {', '.join(members)}")
+        for entry in info[name] if is_list else ():
+            _require_members(file, name, entry, kind)
+    for name, path in info["files"].items():
+        if not isinstance(path, str) or "\0" in path:
+            raise _damaged(file, f"'{name}' of its files is none")
+    unknown = [each["type"] for each in info["signals"] if each["type"] not in TYPES]
+    if unknown:
+        raise _damaged(file, f"a signal has the type '{unknown[0]}', which is not known")
+
+
+def _require_members(file: Path, name: str, entry: Any, kinds: dict[str, Any]) -> None:
+    if not isinstance(entry, dict):
+        raise _damaged(file, f"an entry of '{name}' is none")
+    for member, kind in kinds.items():
+        if member not in entry or not isinstance(entry[member], kind):
+            raise _damaged(file, f"an entry of '{name}' lacks '{member}', or has another one than a run writes")
 
 
 class Run:
@@ -176,20 +205,21 @@ class Run:
 
         `keeper` is whatever removes the folder when this object goes.
         """
-        self.folder = Path(folder).absolute()
+        self.folder = Path(word_of(folder, "a folder of results")).absolute()
         self.summary = summary
         self._keeper = keeper
         file = self.folder / "run.json"
         if not file.is_file():
+            is_there = self.folder.is_dir()
             raise InputError(
-                f"{self.folder} is no folder of results: there is no run.json",
+                f"{self.folder} is no folder of results: there is no {'run.json' if is_there else 'such folder'}",
                 file=str(file),
-                hint=f"'stride report {self.folder}' shows what else there is",
+                hint=f"'stride report {self.folder}' shows what else there is" if is_there else None,
             )
         try:
             self.info: dict[str, Any] = json.loads(file.read_text(encoding="utf-8"))
-        except ValueError as error:
-            raise _damaged(file, f"{error}") from None
+        except (ValueError, RecursionError) as error:
+            raise _damaged(file, f"{error}", getattr(error, "lineno", None)) from None
         _require_account(file, self.info)
 
     # ---- What happened ----
@@ -200,7 +230,7 @@ class Run:
         name = self.info["files"].get("signals")
         if not name:
             raise InputError("this run has recorded no signals: its scenario names no file for them")
-        return Signals(self.folder / name, {each["name"]: each["type"] for each in self.info["signals"]}, self._keeper)
+        return Signals(self.folder / name, self.info["signals"], self._keeper)
 
     @property
     def time(self) -> np.ndarray:
@@ -231,8 +261,8 @@ class Run:
                 each["name"],
                 each["passed"],
                 each["text"],
-                each.get("time"),
-                (each.get("margin") or {}).get("value"),
+                each["time"],
+                (each["margin"] or {}).get("value"),
             )
             for each in self.info["checks"]
         ]
@@ -254,7 +284,8 @@ class Run:
     @property
     def reached(self) -> float:
         """The simulated time at its end [s]; NaN where it has been killed before."""
-        return float(self.info.get("reached", "nan"))
+        reached = self.info.get("reached")
+        return math.nan if reached is None else float(reached)
 
     def check(self) -> Run:
         """Raises AssertionError that lists each bad verdict; returns the run if there is none, and it came to its end."""

@@ -29,7 +29,7 @@ PathLike = Union[str, "os.PathLike[str]"]
 
 _DTYPES = [np.dtype(name) for name in "float32 float64 int8 uint8 int16 uint16 int32 uint32 int64 uint64 bool".split()]
 _STRING, _BINARY, _ENUMERATION, _CLOCK = range(11, 15)
-_TYPES = (
+TYPES = (
     "Float32 Float64 Int8 UInt8 Int16 UInt16 Int32 UInt32 Int64 UInt64 Boolean String Binary Enumeration Clock"
 ).split()
 _CAUSALITIES = "parameter calculatedParameter structuralParameter input output local independent".split()
@@ -332,7 +332,7 @@ class Simulation:
         known = dict(
             name=name,
             component=c.text(raw.component),
-            type=_TYPES[raw.type],
+            type=TYPES[raw.type],
             causality=_CAUSALITIES[raw.causality],
             unit=c.text(raw.unit),
             description=c.text(raw.description),
@@ -363,7 +363,7 @@ class Simulation:
         """The value of a variable at the present instant."""
         index, variable = self._find(name)
         count = math.prod(variable.shape)
-        elements = _space(_TYPES.index(variable.type), count)
+        elements = _space(TYPES.index(variable.type), count)
         self._call("stride_get", index, ctypes.byref(elements), count)
         return _value(variable, elements, count)
 
@@ -415,7 +415,7 @@ class Simulation:
             variable = self._by_index[raw.index]
             value = None
             if raw.elements:
-                space = _space(_TYPES.index(variable.type), raw.count)
+                space = _space(TYPES.index(variable.type), raw.count)
                 ctypes.memmove(space, raw.elements, ctypes.sizeof(space))
                 value = _value(variable, space, raw.count)
             found.append(
@@ -618,7 +618,7 @@ def _elements(variable: Variable, value: Any) -> tuple[Any, int]:
             entry.data = ctypes.cast(buffer, ctypes.c_void_p)
             entry.size = len(element)
         return space, count
-    dtype = np.dtype("int64") if variable.type == "Enumeration" else _DTYPES[_TYPES.index(variable.type)]
+    dtype = np.dtype("int64") if variable.type == "Enumeration" else _DTYPES[TYPES.index(variable.type)]
     wanted_text = f"of the type {variable.type}" + (f" and the shape {variable.shape}" if variable.shape else "")
     try:
         given = np.asarray(value)

@@ -168,7 +168,7 @@ def test_topics_of_components(folder, components, topics):
     run.info["signals"] = [
         {"name": f"{name}.y", "unit": "", "type": "Float64", "variability": "continuous"} for name in components
     ]
-    (run.folder / "signals.csv").write_text("time,a,b\n0,1,2\n")
+    (run.folder / "signals.csv").write_text(f"time,{','.join(f'{name}.y' for name in components)}\n0,1,2\n")
     content = export(run)
     assert [content.messages[topic][0][1].y for topic in topics] == [1, 2]
     assert [content.channels[topic].metadata["component"] for topic in topics] == components

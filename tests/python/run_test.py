@@ -109,8 +109,18 @@ def test_signals_of_each_type(types):
 @pytest.mark.parametrize(
     ("call", "message"),
     [
-        (lambda: stride.run("test.ssd", help=True), "'help' is for a command line"),
-        (lambda: stride.compare("a", "b", version=True), "'version' is for a command line"),
+        (lambda: stride.run("test.ssd", help=True), "'help' is an option for a command line"),
+        (lambda: stride.compare("a", "b", version=True), "'version' is an option for a command line"),
+        (lambda: stride.compare("a", "b", json="c.json"), "'json' is an option for a command line"),
+        (lambda: stride.run("test.ssd", progress="plain"), "'progress' is an option for a command line"),
+        (lambda: stride.run("test.ssd", set={"a\0": 1}), "a name: a text has no NUL"),
+        (lambda: stride.run("test.ssd", **{"x\0": 1}), "an option: a text has no NUL"),
+        (lambda: stride.run("test.ssd", out="a\0"), "out: a text has no NUL"),
+        (lambda: stride.run("test.ssd", out=3), "out is a text or a path, not 3"),
+        (lambda: stride.compare("--help", "b"), "./--help: this is not a folder"),
+        (lambda: stride.compare("a", None), "a folder of results is a text or a path, not None"),
+        (lambda: stride.campaign("--help"), "./--help: the file does not exist"),
+        (lambda: stride.Run("a\0"), "a folder of results: a text has no NUL"),
         (lambda: stride.campaign("c.xosc", case=1), "'case' runs cases without making the table"),
         (lambda: stride.run("a\0b"), "the scenario: a text has no NUL"),
         (lambda: stride.run("test.ssd", set={"first.u": "a\0"}), "a value: a text has no NUL"),
@@ -219,20 +229,40 @@ def test_a_run_that_was_killed_has_not_passed(folder):
         run.check()
 
 
-@pytest.mark.parametrize("text", ['{"outcome": ', "[]", '{"outcome": 1}', '"\udcff"'])
+@pytest.mark.parametrize("text", ['{"outcome": ', "[]", '{"outcome": 1}', '"\udcff"', "[" * 100000])
 def test_an_account_that_is_not_whole_is_an_error(folder, text):
     (folder / "out").mkdir()
     (folder / "out" / "run.json").write_text(text, errors="surrogateescape")
-    with pytest.raises(stride.InputError, match="run.json is not whole") as caught:
+    with pytest.raises(stride.InputError, match=r"run.json(:1)?: the account is not whole") as caught:
         stride.Run("out")
-    assert "stride report" in caught.value.hint
+    assert "stride report" in caught.value.hint and caught.value.hint in str(caught.value)
 
 
-def test_entries_of_an_account_that_lack_something(folder):
-    run = stride.run("test.ssd", out="out")
-    run.info["checks"][0].pop("passed")
-    (folder / "out" / "run.json").write_text(json.dumps(run.info))
-    with pytest.raises(stride.InputError, match="an entry of 'checks' lacks one of name, passed, text"):
+def test_a_folder_without_an_account(folder):
+    with pytest.raises(stride.InputError, match="there is no such folder") as caught:
+        stride.Run("nowhere")
+    assert caught.value.hint is None
+    (folder / "out").mkdir()
+    with pytest.raises(stride.InputError, match=r"there is no run.json\n  hint: 'stride report .*out' shows"):
+        stride.Run("out")
+
+
+@pytest.mark.parametrize(
+    ("edit", "message"),
+    [
+        (lambda info: info["checks"][0].pop("passed"), "an entry of 'checks' lacks 'passed'"),
+        (lambda info: info["checks"][0].update(margin=3), "an entry of 'checks' lacks 'margin'"),
+        (lambda info: info.update(verdicts=["good"]), "an entry of 'verdicts' is none"),
+        (lambda info: info.update(reached="soon"), "there is no 'reached'"),
+        (lambda info: info["files"].update(events=3), "'events' of its files is none"),
+        (lambda info: info["signals"][0].update(type="Float16"), "a signal has the type 'Float16'"),
+    ],
+)
+def test_members_of_an_account_that_no_run_writes(folder, edit, message):
+    info = stride.run("test.ssd", out="out").info
+    edit(info)
+    (folder / "out" / "run.json").write_text(json.dumps(info))
+    with pytest.raises(stride.InputError, match=message):
         stride.Run("out")
 
 
@@ -260,18 +290,25 @@ def test_a_last_row_that_was_cut_off_is_left_out(folder, caplog, cut):
         (lambda text: text[text.index("\n") + 1 :], "signals.csv:1: its columns are"),
         (lambda text: text.replace("\n", ",1\n", 3), "signals.csv:1: its columns are"),
         (lambda text: text.replace("\n0.5,", "\n0.5x,"), r"signals.csv:\d+: '0.5x' is no value of 'time'"),
-        (lambda text: text.replace("\n0.5,", "\n0.1,"), "its times go back behind"),
+        (lambda text: text.replace("\n0.5,", "\n0.1,"), "signals.csv:6: the time goes back, or is none: '0.1'"),
+        (lambda text: text.replace("\n0.5,", "\nnan,"), "signals.csv:6: the time goes back, or is none: 'nan'"),
+        (lambda text: text.replace("first.y,second.y", "second.y,first.y"), "signals.csv:1: its columns are time, second"),
+        (lambda text: text[:12], "signals.csv is empty"),
     ],
 )
 def test_rows_that_no_run_writes_are_errors(folder, edit, message):
+    run = damaged(folder, edit)
     with pytest.raises(stride.InputError, match=message):
-        damaged(folder, edit).time  # noqa: B018
+        run.signals["second.y"]
+    with pytest.raises(stride.InputError, match=message):
+        run.time  # noqa: B018
 
 
-def test_messages_that_no_run_writes_are_errors(types, tmp_path):
+@pytest.mark.parametrize("row", ["soon,0,a,b,sent,,", "1,0,a,b,thrown,,", "1,-1.5,a,b,received,,"])
+def test_messages_that_no_run_writes_are_errors(types, row):
     stride.run("types.ssd", out="out")
     file = pathlib.Path("out", "events.csv")
-    file.write_text(file.read_text() + "soon,0,a,b,sent,,\n")
+    file.write_text(file.read_text() + f"{row}\n")
     with pytest.raises(stride.InputError, match=r"events.csv:\d+: a value is wrong"):
         stride.Run("out").events  # noqa: B018
 
@@ -369,6 +406,27 @@ def test_a_campaign(campaign):
     assert not table.passed
     assert "2 of 3 cases passed" in repr(table)
     assert list(stride.campaign(campaign)["outcome"]) == list(table["outcome"])
+
+
+@pytest.mark.parametrize(
+    ("edit", "message"),
+    [
+        (lambda text: text + "3\n", r"cases.csv:5: there are 1 fields"),
+        (lambda text: "", "cases.csv:1: there is no column case, seed or outcome"),
+        (lambda text: text.replace("\n1,", "\nx,"), "cases.csv: column 'case': "),
+    ],
+)
+def test_a_table_of_cases_that_no_campaign_writes(campaign, edit, message):
+    file = stride.campaign(campaign).folder / "cases.csv"
+    file.write_text(edit(file.read_text()))
+    with pytest.raises(stride.InputError, match=message):
+        stride.Campaign(file.parent)["case"]
+
+
+def test_what_is_in_a_campaign(campaign):
+    table = stride.campaign(campaign)
+    assert "first.u" in table and "x" not in table and 3 not in table
+    assert [row["first.u"] for row in table] == ["0", "1", "1.5"]
 
 
 def test_a_campaign_in_pandas(campaign):

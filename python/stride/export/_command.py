@@ -50,12 +50,6 @@ class _Formatter(logging.Formatter):
         return f"stride: warning: {_readable(record.getMessage())}"
 
 
-def _text(error: Exception) -> str:
-    hint = getattr(error, "hint", None)
-    text = str(error)
-    return f"{text}\n  hint: {hint}" if hint and "hint: " not in text else text
-
-
 def main(arguments: Optional[list[str]] = None) -> int:
     """Returns the exit code."""
     options = _parser().parse_args(arguments)
@@ -71,7 +65,7 @@ def main(arguments: Optional[list[str]] = None) -> int:
         print("stride: error: interrupted", file=sys.stderr)
         return _FAILED
     except (Error, ImportError, OSError) as error:
-        print(f"stride: error: {_readable(_text(error))}", file=sys.stderr)
+        print(f"stride: error: {_readable(str(error))}", file=sys.stderr)
         return _WRONG_INPUT if isinstance(error, (InputError, ImportError)) else _FAILED
     finally:
         logger.removeHandler(warnings)

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any, Callable
 
 from .._errors import InputError
-from .._rows import rows
+from .._rows import rows, signal_header
 from ._names import Scope, identifier
 from ._output import Channel, Output
 from ._schemas import Column, ComponentSignals
@@ -46,7 +46,7 @@ def signal_events(folder: Path, info: dict[str, Any], output: Output) -> Iterato
         units = {f"unit:{name}": unit for name, unit in signals.units.items()}
         channel = output.channel(signals.schema, ("signals", component), component=component, **units)
         writers.append((channel, signals))
-    return _rows(folder / name, ["time", *(signal["name"] for signal in info["signals"])], writers)
+    return _rows(folder / name, signal_header(info["signals"]), writers)
 
 
 def _rows(file: Path, header: list[str], writers: list[tuple[Channel, ComponentSignals]]) -> Iterator[Event]:
