@@ -8,8 +8,8 @@
     def test_each_case(stride_case):
         stride_case.run().check()
 
-`pytest scenario.ssd` runs a scenario and is a test for each of its checks; the ini option `stride_scenarios` lists
-patterns of those that are found in folders, too.
+`pytest scenario.ssd` runs a scenario and is a test for each of its checks, and so are packages (.ssp) and FMUs; the ini
+option `stride_scenarios` lists patterns of those that are found in folders, too.
 """
 
 from __future__ import annotations
@@ -18,9 +18,11 @@ import contextlib
 import copy
 import csv
 import fnmatch
+import itertools
 import os
 import shlex
 import tempfile
+import zipfile
 from collections import Counter
 from collections.abc import Generator, Iterable
 from dataclasses import dataclass, field, replace
@@ -31,7 +33,7 @@ from xml.parsers import expat
 import pytest
 
 from ._errors import Error, InputError, MisuseError, RunError
-from ._options import words
+from ._options import word_of, words
 from ._program import output_of, run, run_words
 from .results import Run
 
@@ -44,7 +46,7 @@ _runs = pytest.StashKey[list[Run]]()
 def pytest_addoption(parser: pytest.Parser) -> None:
     parser.addini(
         "stride_scenarios",
-        "patterns of scenarios (.ssd) that are tests wherever they are found, beside those named on the command line",
+        "patterns of scenarios (.ssd, .ssp, .fmu) that are tests wherever they are found, beside those named on the command line",
         type="args",
         default=[],
     )
@@ -65,10 +67,14 @@ _Stamp = tuple[str, int, int]
 
 
 def _stamps(run: Run) -> list[_Stamp]:
-    """Of all that it was made from."""
-    provenance = run.info.get("provenance", {})
-    folder = Path(next((command["folder"] for command in provenance.get("commands", [])), ""))
-    return [_stamp(folder / source["path"]) for source in provenance.get("sources", [])]
+    """Of all that it was made from, of what would be found in its place, which may not be there, and of its account."""
+    provenance = run.info["provenance"]
+    folder = Path(provenance["commands"][0]["folder"])
+    sources = [folder / source["path"] for source in provenance["sources"]]
+    searched = {folder, *(source.parent for source in sources), *map(Path, os.environ.get("STRIDE_UNITS", "").split(":"))}
+    names = {source.name for source in sources}
+    files = {*sources, *(place / name for place in searched for name in names), run.folder / "run.json"}
+    return [_stamp(file) for file in sorted(files)]
 
 
 def _stamp(file: Path) -> _Stamp:
@@ -115,16 +121,20 @@ class _Runs:
 
     def run(self, scenario: Any, **options: Any) -> Run:
         _refuse_out(options)
-        key = (os.getcwd(), os.fspath(scenario), tuple(sorted(words(options))))  # files are named from the folder
+        name = word_of(scenario, "the scenario")
+        settings = sorted(item for item in os.environ.items() if item[0].startswith("STRIDE_"))
+        key = (os.getcwd(), name, *sorted(words(options)), *settings)  # files are named from the folder
         if key not in self._made or not self._made[key].is_valid:
-            self._made[key] = self._make(scenario, options)
+            self._made[key] = self._make(name, options)
         return self._made[key].shared()
 
-    def _make(self, scenario: Any, options: dict[str, Any]) -> _Made:
+    def _make(self, scenario: str, options: dict[str, Any]) -> _Made:
         try:
             made = run(scenario, out=self.new_folder(Path(scenario).stem), **options)
         except RunError as error:
-            return _Made(error, [] if error.run is None else _stamps(error.run))
+            if error.run is None:  # nothing says what it was made from
+                raise
+            return _Made(error, _stamps(error.run))
         return _Made(made, _stamps(made))
 
 
@@ -192,7 +202,7 @@ def pytest_runtest_makereport(item: pytest.Item) -> Generator[None, Any, None]:
 
 
 def pytest_collect_file(file_path: Path, parent: pytest.Collector) -> Optional[pytest.Collector]:
-    if file_path.suffix != ".ssd":
+    if file_path.suffix not in (".ssd", ".ssp", ".fmu"):
         return None
     is_named = parent.session.isinitpath(file_path)
     patterns = parent.config.getini("stride_scenarios")
@@ -202,18 +212,23 @@ def pytest_collect_file(file_path: Path, parent: pytest.Collector) -> Optional[p
 
 
 class ScenarioFile(pytest.File):
-    """A scenario: a test that it runs to its end, one for the verdicts of units, and one for each check."""
+    """A scenario: a test that it runs to its end and its units judge it well, and one for each check."""
 
     def collect(self) -> Iterable[pytest.Item]:
         yield RunItem.from_parent(self, name="run")
         checks = _checks(self.path)
         lines = Counter(line for line, _ in checks)
-        seen = Counter(["run"])
+        taken = {"run"}
         for line, name in checks:
-            test = name.translate(_NAMES).replace("::", ": ")
-            seen[test] += 1
-            number = f" ({seen[test]})" if seen[test] > 1 else ""
-            yield CheckItem.from_parent(self, name=test + number, line=line, check=name if lines[line] > 1 else None)
+            test = _free_name(name.translate(_NAMES).replace("::", ": "), taken)
+            taken.add(test)
+            yield CheckItem.from_parent(self, name=test, line=line, check=name if lines[line] > 1 else None)
+
+
+def _free_name(name: str, taken: set[str]) -> str:
+    """The name, or else with the first number with which there is none yet."""
+    numbered = itertools.chain([name], (f"{name} ({number})" for number in itertools.count(2)))
+    return next(each for each in numbered if each not in taken)
 
 
 _NAMES = str.maketrans("[]", "()")  # what pytest takes for its own in the name of a test, as "::"
@@ -235,10 +250,18 @@ def _checks(scenario: Path) -> list[tuple[int, str]]:
     parser.StartElementHandler = start
     parser.EndElementHandler = lambda _name: names.pop()
     try:
-        parser.Parse(scenario.read_bytes(), True)
-    except expat.ExpatError:
+        parser.Parse(_system(scenario), True)
+    except (expat.ExpatError, zipfile.BadZipFile, KeyError):
         return []  # the run says what is wrong
     return found
+
+
+def _system(scenario: Path) -> bytes:
+    """The file with the checks; an FMU has none."""
+    if scenario.suffix == ".ssd":
+        return scenario.read_bytes()
+    with zipfile.ZipFile(scenario) as package:
+        return package.read("SystemStructure.ssd")
 
 
 class _Verdict(Exception):

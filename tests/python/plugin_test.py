@@ -1,6 +1,7 @@
 """The plugin for pytest, in a pytest of its own."""
 
 import importlib.metadata
+import zipfile
 
 import pytest
 from conftest import CHECKS, scenario
@@ -119,6 +120,52 @@ def test_a_run_of_files_that_have_changed_is_another_one(project):
     run(project).assert_outcomes(passed=4)
 
 
+def test_a_run_is_made_again_where_another_unit_would_be_found(project):
+    project.makepyfile(
+        """
+        import os, pathlib, shutil
+
+        def test_a_unit_beside_the_scenario(stride_run):
+            before = stride_run("test.ssd")
+            assert stride_run("test.ssd").folder == before.folder
+            found = next(
+                source["path"] for source in before.info["provenance"]["sources"] if source["path"].endswith("minimal.fmu")
+            )
+            copy = shutil.copytree if os.path.isdir(found) else shutil.copy
+            copy(found, "minimal.fmu")
+            after = stride_run("test.ssd")
+            assert str(pathlib.Path("minimal.fmu").absolute()) in [
+                source["path"] for source in after.info["provenance"]["sources"]
+            ]
+
+        def test_settings_of_the_environment(stride_run, monkeypatch, tmp_path):
+            before = stride_run("test.ssd")
+            monkeypatch.setenv("STRIDE_UNITS", f"{tmp_path}:{os.environ['STRIDE_UNITS']}")
+            assert stride_run("test.ssd").folder != before.folder
+
+        def test_results_that_are_gone(stride_run):
+            before = stride_run("test.ssd")
+            shutil.rmtree(before.folder)
+            assert stride_run("test.ssd").folder.is_dir()
+        """
+    )
+    run(project).assert_outcomes(passed=3)
+
+
+def test_a_scenario_that_is_no_path(project):
+    project.makepyfile(
+        """
+        import pytest, stride
+
+        @pytest.mark.parametrize("name", [b"test.ssd", 3, None, "a\\0"])
+        def test_it(stride_run, name):
+            with pytest.raises(stride.InputError, match="the scenario"):
+                stride_run(name)
+        """
+    )
+    run(project).assert_outcomes(passed=4)
+
+
 def test_a_run_that_fails_is_made_once(project):
     project.makefile(".ssd", fuse=scenario("first=minimal fuse=thrower"))
     project.makepyfile(
@@ -161,11 +208,26 @@ def test_checks_in_one_line_and_with_any_name_are_tests_of_their_own(project):
 
 
 def test_a_check_may_be_called_as_the_run(project):
-    check = '<stride:Checks><stride:Always name="run" signal="second.y" max="2"/></stride:Checks>'
+    names = ["run", "run (2)", "run (3)"]
+    always = "\n".join(f'<stride:Always name="{name}" signal="second.y" max="2"/>' for name in names)
+    check = f"<stride:Checks>{always}</stride:Checks>"
     project.makefile(".ssd", named=scenario("first=minimal second=minimal", "first.y>second.u", check))
     result = run(project, "named.ssd", "-v")
-    result.assert_outcomes(passed=2)
-    result.stdout.fnmatch_lines(["*::run PASSED*", "*::run (2) PASSED*"])
+    result.assert_outcomes(passed=4)
+    ids = [line.partition("::")[2].partition(" PASSED")[0] for line in result.outlines if " PASSED" in line]
+    assert len(ids) == len({*ids}) == 4 and ids[:2] == ["run", "run (2)"]
+
+
+def test_packages_and_fmus_are_tests(project):
+    with zipfile.ZipFile(project.path / "pack.ssp", "w") as package:
+        package.write("test.ssd", "SystemStructure.ssd")
+    result = run(project, "pack.ssp", "-v")
+    result.assert_outcomes(passed=2, failed=1)
+    result.stdout.fnmatch_lines(["*pack.ssp::run PASSED*", "*pack.ssp::it does not overshoot PASSED*"])
+    (project.path / "broken.fmu").write_text("no archive")
+    result = run(project, "broken.fmu")
+    result.assert_outcomes(failed=1)
+    result.stdout.fnmatch_lines(["*broken.fmu*"])
 
 
 def test_a_failing_test_names_the_report(project):
