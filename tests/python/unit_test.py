@@ -402,6 +402,8 @@ def test_a_file_can_run_and_pack_itself(units):
     assert units.pack(THERMOSTAT + "\n    su.main(Thermostat)\n") == ""
     assert stride.run("u.fmu", stop=0.5).reached == 0.5
     assert subprocess.run([sys.executable, "u.py", "-o", "u.fmu"], check=True, capture_output=True).stderr == b""
+    imported = [sys.executable, "-c", "import u; print(u.Thermostat().gain)"]
+    assert subprocess.run(imported, check=True, capture_output=True).stdout == b"2.0\n"
     commands = (
         '<open protocol="1" instance="i" resources=""/>\n<input value=\'4\' name="temperature"/>\n<start time="0"/>\n'
     )
@@ -455,7 +457,7 @@ STEP = "def step(self, now, end): pass"
         ("y = su.Output(float)\n        def y(self): pass", "'y' is defined twice; give one of both another name"),
         ("y = su.Output(float, depends_on=['v'])", "U.y: depends_on: there is no input 'v'"),
         ("y = su.Output(float, color=1)", "unexpected keyword argument 'color'"),
-        ("a = su.Output(float)\n        y = su.Output('Real', unit='m')", "U.y: unit: expected of numbers only"),
+        ("a = su.Output(float)\n        y = su.Output('hello', unit='m')", "U.y: unit: expected of numbers only"),
         ("a = su.Output(bool, discrete=True)\n        y = su.Output(bool, name='no name')", "'no name'"),
         ("y = su.Output(float, name='process.program')", "'process.program'"),
         ("1/0", "ZeroDivisionError: division by zero (u.py:4, in U)"),
@@ -463,6 +465,13 @@ STEP = "def step(self, now, end): pass"
         ("y = su.Input(float, shape=2, start=[0, 9.5], max=9)", "U.y: start: [0, 9.5] is beyond max=9"),
         ("y = su.Output('float32')", "there is no type 'float32'; expected Float32, or for the text 'float32' (str, start="),
         ("y = su.Output('double')", "there is no type 'double'; expected Float64, or"),
+        ("y = su.Output('numpy.float32')", "there is no type 'numpy.float32'; expected Float32, or"),
+        ("y = su.Output('integer')", "there is no type 'integer'; expected Int32, or"),
+        ("y = su.Output('Flaot64')", "there is no type 'Flaot64'; expected Float64, or"),
+        ("y = su.Output('Enumeration')", "there is no type 'Enumeration'; expected Float64, Float32, Int8,"),
+        ("y = su.Output(float, min='low')", "U.y: min: expected a number, is 'low' (str)"),
+        ("y = su.Output('on', max=1)", "U.y: max: expected of numbers only"),
+        ("y = su.Output(float('nan'), max=1)", "U.y: start: nan is beyond max=1"),
         ("y = su.Output('Float16')", "there is no type 'Float16'; expected Float64, Float32, Int8,"),
     ],
 )
@@ -504,7 +513,8 @@ def test_no_file(units):
 
 def test_a_text_may_look_like_a_type():
     assert su.Output(str, start="float32").start == "float32"
-    assert su.Output("hello").start == "hello"
+    for text in ("", "hello", "on", "stride", "a string", "points"):
+        assert (su.Output(text).type_name, su.Output(text).start) == ("String", text)
 
 
 def test_words_behind_the_base_are_checked_with_the_class(units):
@@ -553,6 +563,8 @@ def failure(units, source, **settings):
         ("self.u = 3.0", "input 'u': the unit has changed it, which stride alone does"),
         ("self.v = self.v + 1", "input 'v': the unit has changed it"),
         ("self.p = 2.0", "parameter 'p': the unit has changed it"),
+        ("del self.u", "input 'u': the unit has changed it"),
+        ("self.m = 'x'", "message 'm': the unit has assigned it; send it: self.m.send(value)"),
         ("del self.y", "output 'y': it was deleted"),
         ("self.v[0] = 1", "ValueError: assignment destination is read-only (u.py:16, in step)"),
         ("raise SystemExit", "SystemExit (u.py:16, in step)"),
@@ -590,6 +602,11 @@ def test_mistakes_in_a_step(units, assignment, expected):
     assert error.time == 0.25
     assert f"fails: {expected}" in str(error)
     assert error.run.reached == 0.25
+
+
+def test_a_parameter_that_is_assigned_before_stride_sets_it(units):
+    source = THERMOSTAT + "\n        def __init__(self): self.gain = 3.0\n"
+    assert "fails: parameter 'gain': the unit has changed it" in str(failure(units, source))
 
 
 def test_mistakes_at_the_start_and_at_the_end(units):

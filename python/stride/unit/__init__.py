@@ -32,11 +32,12 @@ __all__ = ["Input", "MessageInput", "MessageOutput", "Output", "Parameter", "Tim
 def main(cls: type[Unit]) -> None:
     """At the end of a unit's file: runs the class for stride, or packs it, `python thermostat.py -o thermostat.fmu`.
 
-    A file that is packed with `python -m stride.unit` need not call it; there it does nothing.
+    A file that is packed with `python -m stride.unit` need not call it; there, and where it is imported, it does nothing.
     """
     from ._process import checked, is_loading, serve
 
-    if is_loading():
+    is_imported = sys._getframe(1).f_globals.get("__name__") != "__main__"
+    if is_imported or is_loading():
         return
     if len(sys.argv) > 1 or sys.stdin.isatty():
         from ._packing import command

@@ -8,7 +8,7 @@ import os
 from ._errors import UnitError
 from ._time import SECOND, Time
 from ._values import MISTAKES
-from ._variables import Input, MessageInput, Output, Parameter
+from ._variables import Input, MessageInput, MessageOutput, Output, Parameter, Variable
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -60,9 +60,13 @@ class Program:
         self._outputs = [
             (v.attribute, v.name, f'<output name="{v.name}" value="', v.text) for v in variables if isinstance(v, Output)
         ]
+        # what is in the attributes that the unit must not assign to
         self._given = {
-            v.attribute: (v, unit.__dict__[v.attribute]) for v in variables if type(v) in (Parameter, Input)
+            v.attribute: (v, unit.__dict__[v.attribute]) for v in variables if type(v) in (Parameter, Input, MessageOutput)
         }
+        for variable, value in self._given.values():
+            if not isinstance(variable, MessageOutput) and variable.shape is None and value is not variable.start:
+                raise self._changed(variable)
         self._told = [""] * len(self._outputs)
         self._has_told = False
         self._announced: Optional[int] = None  # what next_event() has returned [ps]
@@ -159,6 +163,17 @@ class Program:
 
     # ---- Answers ----
 
+    @staticmethod
+    def _changed(variable: Variable) -> UnitError:
+        if isinstance(variable, MessageOutput):
+            return UnitError(
+                f"message '{variable.name}': the unit has assigned it; send it: self.{variable.attribute}.send(value)"
+            )
+        return UnitError(
+            f"{variable.tag} '{variable.name}': the unit has changed it, which stride alone does; keep what it is to"
+            " remember in an attribute that is no variable"
+        )
+
     def _reply(self) -> None:
         unit, told, answer = self._unit, self._told, self._answer
         if unit._sent:
@@ -166,10 +181,7 @@ class Program:
         values = unit.__dict__
         for attribute, (variable, given) in self._given.items():
             if values.get(attribute) is not given:
-                raise UnitError(
-                    f"{variable.tag} '{variable.name}': the unit has changed it, which stride alone does; keep what it is"
-                    " to remember in an attribute that is no variable"
-                )
+                raise self._changed(variable)
         for i, (attribute, name, prefix, write) in enumerate(self._outputs):
             try:
                 text = write(values[attribute])

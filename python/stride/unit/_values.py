@@ -110,7 +110,36 @@ _OF_NUMPY = {name.lower(): name for name in ("Float32", "Float64", *_INTS)}
 _OF_NUMPY.update({"bool": "Boolean", "bool_": "Boolean"})
 
 
-_ALMOST = {"double": "Float64", "float": "Float64", "int": "Int64", "bool": "Boolean", "str": "String", "bytes": "Binary"}
+# names of other languages and of FMI 2
+_ALMOST = {
+    "double": "Float64",
+    "float": "Float64",
+    "real": "Float64",
+    "single": "Float32",
+    "int": "Int64",
+    "integer": "Int32",
+    "bool": "Boolean",
+    "str": "String",
+    "bytes": "Binary",
+}
+_UNKNOWN = ("clock", "enumeration")
+
+
+def _types_like(text: str) -> list[str]:
+    """The types that may be meant by a text that is none of their names; empty for a text like any other."""
+    word = text.strip().lower().removeprefix("numpy.").removeprefix("np.")
+    known = {**{name.lower(): name for name in SCALARS}, **_ALMOST}
+    if word in known:
+        return [known[word]]
+    digits = word.removeprefix("u").removeprefix("int").removeprefix("float")
+    if word in _UNKNOWN or (digits.isdigit() and digits != word):
+        return [*SCALARS]
+    if " " in word:
+        return []
+    import difflib
+
+    names = [name.lower() for name in SCALARS]
+    return [known[name] for name in difflib.get_close_matches(word, names, n=1, cutoff=0.8)]
 
 
 def type_name(given: Any) -> Optional[str]:
@@ -121,13 +150,10 @@ def type_name(given: Any) -> Optional[str]:
     if isinstance(given, str):
         if given in SCALARS:
             return given
-        known = {name.lower(): name for name in SCALARS}
-        similar = known.get(given.lower()) or _ALMOST.get(given.lower())
-        digits = given.lower().removeprefix("u").removeprefix("int").removeprefix("float")
-        if similar or (digits.isdigit() and digits != given):
+        if similar := _types_like(given):
             raise ValueError(
-                f"there is no type '{given}'; expected {', '.join([similar] if similar else SCALARS)}, or for the text"
-                f" {given!r} (str, start={given!r})"
+                f"there is no type '{given}'; expected {', '.join(similar)}, or for the text {given!r}"
+                f" (str, start={given!r})"
             )
         return None
     if isinstance(given, type):

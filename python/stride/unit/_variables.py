@@ -25,7 +25,8 @@ class Variable:
         shape: Of a numpy array: a number, or one for each dimension.
         name: In the FMU, where it is another one than that of the attribute, such as "receive.frame".
         unit: Of measure, as Modelica writes it: "m", "rad/s", "degC".
-        min, max: Bounds of its values, for those who read them in the FMU; only the start value is compared with them.
+        min, max: Bounds of its values. Start values are compared with them, also those that a scenario gives; what is
+            assigned later is not.
     """
 
     tag = ""
@@ -85,7 +86,6 @@ class Variable:
         if self.shape is not None:
             found["dimensions"] = " ".join(map(str, self.shape))
         text = self.text(self.start)
-        self._require_bounds()
         found["start"] = self.start if self.type_name == "String" else text
         for key in ("unit", "description", "min", "max"):
             value = getattr(self, key)
@@ -93,12 +93,21 @@ class Variable:
                 found[key] = str(value)
         return found
 
-    def _require_bounds(self) -> None:
+    def require_bounds(self) -> None:
+        """Raises UnitError where the start value is beyond them."""
         elements = [self.start] if self.shape is None else self.new(self.start).ravel().tolist()
-        for bound, is_beyond in (("min", operator.lt), ("max", operator.gt)):
+        for bound, is_within in (("min", operator.ge), ("max", operator.le)):
             limit = getattr(self, bound)
-            if limit is not None and any(is_beyond(element, limit) for element in elements):
-                raise ValueError(f"{self.start!r:.80} is beyond {bound}={limit!r}; give another start, or another {bound}")
+            if limit is None:
+                continue
+            if self.type_name in ("Boolean", "String", "Binary"):
+                raise UnitError(f"{bound}: expected of numbers only")
+            if isinstance(limit, bool) or not hasattr(limit, "__float__"):
+                raise UnitError(f"{bound}: expected a number, is {limit!r:.80} ({type(limit).__name__})")
+            if not all(is_within(element, limit) for element in elements):
+                raise UnitError(
+                    f"start: {self.start!r:.80} is beyond {bound}={limit!r}; give another start, or another {bound}"
+                )
 
     def names(self) -> list[str]:
         """All that it has in the FMU."""
@@ -211,4 +220,8 @@ def collect(cls: type, base: type) -> dict[str, Variable]:
             variable.attributes()
         except MISTAKES as mistake:
             raise UnitError(f"{where}: start: {mistake}") from None
+        try:
+            variable.require_bounds()
+        except UnitError as mistake:
+            raise UnitError(f"{where}: {mistake}") from None
     return found
