@@ -368,8 +368,15 @@ class Simulation:
         return _value(variable, elements, count)
 
     def __setitem__(self, name: str, value: Any) -> None:
-        """Sets a tunable parameter, or an input without a source, at the present instant."""
+        """Sets a tunable parameter, or an input without a source, at the present instant.
+
+        An enumeration takes a number, or the name of an item.
+        """
         index, variable = self._find(name)
+        if variable.type == "Enumeration" and isinstance(value, str):  # the library knows the items, and lists them
+            seconds, picoseconds = divmod(self.time_ps, c.SECOND)
+            self.intervene("set-at", f"{name}={value}@{seconds}.{picoseconds:012}")
+            return
         elements, count = _elements(variable, value)
         self._call("stride_set", index, ctypes.byref(elements), count)
 

@@ -470,3 +470,15 @@ def test_ctrl_c_ends_it_in_order(folder):
     assert out == "interrupted True\n"
     assert "KeyboardInterrupt" in err
     assert stride.Run("out").info["outcome"] == "interrupted"
+
+
+def test_an_enumeration_is_set_by_number_or_name(types):
+    with stride.Simulation("types.ssd") as sim:
+        for value, number in [(4, 4), ("green", 2), ("blue", 4)]:
+            sim.step(0.1)
+            sim["types.colour"] = value
+            assert sim["types.colour"] == number
+        with pytest.raises(stride.InputError, match="'blau' is not a value for it, expected one of red, green, blue"):
+            sim["types.colour"] = "blau"
+        with pytest.raises(stride.InputError, match="a text has no NUL"):
+            sim["types.colour"] = "a\0"
