@@ -136,6 +136,8 @@ def _message(file: Path, line: int, row: list[str]) -> Message:
     try:
         if direction not in _DIRECTIONS:
             raise ValueError(f"'{direction}' is none of {', '.join(_DIRECTIONS)}")
+        if not math.isfinite(float(time)):
+            raise ValueError(f"'{time}' is no time")
         is_received = direction == "received"
         return Message(float(time), f"{component}.{variable}", is_received, payload or None, content, int(index))
     except ValueError as error:

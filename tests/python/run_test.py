@@ -304,7 +304,7 @@ def test_rows_that_no_run_writes_are_errors(folder, edit, message):
         run.time  # noqa: B018
 
 
-@pytest.mark.parametrize("row", ["soon,0,a,b,sent,,", "1,0,a,b,thrown,,", "1,-1.5,a,b,received,,"])
+@pytest.mark.parametrize("row", ["soon,0,a,b,sent,,", "nan,0,a,b,sent,,", "1,0,a,b,thrown,,", "1,-1.5,a,b,received,,"])
 def test_messages_that_no_run_writes_are_errors(types, row):
     stride.run("types.ssd", out="out")
     file = pathlib.Path("out", "events.csv")
