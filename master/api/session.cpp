@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <exception>
 #include <iterator>
+#include <ranges>
 #include <set>
 #include <stdexcept>
 #include <string>
@@ -297,12 +298,14 @@ core::ValueBlock Session::get(core::VariableId id) {
 void Session::require_value(core::VariableId id, const core::ValueBlock& value) const {
   const core::Variable& variable = system().variable(id);
   if (variable.type != core::ValueType::Enumeration) return;
+  const auto numbers = variable.items | std::views::values;
   for (const std::int64_t number : value.numbers<std::int64_t>()) {
-    if (std::ranges::count(variable.items, number, &std::pair<std::string, std::int64_t>::second) >
-        0) {
-      continue;
-    }
-    core::fail_input(context(id), fmt::format("{} is none of the items of its type", number));
+    if (std::ranges::find(numbers, number) != numbers.end()) continue;
+    const auto items = variable.items | std::views::transform([](const auto& item) {
+                         return fmt::format("{} ({})", item.first, item.second);
+                       });
+    core::fail_input(context(id), fmt::format("{} is none of the items of its type: {}", number,
+                                              fmt::join(items, ", ")));
   }
 }
 

@@ -202,7 +202,7 @@ def test_wrong_options(folder, options, message):
         ("string", b"x", "text"),
         ("string", "a\0b", "NUL"),
         ("binary", "x", "bytes"),
-        ("colour", 3, "3 is none of the items"),
+        ("colour", 3, "3 is none of the items of its type: "),
         ("receive.clock", 1, "clock"),
         ("receive.frame", b"x", "is a message"),
         ("float64.echo", 1, "computed by the unit"),
