@@ -205,6 +205,12 @@ std::vector<std::string> ChannelUnit::poses_of(std::size_t tag) const {
   return names;
 }
 
+std::vector<std::string> ChannelUnit::inputs_of(std::size_t tag) const {
+  std::vector<std::string> names = poses_of(tag);
+  names.emplace_back("carrier_power");
+  return names;
+}
+
 void ChannelUnit::list_outputs(const Meanings& meanings) {
   for (std::size_t i = 0; i < names_.size(); ++i) list_outputs(i, meanings);
 }
@@ -213,8 +219,7 @@ void ChannelUnit::list_outputs(std::size_t tag, const Meanings& meanings) {
   const TagName& name = names_[tag];
   Outputs& outputs = outputs_[tag];
   const std::vector<std::string> poses = poses_of(tag);
-  std::vector<std::string> all = poses;
-  all.emplace_back("carrier_power");
+  const std::vector<std::string> all = inputs_of(tag);
   const auto list = [&](const std::string& text, double& value, const std::string& what) {
     return output(text, value).depends_on(all).description(what);
   };

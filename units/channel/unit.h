@@ -77,6 +77,8 @@ class ChannelUnit : public stride::Unit {
   void list_carrier_power(const std::string& description);
   /// Of all tags.
   void list_outputs(const Meanings& meanings);
+  /// That the link to a tag depends on: poses, carrier power.
+  std::vector<std::string> inputs_of(std::size_t tag) const;
   /// All clocks and frames.
   void list_frames();
 
@@ -106,9 +108,9 @@ class ChannelUnit : public stride::Unit {
 
   static Outputs outputs_of(const Link& link);
   void list_outputs(std::size_t tag, const Meanings& meanings);
+  std::vector<std::string> poses_of(std::size_t tag) const;
   void list_pose(const std::string& name, Pose& pose, const std::string& place,
                  const std::string& axis);
-  std::vector<std::string> poses_of(std::size_t tag) const;
   void list_input(const std::string& name, Port& port, const std::string& sender);
   void list_output(const std::string& name, Port& port, const std::string& receiver);
   bool take_frames();

@@ -193,24 +193,34 @@ void check_required_sites(const mjModel& model, const fs::path& file) {
   }
 }
 
-void check_lamps(const mjModel& model, const fs::path& file) {
-  const auto lists = [](const std::string& name) {
-    return "<text name=\"" + std::string(kLamps) + "\"> lists '" + name + "'";
+/// What a text of the model may list.
+struct Listed {
+  const char* text;  ///< its name
+  int type;          ///< an mjtObj
+  int count;         ///< of those in the model
+  const char* what;  ///< they are
+};
+
+void check_list(const mjModel& model, const fs::path& file, const Listed& listed) {
+  const auto fail = [&](const std::string& name, const std::string& why) {
+    throw std::runtime_error("'" + file.string() + "': <text name=\"" + listed.text +
+                             "\"> lists '" + name + "'" + why);
   };
-  std::set<std::string> listed;
-  for (const std::string& name : words_of_text(model, kLamps)) {
-    if (mj_name2id(&model, mjOBJ_GEOM, name.c_str()) < 0) {
-      throw std::runtime_error(
-          "'" + file.string() + "': " + lists(name) +
-          ", which is no geom: expected names of geoms, separated by blanks; " +
-          "those that have a name are: " +
-          names_of(model, mjOBJ_GEOM, static_cast<int>(model.ngeom)));
+  const std::string what = listed.what;
+  std::set<std::string> seen;
+  for (const std::string& name : words_of_text(model, listed.text)) {
+    if (mj_name2id(&model, listed.type, name.c_str()) < 0) {
+      fail(name, ", which is no " + what + ": expected names of " + what +
+                     "s, separated by blanks; those that have a name are: " +
+                     names_of(model, listed.type, listed.count));
     }
-    if (!listed.insert(name).second) {
-      throw std::runtime_error("'" + file.string() + "': " + lists(name) +
-                               " twice: a lamp is listed once");
-    }
+    if (!seen.insert(name).second) fail(name, " twice: a " + what + " is listed once");
   }
+}
+
+void check_lists(const mjModel& model, const fs::path& file) {
+  check_list(model, file, {kLamps, mjOBJ_GEOM, static_cast<int>(model.ngeom), "geom"});
+  check_list(model, file, {kFields, mjOBJ_SITE, static_cast<int>(model.nsite), "site"});
 }
 
 void check_drive_ripples(const mjModel& model, const fs::path& file) {
@@ -233,6 +243,14 @@ std::vector<Lamp> list_lamps(const mjModel& model) {
     lamps.push_back({name, mj_name2id(&model, mjOBJ_GEOM, name.c_str())});
   }
   return lamps;
+}
+
+std::vector<Field> list_fields(const mjModel& model) {
+  std::vector<Field> fields;
+  for (const std::string& name : words_of_text(model, kFields)) {
+    fields.push_back({name, mj_name2id(&model, mjOBJ_SITE, name.c_str())});
+  }
+  return fields;
 }
 
 void switch_off_irreproducible(mjModel& model, const fs::path& file) {
@@ -305,14 +323,14 @@ ModelPointer load_model(const fs::path& file) {
   if (message[0] != '\0') add_warning(file.string() + ": " + message.data());
   switch_off_irreproducible(*model, file);
   check_required_sites(*model, file);
-  check_lamps(*model, file);
+  check_lists(*model, file);
   check_drive_ripples(*model, file);
   return model;
 }
 
 Catalogue list(const mjModel& model) {
-  return {list_actuators(model), list_joints(model), list_sites(model), list_sensors(model),
-          list_lamps(model)};
+  return {list_actuators(model), list_joints(model), list_sites(model),
+          list_sensors(model),   list_lamps(model),  list_fields(model)};
 }
 
 std::string name_of(const mjModel& model, int type, int id) {

@@ -69,6 +69,12 @@ struct Lamp {
   int geom;          ///< its id
 };
 
+/// A coil whose field can be drawn: along the z axis of a site.
+struct Field {
+  std::string name;  ///< of the site
+  int site;          ///< its id
+};
+
 /// What can be wired, each kind in the model's order. An unnamed actuator, joint or sensor is
 /// called unnamed_<index within its kind>. Unnamed sites, and free and ball joints, are left out:
 /// put a named site on such a body.
@@ -78,6 +84,7 @@ struct Catalogue {
   std::vector<Site> sites;
   std::vector<Sensor> sensors;
   std::vector<Lamp> lamps;
+  std::vector<Field> fields;
 };
 
 /// The MJCF of a folder: scene.xml, or else its only .xml file.
@@ -91,15 +98,19 @@ inline constexpr const char* kRequiredSites = "required_sites";
 /// The geoms that can shine, in a <custom><text name="lamps" data="..."/>, likewise.
 inline constexpr const char* kLamps = "lamps";
 
+/// The sites whose fields can be drawn, in a <custom><text name="fields" data="..."/>, likewise.
+inline constexpr const char* kFields = "fields";
+
 /// The ripple of the actuator NAME: <custom><numeric name="drive_ripple.NAME"
 /// data="amplitude cycles"/></custom>. It has a single control and a hinge or slide joint.
 inline constexpr const char* kDriveRipple = "drive_ripple.";
 
 /// Compiles an MJCF file. Throws std::runtime_error with the file and MuJoCo's message, or with the
 /// site that is required and missing, and those that there are, or likewise with the lamp that is
-/// no geom, or with the one that is listed twice, or the transmission error that has no such
-/// actuator or not two numbers. Features that would make the world irreproducible are switched off:
-/// noise on sensors (MuJoCo 2), sleeping bodies (MuJoCo 3). A warning reports that (hooks.h).
+/// no geom or the field that is at no site, or with one that is listed twice, or the transmission
+/// error that has no such actuator or not two numbers. Features that would make the world
+/// irreproducible are switched off: noise on sensors (MuJoCo 2), sleeping bodies (MuJoCo 3). A
+/// warning reports that (hooks.h).
 ModelPointer load_model(const std::filesystem::path& file);
 
 Catalogue list(const mjModel& model);

@@ -84,6 +84,7 @@ World::World(const std::filesystem::path& folder)
   inputs_.resize(catalogue_.actuators.size());
   taken_.resize(inputs_.size());
   lamps_.resize(catalogue_.lamps.size());
+  fields_.resize(catalogue_.fields.size());
   touching_.resize(contacts_.size());
   scratch_.resize(api::state_size(model_.get(), grid_data_.get()));
   reset(Time{});
@@ -102,6 +103,7 @@ void World::reset(Time start, const StartPose& pose) {
   }
   taken_ = inputs_;
   std::fill(lamps_.begin(), lamps_.end(), 0.0);
+  std::fill(fields_.begin(), fields_.end(), 0.0);
   failed_ = false;
   resting_ = false;
   rest_detector_.restart();
@@ -120,12 +122,19 @@ void World::set_input(std::size_t actuator, double value) {
   inputs_.at(actuator) = value;
 }
 
-std::vector<int> World::shining() const {
-  std::vector<int> geoms;
+void World::set_field(std::size_t field, double reach) {
+  fields_.at(field) = std::isfinite(reach) && reach > 0 ? reach : 0.0;
+}
+
+Display World::display() const {
+  Display display;
   for (std::size_t i = 0; i < lamps_.size(); ++i) {
-    if (lamps_[i] != 0) geoms.push_back(catalogue_.lamps[i].geom);
+    if (lamps_[i] != 0) display.shining.push_back(catalogue_.lamps[i].geom);
   }
-  return geoms;
+  for (std::size_t i = 0; i < fields_.size(); ++i) {
+    if (fields_[i] != 0) display.fields.push_back({catalogue_.fields[i].site, fields_[i]});
+  }
+  return display;
 }
 
 bool World::advance(Time to, bool stops_at_contacts) {
@@ -303,7 +312,8 @@ double World::sensor(std::size_t sensor, int element) const {
 
 std::size_t World::state_size() const {
   const std::size_t rest = rest_settings_ ? kRest + rest_detector_.state_size() : 0;
-  return scratch_.size() + 2 * inputs_.size() + lamps_.size() + touching_.size() + kTimes + rest;
+  return scratch_.size() + 2 * inputs_.size() + lamps_.size() + fields_.size() + touching_.size() +
+         kTimes + rest;
 }
 
 void World::save(double* block) const {
@@ -311,6 +321,7 @@ void World::save(double* block) const {
   block = std::copy(inputs_.begin(), inputs_.end(), block + scratch_.size());
   block = std::copy(taken_.begin(), taken_.end(), block);
   block = std::copy(lamps_.begin(), lamps_.end(), block);
+  block = std::copy(fields_.begin(), fields_.end(), block);
   block = std::copy(touching_.begin(), touching_.end(), block);
   put_time(block++, grid_);
   put_time(block++, now_);
@@ -331,6 +342,8 @@ void World::restore(const double* block) {
   block += taken_.size();
   std::copy_n(block, lamps_.size(), lamps_.begin());
   block += lamps_.size();
+  std::copy_n(block, fields_.size(), fields_.begin());
+  block += fields_.size();
   std::copy_n(block, touching_.size(), touching_.begin());
   block += touching_.size();
   const double* times = block;

@@ -14,6 +14,7 @@
 
 #include "units/mujoco_world/clearance.h"
 #include "units/mujoco_world/contacts.h"
+#include "units/mujoco_world/display.h"
 #include "units/mujoco_world/mjcf.h"
 #include "units/mujoco_world/rest.h"
 #include "units/mujoco_world/start_pose.h"
@@ -87,8 +88,11 @@ class World {
 
   /// Whether a lamp, by its index in catalogue().lamps, shines. It is seen in pictures only.
   void set_lamp(std::size_t lamp, bool on) { lamps_.at(lamp) = on ? 1.0 : 0.0; }
-  /// The geoms that shine, as their ids.
-  std::vector<int> shining() const;
+  /// How far a field, by its index in catalogue().fields, reaches along its axis [m], likewise.
+  /// None is drawn unless that is positive and finite.
+  void set_field(std::size_t field, double reach);
+  Display display() const;
+  bool has_display() const { return !lamps_.empty() || !fields_.empty(); }
 
   /// Until when nothing that is seen changes, unless an input is set to another value; now() if the
   /// world is not at rest.
@@ -163,6 +167,7 @@ class World {
   std::vector<double> inputs_;
   std::vector<double> taken_;     // of these, at the last grid point
   std::vector<double> lamps_;     // 1 for one that shines
+  std::vector<double> fields_;    // [m]; 0: none
   std::vector<double> touching_;  // 1 for a contact that is closed
   stride::Time grid_{};
   stride::Time now_{};

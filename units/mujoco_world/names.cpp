@@ -17,14 +17,15 @@ bool is_identifier(const std::string& name) {
 
 std::string name_part(const std::string& name) {
   if (is_identifier(name)) return name;
-  if (!std::all_of(name.begin(), name.end(), [](char c) { return c >= ' ' && c <= '~'; })) {
+  const auto is_allowed = [](char c) { return c >= ' ' && c <= '~' && c != '`'; };
+  if (!std::all_of(name.begin(), name.end(), is_allowed)) {
     throw std::runtime_error("the name '" + name +
                              "' cannot be a part of an FMI variable's: give it printable ASCII "
-                             "characters only, in the MJCF");
+                             "characters only, and no `, in the MJCF");
   }
   std::string quoted = "'";
   for (const char c : name) {
-    if (c == '\'' || c == '\\') quoted += '\\';
+    if (c == '\'' || c == '"' || c == '\\') quoted += '\\';
     quoted += c;
   }
   return quoted + "'";

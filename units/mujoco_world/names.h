@@ -7,8 +7,8 @@
 namespace mujoco_world {
 
 /// A name as one part of a structured variable name: as it is if it is an identifier, else in
-/// single quotes (FMI 3.0, 2.4.7.5.1). These have printable ASCII characters only: throws
-/// std::runtime_error, with the name, for others.
+/// single quotes (FMI 3.0, 2.4.7.5.1). These have printable ASCII characters only, and no
+/// backtick: throws std::runtime_error, with the name, for others.
 std::string name_part(const std::string& name);
 
 }  // namespace mujoco_world

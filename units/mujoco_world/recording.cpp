@@ -22,7 +22,7 @@ bool advance(World& world, const Recordings& recordings, Time to, bool stops_at_
   bool wants_contacts = stops_at_contacts;
   for_each(recordings, [&](Recording& recording) {
     recording.begin();
-    recording.show_lamps();
+    recording.show_display();
     wants_contacts = wants_contacts || recording.wants_contact_changes();
   });
   while (true) {

@@ -21,8 +21,8 @@ class Recording {
   /// begun.
   virtual void begin() = 0;
 
-  /// The lamps are from the world's present on as they are now.
-  virtual void show_lamps() = 0;
+  /// What devices show is from the world's present on as it is now.
+  virtual void show_display() = 0;
 
   /// The next instant at which it takes something, after the world's present.
   virtual stride::Time next() const = 0;
@@ -37,7 +37,7 @@ class Recording {
 
 using Recordings = std::array<Recording*, 2>;  ///< null pointers are none
 
-/// Moves the world as World::advance() does, with its lamps as they are now, and stops on the way
+/// Moves the world as World::advance() does, with its display as it is now, and stops on the way
 /// where recordings take something.
 bool advance(World& world, const Recordings& recordings, stride::Time to,
              bool stops_at_contacts = false);

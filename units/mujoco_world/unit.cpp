@@ -70,6 +70,7 @@ class MujocoWorld : public stride::Unit {
     sites_.resize(catalogue.sites.size());
     for (std::size_t i = 0; i < inputs_.size(); ++i) list_actuator(i);
     for (const auto& lamp : catalogue.lamps) list_lamp(lamp);
+    for (const auto& field : catalogue.fields) list_field(field);
     for (std::size_t i = 0; i < joints_.size(); ++i) list_joint(i);
     for (std::size_t i = 0; i < sites_.size(); ++i) list_site(i);
     for (const auto& sensor : catalogue.sensors) list_sensor(sensor);
@@ -96,18 +97,18 @@ class MujocoWorld : public stride::Unit {
     if (std::exchange(says_whose_controls_, false)) warn_of_controls();
     for (std::size_t i = 0; i < inputs_.size(); ++i) world_.set_input(i, inputs_[i]);
     const bool rests = world_.rests_until() >= step.to();
-    if (film_ || scene_) set_lamps();
+    if (film_ || scene_) set_display();
     mujoco_world::advance(world_, recordings(), step.to(), step.early_return_allowed());
     if (world_.now() < step.to()) step.return_early(world_.now());
     if (!rests) show();
   }
 
   void terminate() override {
-    if (film_ || scene_) set_lamps();
+    if (film_ || scene_) set_display();
     for (mujoco_world::Recording* recording : recordings()) {
       if (recording == nullptr) continue;
       recording->begin();  // of a run without a step
-      recording->show_lamps();
+      recording->show_display();
     }
     if (scene_) finish_scene();
   }
@@ -154,13 +155,24 @@ class MujocoWorld : public stride::Unit {
  private:
   std::array<mujoco_world::Recording*, 2> recordings() { return {film_.get(), scene_.get()}; }
 
-  void set_lamps() {
+  void set_display() {
     for (std::size_t i = 0; i < lamps_.size(); ++i) world_.set_lamp(i, lamps_[i]);
+    for (std::size_t i = 0; i < fields_.size(); ++i) world_.set_field(i, fields_[i]);
+  }
+
+  /// 0 for none. Throws std::invalid_argument for one that would make a run endless.
+  static stride::Duration interval_of(const char* parameter, double seconds) {
+    constexpr double kLeast = 1e-6;
+    if (seconds > 0 && seconds < kLeast) {
+      throw std::invalid_argument(std::string(parameter) + ": " + std::to_string(seconds) +
+                                  " s is too short; expected 0 for none, or at least 1e-6 s");
+    }
+    return stride::duration_from_seconds(seconds);
   }
 
   /// There is a film as the parameters want it.
   void set_film() {
-    const mujoco_world::film::FilmSettings wanted{stride::duration_from_seconds(film_interval_),
+    const mujoco_world::film::FilmSettings wanted{interval_of("film.interval", film_interval_),
                                                   view_};
     if (wanted.interval == stride::Duration{}) {
       film_.reset();
@@ -170,7 +182,7 @@ class MujocoWorld : public stride::Unit {
   }
 
   void set_scene() {
-    const stride::Duration interval = stride::duration_from_seconds(scene_interval_);
+    const stride::Duration interval = interval_of("scene.interval", scene_interval_);
     if (interval == stride::Duration{}) {
       scene_.reset();
     } else if (!scene_ || scene_->interval() != interval) {
@@ -309,7 +321,15 @@ class MujocoWorld : public stride::Unit {
   void list_lamp(const mujoco_world::Lamp& lamp) {
     input("lamp." + name_part(lamp.name), lamps_.emplace_back(false))
         .discrete()
-        .description("whether the geom " + lamp.name + " shines in the film");
+        .description("whether the geom " + lamp.name + " shines in film and scene");
+  }
+
+  void list_field(const mujoco_world::Field& field) {
+    input("field." + name_part(field.name), fields_.emplace_back(0.0))
+        .unit("m")
+        .min(0)
+        .description("how far along its axis the field of the coil at the site " + field.name +
+                     " reaches, in film and scene; 0: not drawn");
   }
 
   void list_joint(std::size_t i) {
@@ -403,6 +423,7 @@ class MujocoWorld : public stride::Unit {
   std::vector<double> described_inputs_;  // their start values
   bool says_whose_controls_ = false;
   std::deque<bool> lamps_;
+  std::deque<double> fields_;
   std::vector<Joint> joints_;
   std::vector<Site> sites_;
   std::deque<std::vector<double>> sensors_;

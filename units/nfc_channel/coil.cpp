@@ -123,6 +123,13 @@ double mutual_inductance(const Coil& first, const Pose& first_pose, const Coil& 
   return first.turns * second.turns * 2.0 * M_PI / points * sum.value;
 }
 
+double field_reach(const Coil& coil, double current, double field_strength) {
+  const double moment = coil.turns * current * coil.radius * coil.radius;
+  const double square =
+      std::pow(moment / (2.0 * field_strength), 2.0 / 3.0) - coil.radius * coil.radius;
+  return square > 0.0 ? std::sqrt(square) : 0.0;
+}
+
 double coupling_factor(const Coil& first, const Coil& second, double mutual_inductance) {
   return std::min(1.0,
                   std::abs(mutual_inductance) / std::sqrt(inductance(first) * inductance(second)));

@@ -40,6 +40,11 @@ double inductance(const Coil& coil);
 double mutual_inductance(const Coil& first, const Pose& first_pose, const Coil& second,
                          const Pose& second_pose);
 
+/// How far along the coil's axis its field is at least `field_strength`, effective [A/m], with an
+/// effective current of `current` [A]: H = N I a^2 / (2 (a^2 + z^2)^(3/2)), Biot and Savart's law
+/// for a ring (Jackson, sect. 5.5). 0 if it is weaker everywhere [m].
+double field_reach(const Coil& coil, double current, double field_strength);
+
 /// The coupling factor k = |M| / sqrt(L1 L2), from 0 to 1.
 double coupling_factor(const Coil& first, const Coil& second, double mutual_inductance);
 

@@ -70,6 +70,8 @@ void Channel::move_tag(std::size_t index, const Pose& reader_coil, const Pose& t
   const double flux = std::abs(link.mutual * operation.reader_current) / coil.turns;
   link.field_strength =
       flux / (kVacuumPermeability * M_PI * coil.radius * coil.radius) / std::sqrt(2.0);
+  link.field_reach = field_reach(parameters_.reader.coil,
+                                 std::abs(operation.reader_current) / std::sqrt(2.0), kLeastField);
   const Source source = tag.circuit.source(link.mutual, carrier_power());
   link.tag_voltage = source.voltage;
   link.tag_power = source.available_power;

@@ -15,13 +15,17 @@
 
 namespace nfc_channel {
 
+/// In which a tag of class 1 has to work, effective [A/m] (ISO/IEC 14443-2, Hmin).
+inline constexpr double kLeastField = 1.5;
+
 /// The coupling is the coils' coupling factor k; the field strength is along the tag's axis, the
 /// mean over its coil; the tag's voltage and power are those of its antenna as a source
 /// (Circuit::source()). Signals: down the power that goes with this voltage, U^2 / (8 Rp), Rp being
 /// the resistance of the tag's circuit alone; up both sidebands of the load modulation. The ratios
 /// are Eb/N0; they and the probabilities are those of Parameters::bit_rate.
 struct Link : channel::Link {
-  double mutual = 0.0;  ///< mutual inductance [H]
+  double mutual = 0.0;       ///< mutual inductance [H]
+  double field_reach = 0.0;  ///< of kLeastField along the reader's axis, with this tag [m]
 };
 
 /// What a receiver needs: a tag the rectified voltage of its demodulator, the reader its

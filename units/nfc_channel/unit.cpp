@@ -1,7 +1,9 @@
 // The channel as an FMU: the variable table, and the way from the variables to the model.
 #include "units/channel/unit.h"
 
+#include <cstddef>
 #include <string>
+#include <vector>
 
 #include <stride/unit.h>
 
@@ -35,13 +37,30 @@ class NfcChannel : public channel::ModelUnit<Channel, nfc_channel::Parameters> {
         "Eb/N0",
         ", at bit_rate"};
     list_outputs(meanings);
+    list_field_reaches();
     list_frames();
     for (TagParameters& tag : p_.tags) list_tag_parameters(tag);
     list_reader_parameters();
     state();
   }
 
+  void update_outputs() override {
+    ModelUnit::update_outputs();
+    for (std::size_t i = 0; i < reaches_.size(); ++i) reaches_[i] = channel_.link(i).field_reach;
+  }
+
  private:
+  void list_field_reaches() {
+    reaches_.resize(tags().size());
+    for (std::size_t i = 0; i < reaches_.size(); ++i) {
+      output(tags()[i].variable("field_reach"), reaches_[i])
+          .unit("m")
+          .min(0)
+          .depends_on(inputs_of(i))
+          .description("how far along its axis the reader's field is above 1.5 A/m, effective");
+    }
+  }
+
   void list_coil(const std::string& name, nfc_channel::Coil& coil) {
     list_positive(name + ".radius", coil.radius, "m", "radius of the turns");
     list_positive(name + ".turns", coil.turns, "", "number of turns");
@@ -91,6 +110,8 @@ class NfcChannel : public channel::ModelUnit<Channel, nfc_channel::Parameters> {
     parameter("bit_rate", p_.bit_rate)
         .description("for which signal-to-noise ratios and error rates are put out [kbit/s]");
   }
+
+  std::vector<double> reaches_;  // for each tag [m]
 };
 
 STRIDE_UNIT(NfcChannel)

@@ -160,6 +160,16 @@ TEST_CASE("a lamp that is no geom is an error", "[mujoco_world]") {
                           "are: 'led'");
 }
 
+TEST_CASE("a field that is at no site is an error", "[mujoco_world]") {
+  const worlds::Folder folder(R"(<mujoco>
+    <custom><text name="fields" data="coil loop"/></custom>
+    <worldbody><site name="coil"/><geom name="loop" type="sphere" size="0.1"/></worldbody>
+  </mujoco>)");
+  REQUIRE_THROWS_WITH(load_model(folder.path() / "scene.xml"),
+                      Catch::Contains("<text name=\"fields\"> lists 'loop', which is no site: ") &&
+                          Catch::Contains("those that have a name are: 'coil'"));
+}
+
 TEST_CASE("a lamp that is listed twice is an error", "[mujoco_world]") {
   const worlds::Folder folder(R"(<mujoco>
     <custom><text name="lamps" data="led led"/></custom>

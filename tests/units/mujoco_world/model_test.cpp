@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <random>
 #include <string>
 #include <thread>
@@ -250,16 +251,38 @@ TEST_CASE("a lamp is part of the state, and off at the start", "[mujoco_world]")
   World world(folder.path());
   REQUIRE(world.catalogue().lamps.size() == 1);
   CHECK(world.catalogue().lamps[0].name == "led");
-  CHECK(world.shining().empty());
+  CHECK(world.display().shining.empty());
   world.set_lamp(0, true);
-  CHECK(world.shining() == std::vector<int>{world.catalogue().lamps[0].geom});
+  CHECK(world.display().shining == std::vector<int>{world.catalogue().lamps[0].geom});
   std::vector<double> lit(world.state_size());
   world.save(lit.data());
   world.set_lamp(0, false);
   world.restore(lit.data());
-  CHECK(world.shining().size() == 1);
+  CHECK(world.display().shining.size() == 1);
   world.reset(Time{});
-  CHECK(world.shining().empty());
+  CHECK(world.display().shining.empty());
+}
+
+TEST_CASE("a field is part of the state, and none at the start", "[mujoco_world]") {
+  const worlds::Folder folder(worlds::kField);
+  World world(folder.path());
+  REQUIRE(world.catalogue().fields.size() == 1);
+  CHECK(world.catalogue().fields[0].name == "coil");
+  CHECK((world.has_display() && world.display() == mujoco_world::Display{}));
+  world.set_field(0, 0.25);
+  const mujoco_world::Display there{{}, {{world.catalogue().fields[0].site, 0.25}}};
+  CHECK(world.display() == there);
+  std::vector<double> state(world.state_size());
+  world.save(state.data());
+  for (const double none : {0.0, -1.0, std::numeric_limits<double>::infinity(),
+                            std::numeric_limits<double>::quiet_NaN()}) {
+    world.set_field(0, none);
+    CHECK(world.display().fields.empty());
+  }
+  world.restore(state.data());
+  CHECK(world.display() == there);
+  world.reset(Time{});
+  CHECK(world.display().fields.empty());
 }
 
 TEST_CASE("a pendulum swings with the period of the elliptic integral", "[mujoco_world]") {

@@ -64,6 +64,19 @@ inline const std::string kLamp = R"(
   </worldbody>
 </mujoco>)";
 
+/// A coil whose axis is the world's x, on a body that does not move, and a camera that looks at it.
+inline const std::string kField = R"(
+<mujoco>
+  <custom><text name="fields" data="coil"/></custom>
+  <worldbody>
+    <camera name="film" pos="0 -3 0" euler="90 0 0"/>
+    <body name="reader">
+      <geom type="box" size="0.02 0.02 0.02"/>
+      <site name="coil" euler="0 90 0" size="0.001" rgba="1 0 0 1"/>
+    </body>
+  </worldbody>
+</mujoco>)";
+
 /// Bodies that tumble onto a floor while a servo pushes them about: contacts, quaternions, warm
 /// starts, activations.
 inline const std::string kTumble = R"(

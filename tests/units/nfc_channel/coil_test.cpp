@@ -10,6 +10,7 @@
 
 using nfc_channel::Coil;
 using nfc_channel::coupling_factor;
+using nfc_channel::field_reach;
 using nfc_channel::inductance;
 using nfc_channel::kVacuumPermeability;
 using nfc_channel::mutual_inductance;
@@ -318,6 +319,26 @@ TEST_CASE("The coupling factor does not depend on the numbers of turns, nor on t
         Approx(coupling_factor(kReaderCoil, kTagCoil, four)));
   CHECK(coupling_factor(kReaderCoil, kTagCoil, -four) ==
         coupling_factor(kReaderCoil, kTagCoil, four));
+}
+
+TEST_CASE("The field along the axis: of a ring near by, of a dipole far away, or too weak") {
+  const Coil& coil = kReaderCoil;
+  for (const double current : {0.1, 0.3, 10.0}) {
+    const double reach = field_reach(coil, current, 1.5);
+    // Biot and Savart, piece by piece of the ring
+    double field = 0;
+    for (int i = 0; i < 360; ++i) {
+      const double length = 2 * kPi * coil.radius / 360;
+      const double distance = std::hypot(coil.radius, reach);
+      field +=
+          coil.turns * current * length / (4 * kPi * distance * distance) * coil.radius / distance;
+    }
+    CHECK(field == Approx(1.5));
+  }
+  const double moment = coil.turns * 1e4 * kPi * coil.radius * coil.radius;
+  CHECK(field_reach(coil, 1e4, 1.5) == Approx(std::cbrt(moment / (2 * kPi * 1.5))).epsilon(1e-3));
+  CHECK(field_reach(coil, 0.01, 1.5) == 0.0);  // 0.67 A/m in its middle
+  CHECK(field_reach(coil, 0, 1.5) == 0.0);
 }
 
 TEST_CASE("A normal of length zero is refused") {

@@ -177,6 +177,19 @@ TEST_CASE("Field strength is that of a circular current, its mean over a small c
   CHECK(channel.link().field_strength == Approx(field / std::sqrt(2.0)).epsilon(1e-3));
 }
 
+TEST_CASE("Where the reader's field reaches, a small tag on its axis sees 1.5 A/m") {
+  Parameters p;
+  p.tags[0].coil.radius = 1e-3;
+  p.tags[0].coil.wire_radius = 1e-5;
+  Channel channel(p);
+  approach(channel, 0.05);
+  const double reach = channel.link().field_reach;
+  CHECK(reach > 0.05);
+  approach(channel, reach);
+  CHECK(channel.link().field_reach == Approx(reach).epsilon(1e-3));  // the tag hardly loads it
+  CHECK(channel.link().field_strength == Approx(nfc_channel::kLeastField).epsilon(1e-3));
+}
+
 TEST_CASE("Near by, a frame arrives as it was sent, when it has ended") {
   Channel channel;
   approach_at(channel, kStart, 0.02);

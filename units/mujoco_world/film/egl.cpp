@@ -13,7 +13,7 @@
 namespace mujoco_world::film {
 namespace {
 
-using Display = void*;
+using EglDisplay = void*;
 using Config = void*;
 using EglContext = void*;
 using Surface = void*;
@@ -37,15 +37,15 @@ constexpr std::array<Int, 15> kWanted = {0x3024, 8,   // EGL_RED_SIZE
 
 struct EglFunctions {
   void (*(*address)(const char* name))();
-  Display (*platform_display)(unsigned platform, void* native, const std::intptr_t* attributes);
-  unsigned (*initialize)(Display, Int* major, Int* minor);
+  EglDisplay (*platform_display)(unsigned platform, void* native, const std::intptr_t* attributes);
+  unsigned (*initialize)(EglDisplay, Int* major, Int* minor);
   unsigned (*bind_api)(unsigned api);
   unsigned (*query_api)();
-  unsigned (*choose_config)(Display, const Int* attributes, Config*, Int size, Int* count);
-  EglContext (*create_context)(Display, Config, EglContext shared, const Int* attributes);
-  unsigned (*destroy_context)(Display, EglContext);
-  unsigned (*make_current)(Display, Surface draw, Surface read, EglContext);
-  Display (*current_display)();
+  unsigned (*choose_config)(EglDisplay, const Int* attributes, Config*, Int size, Int* count);
+  EglContext (*create_context)(EglDisplay, Config, EglContext shared, const Int* attributes);
+  unsigned (*destroy_context)(EglDisplay, EglContext);
+  unsigned (*make_current)(EglDisplay, Surface draw, Surface read, EglContext);
+  EglDisplay (*current_display)();
   Surface (*current_surface)(Int which);
   EglContext (*current_context)();
   Int (*error)();
@@ -72,7 +72,7 @@ struct EglFunctions {
 auto keep_current(const EglFunctions& egl) {
   const unsigned api = egl.query_api();
   egl.bind_api(kOpenGl);
-  const Display display = egl.current_display();
+  const EglDisplay display = egl.current_display();
   const Surface draw = egl.current_surface(kDraw);
   const Surface read = egl.current_surface(kRead);
   const EglContext context = egl.current_context();
@@ -82,8 +82,8 @@ auto keep_current(const EglFunctions& egl) {
   });
 }
 
-std::vector<Display> displays(const EglFunctions& egl) {
-  std::vector<Display> displays{egl.platform_display(kPlatformSurfaceless, nullptr, nullptr)};
+std::vector<EglDisplay> displays(const EglFunctions& egl) {
+  std::vector<EglDisplay> displays{egl.platform_display(kPlatformSurfaceless, nullptr, nullptr)};
   const auto query = reinterpret_cast<unsigned (*)(Int most, Device*, Int * count)>(
       egl.address("eglQueryDevicesEXT"));
   std::array<Device, 16> devices{};
@@ -99,13 +99,13 @@ std::vector<Display> displays(const EglFunctions& egl) {
 }
 
 struct DisplayContext {
-  Display display = nullptr;
+  EglDisplay display = nullptr;
   EglContext context = nullptr;
 };
 
 /// The display is not closed again: it is the process's, and others may use it.
 DisplayContext make_context(const EglFunctions& egl) {
-  for (const Display display : displays(egl)) {
+  for (const EglDisplay display : displays(egl)) {
     if (display == nullptr || !egl.initialize(display, nullptr, nullptr)) continue;
     Config config = nullptr;
     Int count = 0;

@@ -29,9 +29,9 @@ void Film::begin() {
   continue_from_present();
 }
 
-void Film::show_lamps() {
-  if (world_.catalogue().lamps.empty() || !frames_.ends_at(world_.now())) return;
-  if (shown_ != world_.shining()) frames_.replace_last(draw());
+void Film::show_display() {
+  if (!world_.has_display() || !frames_.ends_at(world_.now())) return;
+  if (shown_ != world_.display()) frames_.replace_last(draw());
 }
 
 std::optional<std::size_t> Film::pictures() const {
@@ -59,7 +59,7 @@ void Film::continue_from_present() {
 }
 
 std::vector<std::uint8_t> Film::draw() {
-  shown_ = world_.shining();
+  shown_ = world_.display();
   return to_jpeg(renderer_.draw(world_.model(), world_.drawn(), *shown_));
 }
 

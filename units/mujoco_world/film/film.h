@@ -37,8 +37,8 @@ class Film : public Recording {
 
   /// The picture of the present is taken if that is one of the instants.
   void begin() override;
-  /// The picture of the present, if it is there and shows the lamps otherwise, is taken again.
-  void show_lamps() override;
+  /// The picture of the present, if it is there and shows another display, is taken again.
+  void show_display() override;
   stride::Time next() const override { return next_; }
   void take() override;
 
@@ -60,8 +60,7 @@ class Film : public Recording {
   Frames frames_;
   bool has_begun_ = false;
   stride::Time next_;
-  /// The lamps that shine in the last picture; nothing where that is not known.
-  std::optional<std::vector<int>> shown_;
+  std::optional<Display> shown_;  ///< in the last picture; nothing where that is not known
 };
 
 }  // namespace mujoco_world::film

@@ -74,6 +74,17 @@ mjvGeom halo_of(const mjvGeom& lamp, double radius) {
   return halo;
 }
 
+mjvGeom field_geom(const mjModel& model, const mjData& data, const ShownField& field) {
+  const double width = kFieldWidth * field.reach;
+  const double size[] = {width, width, field.reach};
+  const float* site = model.site_rgba + 4 * field.site;
+  const float colour[] = {site[0], site[1], site[2], kFieldOpacity};
+  mjvGeom geom{};
+  mjv_initGeom(&geom, mjGEOM_ELLIPSOID, size, data.site_xpos + 3 * field.site,
+               data.site_xmat + 9 * field.site, colour);
+  return geom;
+}
+
 /// mjr_makeContext() reads the environment, in which make_off_screen() has settings for a while.
 std::mutex making;
 
@@ -116,10 +127,15 @@ Renderer::~Renderer() {
   }
 }
 
-const Picture& Renderer::draw(const mjModel& model, mjData& data, const std::vector<int>& shining) {
+const Picture& Renderer::draw(const mjModel& model, mjData& data, const Display& display) {
   guarded([&] {
     mjv_updateScene(&model, &data, &options_, nullptr, &camera_, mjCAT_ALL, &scene_);
-    light_up(model, shining);
+    light_up(model, display.shining);
+    for (const ShownField& field : display.fields) {
+      if (scene_.ngeom < scene_.maxgeom) {
+        scene_.geoms[scene_.ngeom++] = field_geom(model, data, field);
+      }
+    }
     if (is_unchanged(model)) return;
     screen_->with([&] {
       mjr_render(frame_, &scene_, &context_);

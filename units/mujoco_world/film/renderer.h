@@ -8,6 +8,7 @@
 
 #include <mujoco/mujoco.h>
 
+#include "units/mujoco_world/display.h"
 #include "units/mujoco_world/film/off_screen.h"
 #include "units/mujoco_world/film/picture.h"
 
@@ -36,11 +37,11 @@ class Renderer {
   Renderer(const Renderer&) = delete;
   Renderer& operator=(const Renderer&) = delete;
 
-  /// `data` has the poses of all that is to be seen (World::drawn()), `shining` the ids of the
-  /// geoms that are lamps which are on (World::shining()): they have their hue at full brightness,
-  /// whatever light falls on them, and a halo. The picture is valid until the next call. Throws
+  /// `data` has the poses of all that is to be seen (World::drawn()). Lamps that shine have their
+  /// hue at full brightness, whatever light falls on them, and a halo; fields are translucent, in
+  /// the colours of their sites. The picture is valid until the next call. Throws
   /// std::runtime_error if OpenGL fails.
-  const Picture& draw(const mjModel& model, mjData& data, const std::vector<int>& shining = {});
+  const Picture& draw(const mjModel& model, mjData& data, const Display& display = {});
 
  private:
   /// What goes into a picture, but for skins and other deformable surfaces.

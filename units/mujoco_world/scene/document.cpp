@@ -155,6 +155,14 @@ class Builder {
     const int added = add_node(model_.site_bodyid[site], name);
     node(added).extras = stride_extras("site");
     place(added, model_.site_pos + 3 * site, model_.site_quat + 4 * site);
+    const auto& fields = animated_.fields;
+    const auto field = std::find(fields.begin(), fields.end(), site);
+    if (field == fields.end()) return;
+    const int drawn = add_node(added, name);
+    node(drawn).mesh = looks_.field_of(site);
+    node(drawn).extras = stride_extras("field");
+    const auto number = static_cast<std::size_t>(field - fields.begin());
+    nodes_.channels.push_back({animated_.first_field() + number, drawn, "scale"});
   }
 
   /// Both look along -z, y upwards.
@@ -265,8 +273,7 @@ class AnimationWriter {
       if (is_again) values.resize(values.size() - (path == "rotation" ? 4 : 3));
       if (!is_again) times.push_back(keyframe.time);
       if (is_scale) {
-        const bool is_there = (keyframe.value[0] != 0) != channel.is_inverse;
-        values.insert(values.end(), 3, is_there ? 1.0F : 0.0F);
+        values.insert(values.end(), 3, scale_of(channel, keyframe.value[0]));
       } else {
         values.insert(values.end(), keyframe.value.begin(),
                       keyframe.value.begin() + (path == "rotation" ? 4 : 3));
@@ -290,6 +297,12 @@ class AnimationWriter {
   void finish() { document_.animations.push_back(std::move(animation_)); }
 
  private:
+  /// Of a field its reach.
+  float scale_of(const Channel& channel, float value) const {
+    if (types_[channel.track] != TrackType::Switch) return value;
+    return (value != 0) != channel.is_inverse ? 1.0F : 0.0F;
+  }
+
   void add(int node, const std::string& path, const std::vector<float>& times,
            const std::vector<float>& values, bool is_stepped) {
     tinygltf::AnimationSampler& sampler = animation_.samplers.emplace_back();
@@ -349,11 +362,13 @@ std::vector<TrackType> Animated::tracks() const {
   for (std::size_t i = 0; i < first_lamp(); ++i) {
     types.push_back(i % 2 == 0 ? TrackType::Point : TrackType::Rotation);
   }
+  types.resize(first_field(), TrackType::Switch);
+  types.resize(first_contact(), TrackType::Point);
   types.resize(first_contact() + 3 * contacts, TrackType::Switch);
   return types;
 }
 
-Animated animated_of(const mjModel& model, const std::vector<int>& lamps) {
+Animated animated_of(const mjModel& model, const Shown& shown) {
   constexpr std::size_t kMostContacts = 64;
   Animated animated;
   for (int i = 1; i < model.nbody; ++i) {
@@ -365,7 +380,8 @@ Animated animated_of(const mjModel& model, const std::vector<int>& lamps) {
   for (int i = 0; i < model.nlight; ++i) {
     if (model.light_mode[i] != mjCAMLIGHT_FIXED) animated.lights.push_back(i);
   }
-  animated.lamps = lamps;
+  animated.lamps = shown.lamps;
+  animated.fields = shown.fields;
   animated.contacts = kMostContacts;
   return animated;
 }

@@ -15,21 +15,30 @@
 namespace mujoco_world::scene {
 
 /// What of a world can move or be switched, and so has tracks, in this order: a Point and a
-/// Rotation for each body, then camera, then light; a Switch for each lamp; for each contact its
-/// place, its orientation and whether there is one, all of them Switches.
+/// Rotation for each body, then camera, then light; a Switch for each lamp; a Point for each field,
+/// whose x is its reach; for each contact its place, its orientation and whether there is one, all
+/// of them Switches.
 struct Animated {
   std::vector<int> bodies;   ///< that are not fixed to their parent, in its frame
   std::vector<int> cameras;  ///< that follow something, in the world's frame
   std::vector<int> lights;   ///< likewise
   std::vector<int> lamps;    ///< geoms
+  std::vector<int> fields;   ///< sites
   std::size_t contacts = 0;  ///< how many can be shown at once
 
   std::vector<TrackType> tracks() const;
   std::size_t first_lamp() const { return 2 * (bodies.size() + cameras.size() + lights.size()); }
-  std::size_t first_contact() const { return first_lamp() + lamps.size(); }
+  std::size_t first_field() const { return first_lamp() + lamps.size(); }
+  std::size_t first_contact() const { return first_field() + fields.size(); }
 };
 
-Animated animated_of(const mjModel& model, const std::vector<int>& lamps);
+/// What of a world devices can show.
+struct Shown {
+  std::vector<int> lamps;   ///< geoms
+  std::vector<int> fields;  ///< sites
+};
+
+Animated animated_of(const mjModel& model, const Shown& shown);
 
 /// A quaternion (w first) whose -z is a direction, as a light's node has it.
 void light_orientation(const double* direction, double* quaternion);

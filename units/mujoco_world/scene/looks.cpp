@@ -8,6 +8,7 @@
 
 #include <stb_image_write.h>
 
+#include "units/mujoco_world/display.h"
 #include "units/mujoco_world/mjcf.h"
 #include "units/mujoco_world/mujoco_api.h"
 #include "units/mujoco_world/scene/buffer.h"
@@ -200,6 +201,17 @@ int Looks::halo_of(int lamp) {
   colour[3] *= kHaloOpacity;
   const double radius = kHalo * model_.geom_rbound[lamp];
   return radius > 0 ? add_mesh(ball(model_, radius), add_shining(colour)) : -1;
+}
+
+int Looks::field_of(int site) {
+  const float* rgba = model_.site_rgba + 4 * site;
+  tinygltf::Material material;
+  auto& surface = material.pbrMetallicRoughness;
+  surface.baseColorFactor = light_of({rgba[0], rgba[1], rgba[2], 1});
+  surface.baseColorFactor.push_back(kFieldOpacity);
+  surface.metallicFactor = 0;
+  material.alphaMode = "BLEND";
+  return add_mesh(spheroid(model_, kFieldWidth, 1), add_material(std::move(material)));
 }
 
 }  // namespace mujoco_world::scene

@@ -32,6 +32,8 @@ class Looks {
   int mesh_of(int geom);
   int lit_mesh_of(int lamp);
   int halo_of(int lamp);
+  /// The field of a coil at a site, where it reaches 1 m.
+  int field_of(int site);
 
  private:
   /// The texture of a material: of two dimensions as a texture, another one as its mean colour.

@@ -32,10 +32,25 @@ Duration checked(Duration interval) {
   throw std::invalid_argument("the interval of a scene is not above 0");
 }
 
-std::vector<int> lamps_of(const World& world) {
-  std::vector<int> geoms;
-  for (const Lamp& lamp : world.catalogue().lamps) geoms.push_back(lamp.geom);
-  return geoms;
+Shown shown_by(const World& world) {
+  Shown shown;
+  for (const Lamp& lamp : world.catalogue().lamps) shown.lamps.push_back(lamp.geom);
+  for (const Field& field : world.catalogue().fields) shown.fields.push_back(field.site);
+  return shown;
+}
+
+float reach_of(const Display& display, int site) {
+  for (const ShownField& field : display.fields) {
+    if (field.site == site) return static_cast<float>(field.reach);
+  }
+  return 0;
+}
+
+/// But for how far fields reach.
+bool has_same_parts(const Display& one, const Display& other) {
+  return one.shining == other.shining &&
+         std::equal(one.fields.begin(), one.fields.end(), other.fields.begin(), other.fields.end(),
+                    [](const ShownField& a, const ShownField& b) { return a.site == b.site; });
 }
 
 fs::path beside(const fs::path& file) { return file.string() + ".part"; }
@@ -97,7 +112,7 @@ Scene::Scene(World& world, Duration interval, const fs::path& file, AnimationLim
     : world_(world),
       interval_(checked(interval)),
       file_(file),
-      document_(world.model(), animated_of(world.model(), lamps_of(world))),
+      document_(world.model(), animated_of(world.model(), shown_by(world))),
       animation_(
           document_.animated().tracks(),
           [&] {
@@ -127,8 +142,8 @@ void Scene::begin() {
   write();
 }
 
-void Scene::show_lamps() {
-  if (shown_ != world_.shining()) sample();
+void Scene::show_display() {
+  if (!has_same_parts(shown_, world_.display())) sample();
 }
 
 void Scene::take() {
@@ -141,7 +156,7 @@ void Scene::take() {
 void Scene::sample() {
   is_written_ = false;
   sampled_ = world_.now();
-  shown_ = world_.shining();
+  shown_ = world_.display();
   animation_.observe(seconds(world_.now()), values());
 }
 
@@ -155,7 +170,7 @@ void Scene::write_to_file(Time end, const std::vector<Value>& values) {
   notes.interval = stride::to_seconds(interval_);
   notes.tolerance = animation_.tolerance();
   notes.resolution = animation_.resolution();
-  notes.samples = animation_.samples();
+  notes.samples = animation_.samples() + (end == sampled_ ? 0 : 1);
   notes.duration = time_of_keyframe(seconds(end));
   replace_file(file_, document_.bytes(animation_.tracks(seconds(end), values), notes));
   is_written_ = true;
@@ -168,8 +183,12 @@ std::vector<Value> Scene::values() {
   values_.clear();
   put_poses(world_.drawn());
   for (const Lamp& lamp : world_.catalogue().lamps) {
-    const bool is_on = std::find(shown_.begin(), shown_.end(), lamp.geom) != shown_.end();
+    const auto& shining = shown_.shining;
+    const bool is_on = std::find(shining.begin(), shining.end(), lamp.geom) != shining.end();
     values_.push_back({is_on ? 1.0F : 0.0F, 0, 0, 0});
+  }
+  for (const Field& field : world_.catalogue().fields) {
+    values_.push_back({reach_of(shown_, field.site), 0, 0, 0});
   }
   put_contacts(world_.collided());
   return values_;
@@ -237,7 +256,7 @@ SceneState Scene::state() {
 bool Scene::go_on(const SceneState& state) {
   const bool was_here = std::exchange(has_begun_, state.has_begun);
   if (!has_begun_) return true;
-  shown_ = world_.shining();
+  shown_ = world_.display();
   sampled_ = world_.now();
   next_ = first_multiple_at_or_after(world_.now(), interval_);
   is_written_ = false;

@@ -28,8 +28,8 @@ struct SceneState {
 };
 
 /// Samples the world at the multiples of the interval and where a watched contact or a lamp
-/// changes. The file is written when it begins and ends, and now and then in between, so that this
-/// takes about a twentieth of the time; it is always whole.
+/// changes, or a field comes or goes. The file is written when it begins and ends, and now and then
+/// in between, so that this takes about a twentieth of the time; it is always whole.
 class Scene : public Recording {
  public:
   /// `world` must outlive it. Throws std::invalid_argument for an interval that is not positive,
@@ -42,7 +42,7 @@ class Scene : public Recording {
   stride::Duration interval() const { return interval_; }
 
   void begin() override;
-  void show_lamps() override;
+  void show_display() override;
   stride::Time next() const override { return next_; }
   void take() override;
   void see_contact_change() override { sample(); }
@@ -76,7 +76,7 @@ class Scene : public Recording {
   stride::Time start_{};
   stride::Time next_{};
   std::vector<Value> values_;
-  std::vector<int> shown_;   ///< the lamps that shine in the last sample
+  Display shown_;            ///< in the last sample
   stride::Time sampled_{};   ///< when that was
   bool is_written_ = false;  ///< as it is
   stride::Time written_end_{};

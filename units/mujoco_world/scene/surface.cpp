@@ -310,8 +310,10 @@ Surface surface_of(const mjModel& model, int geom, bool is_textured) {
   return surface;
 }
 
-Surface ball(const mjModel& model, double radius) {
-  return ellipsoid({radius, radius, radius}, facets_of(model));
+Surface ball(const mjModel& model, double radius) { return spheroid(model, radius, radius); }
+
+Surface spheroid(const mjModel& model, double across, double along) {
+  return ellipsoid({across, across, along}, facets_of(model));
 }
 
 }  // namespace mujoco_world::scene

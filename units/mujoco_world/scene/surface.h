@@ -27,6 +27,9 @@ Surface surface_of(const mjModel& model, int geom, bool is_textured);
 /// A sphere, to be put around what shines.
 Surface ball(const mjModel& model, double radius);
 
+/// An ellipsoid of revolution about z, for fields.
+Surface spheroid(const mjModel& model, double across, double along);
+
 }  // namespace mujoco_world::scene
 
 #endif

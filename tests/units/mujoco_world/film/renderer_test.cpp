@@ -1,5 +1,6 @@
 #include "units/mujoco_world/film/renderer.h"
 
+#include <algorithm>
 #include <thread>
 #include <vector>
 
@@ -61,7 +62,7 @@ TEST_CASE("a lamp shines in the dark") {
   World world(folder.path());
   Renderer renderer(world.model(), {160, 120, ""});
   const auto red = [&] {
-    return patch(renderer.draw(world.model(), world.drawn(), world.shining()), kRed).count;
+    return patch(renderer.draw(world.model(), world.drawn(), world.display()), kRed).count;
   };
   CHECK(red() == 0);
   world.set_lamp(0, true);
@@ -84,7 +85,7 @@ TEST_CASE("a lamp of a dark colour shines in its hue, and has a halo") {
   Renderer renderer(world.model(), {160, 120, ""});
   const int led = world.catalogue().lamps[0].geom;
   const Picture off = renderer.draw(world.model(), world.drawn());
-  const Picture on = renderer.draw(world.model(), world.drawn(), {led});
+  const Picture on = renderer.draw(world.model(), world.drawn(), {{led}, {}});
   std::size_t pure = 0;
   std::size_t changed = 0;
   for (std::size_t i = 0; i < on.rgb.size(); i += 3) {
@@ -94,6 +95,34 @@ TEST_CASE("a lamp of a dark colour shines in its hue, and has a halo") {
   CHECK(patch(off, kRed).count == 0);
   CHECK(static_cast<double>(pure) == Approx(static_cast<double>(ball)).epsilon(0.3));
   CHECK(changed > 4 * ball);
+}
+
+TEST_CASE("a field is an ellipsoid about the axis of its site, which is seen through") {
+  if (scene::lacks_open_gl()) return;
+  const worlds::Folder folder(worlds::kField);
+  World world(folder.path());
+  Renderer renderer(world.model(), {160, 120, "film"});
+  const auto drawn = [&] { return renderer.draw(world.model(), world.drawn(), world.display()); };
+  const Picture without = drawn();
+  CHECK(patch(without, kRed).count == 0);
+  world.set_field(0, 0.3);
+  const Picture with = drawn();
+  std::size_t changed = 0;
+  std::size_t first = 160, last = 0;  // columns
+  for (std::size_t i = 0; i < with.rgb.size(); i += 3) {
+    if (std::equal(&with.rgb[i], &with.rgb[i] + 3, &without.rgb[i])) continue;
+    ++changed;
+    first = std::min(first, i / 3 % 160);
+    last = std::max(last, i / 3 % 160);
+  }
+  // the camera is 3 m away, and its picture 45 degrees high; the axis is horizontal in it
+  const double reach = 0.3 * 120 / (2 * 3 * std::tan(0.5 * 45 * M_PI / 180));
+  CHECK(static_cast<double>(last - first + 1) == Approx(2 * reach).epsilon(0.06));
+  CHECK(static_cast<double>(changed) ==
+        Approx(M_PI * mujoco_world::kFieldWidth * reach * reach).epsilon(0.06));
+  CHECK(patch(with, kRed).count == 0);  // not opaque
+  world.set_field(0, 0);
+  CHECK(drawn().rgb == without.rgb);
 }
 
 TEST_CASE("what is nearer hides what is behind it") {

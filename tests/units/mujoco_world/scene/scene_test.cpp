@@ -220,6 +220,42 @@ TEST_CASE("the world stands upright, and the notes tell of the run") {
         std::vector<float>{0, mujoco_world::scene::time_of_keyframe(0.1714)});
 }
 
+TEST_CASE("a field is as large as it reaches, and is sampled where it comes and goes") {
+  Filmed filmed(worlds::kField, std::chrono::milliseconds(100));
+  filmed.advance(0.123);
+  filmed.world.set_field(0, 0.5);
+  filmed.advance(0.25);
+  filmed.world.set_field(0, 0.3);  // at the next pose
+  filmed.advance(0.42);
+  filmed.world.set_field(0, 0);
+  filmed.scene.show_display();
+  const Glb glb = filmed.glb();
+  const int field = glb.node("field", "coil");
+  const auto reach = [&](double time) {
+    const Eigen::Vector3d along = glb.pose(field, time).linear().col(2);
+    CHECK(along.norm() == Approx(std::abs(along.x())));
+    return along.norm();
+  };
+  for (const auto& [time, expected] : {std::pair(0.0, 0.0),
+                                       {0.1, 0.0},
+                                       {0.123, 0.5},
+                                       {0.2, 0.5},
+                                       {0.3, 0.3},
+                                       {0.4, 0.3},
+                                       {0.42, 0.0}}) {
+    INFO(time);
+    CHECK(reach(time) == Approx(expected).margin(1e-5));
+  }
+  const auto& mesh = glb.model.meshes.at(static_cast<std::size_t>(glb.at(field).mesh));
+  const auto& material =
+      glb.model.materials.at(static_cast<std::size_t>(mesh.primitives.at(0).material));
+  CHECK(material.alphaMode == "BLEND");
+  const auto& positions = glb.model.accessors.at(
+      static_cast<std::size_t>(mesh.primitives.at(0).attributes.at("POSITION")));
+  CHECK(positions.maxValues.at(2) == Approx(1));
+  CHECK(positions.maxValues.at(0) == Approx(mujoco_world::kFieldWidth).epsilon(0.01));
+}
+
 TEST_CASE("a lamp is switched at the very instant") {
   Filmed filmed(worlds::kLamp);
   filmed.advance(0.1234);
@@ -228,7 +264,7 @@ TEST_CASE("a lamp is switched at the very instant") {
   filmed.world.set_lamp(0, false);
   filmed.advance(0.3);
   filmed.world.set_lamp(0, true);
-  filmed.scene.show_lamps();
+  filmed.scene.show_display();
   const Glb glb = filmed.glb();
   const int dark = glb.lamp(false);
   const int lit = glb.lamp(true);

@@ -6,7 +6,7 @@ import { embeddedTextures } from "./textures.js";
 /** What is thinner than this share of its size is flat, such as a floor. */
 const kFlat = 1e-6;
 
-/** @returns {"site"|"contact"|"lamp"|"geom"|"camera"|"light"|"body"} */
+/** @returns {"site"|"contact"|"lamp"|"field"|"geom"|"camera"|"light"|"body"} */
 function kindOf({ extras, mesh, camera, extensions }) {
   if (extras?.stride !== undefined) return extras.stride;
   if (mesh !== undefined) return "geom";
@@ -36,7 +36,7 @@ export class Model {
       this.#action = this.#mixer.clipAction(run).play();
       this.#action.paused = true;
     }
-    this.switched = this.#of("lamp", "contact");
+    this.switched = this.#of("lamp", "field", "contact");
     this.pose(this.startTime);
   }
 
@@ -87,6 +87,11 @@ export class Model {
     this.root.updateMatrixWorld();
   }
 
+  /** Whether an object is a field, which is seen through, and is no part of any body. */
+  isField(object) {
+    return this.#entries.get(object)?.kind === "field";
+  }
+
   /** The names of the body and the geom that an object in the scene belongs to. */
   namesOf(object) {
     const names = { body: "", geom: "" };
@@ -106,7 +111,7 @@ export class Model {
     const all = new Box3();
     const solid = new Box3();
     this.root.traverseVisible((node) => {
-      if (!node.isMesh) return;
+      if (!node.isMesh || this.isField(node)) return;
       const box = new Box3().setFromObject(node);
       const size = box.getSize(new Vector3()).toArray();
       all.union(box);

@@ -182,7 +182,8 @@ export class World extends EventTarget {
       while (node && node.visible) node = node.parent;
       return !node;
     };
-    const hit = ray.intersectObject(this.#model.root).find(isSeen);
+    const hits = ray.intersectObject(this.#model.root);
+    const hit = hits.find((each) => isSeen(each) && !this.#model.isField(each.object));
     return hit ? this.#model.namesOf(hit.object) : null;
   }
 
