@@ -222,7 +222,7 @@ class Simulation::Run {
     finish_suspensions(failure);
     finish_observers(failure);
     if (!failure) return;
-    verdicts_.clear();
+    verdicts_ = undecided_verdicts(system_);
     std::rethrow_exception(failure);
   }
 
@@ -553,7 +553,7 @@ class Simulation::Run {
   UnitCounters counters_;
 
   std::vector<std::vector<VariableId>> wanted_;  ///< the signals of each observer
-  std::vector<Verdict> verdicts_;
+  std::vector<Verdict> verdicts_ = undecided_verdicts(system_);
 
   bool has_run_ = false;
   bool is_between_parts_ = false;

@@ -106,7 +106,8 @@ class Simulation {
   /// For observers, at a communication point: whether the component has been suspended from an
   /// earlier point on, so that it receives nothing of what is here.
   bool was_suspended(std::size_t component) const;
-  /// The units' verdicts at the end of the run; none where it failed or was interrupted.
+  /// The units' verdicts at the end of the run; undecided until then, and where it failed or was
+  /// interrupted.
   std::span<const Verdict> verdicts() const;
 
  private:

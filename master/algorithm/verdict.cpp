@@ -29,6 +29,14 @@ std::string reason(const Verdict& verdict) {
   return verdict.text.empty() ? at : at + ": " + verdict.text;
 }
 
+std::vector<Verdict> undecided_verdicts(const System& system) {
+  std::vector<Verdict> verdicts;
+  for (const Component& component : system.components()) {
+    if (component.description->verdict) verdicts.push_back({component.name, {}});
+  }
+  return verdicts;
+}
+
 std::vector<Verdict> read_verdicts(const System& system,
                                    std::span<const std::unique_ptr<Unit>> units) {
   std::vector<Verdict> verdicts;

@@ -63,8 +63,12 @@ struct Verdict {
 /// "at 12.3 s: 1.79 V, expected >= 1.8 V", as far as there is a time and a text.
 std::string reason(const Verdict& verdict);
 
-/// The verdicts of the units that declare one, in the order of the components. To be called after a
-/// successful run, before terminate(). Throws Error.
+/// The verdicts of the units that declare one, in the order of the components, as long as they are
+/// undecided.
+std::vector<Verdict> undecided_verdicts(const System& system);
+
+/// The same verdicts as the units give them. To be called after a successful run, before
+/// terminate(). Throws Error.
 std::vector<Verdict> read_verdicts(const System& system,
                                    std::span<const std::unique_ptr<Unit>> units);
 

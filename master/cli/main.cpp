@@ -58,7 +58,7 @@ std::string full_name(const CLI::App* app) {
 }
 
 /// Options whose value, if any, follows '='.
-constexpr const char* kFlagsWithValue[] = {"--isolate", "--film", "--scene"};
+constexpr const char* kFlagsWithValue[] = {"--isolate", "--film", "--scene", "--live"};
 
 /// What follows such a flag and a blank is another argument.
 std::string flag_hint(const CLI::App& command) {
@@ -219,8 +219,9 @@ void add_all(CLI::App& app) {
   }
 }
 
-/// The process that watches this one prints it where this one cannot.
+/// Behind what was printed. The process that watches this one prints it where this one cannot.
 void tell(const std::string& error) {
+  if (!stride::cli::is_output_locked()) std::fflush(stdout);
   stride::cli::EndNote& note = stride::cli::end_note();
   note.error.set(error);
   note.is_printed.set(stride::cli::print_error(error));

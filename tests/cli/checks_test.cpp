@@ -170,7 +170,8 @@ TEST_CASE("in a run that fails, checks that have failed stay failed and are repo
 }
 
 TEST_CASE("an interrupted run: likewise") {
-  const Workspace workspace = watched(kBad + "<stride:Final signal='filter.y' above='2'/>");
+  const Workspace workspace = watched(kBad + "<stride:Final signal='filter.y' above='2'/>",
+                                      component("judge", "judge.fmu"));
   Process process(stride_command(Workspace::run_arguments({"--stop", "1e6", "--no-trace", "--junit",
                                                            "report.xml", "--set", "filter.u=1",
                                                            "--set", "ticker.period=0.1"})),
@@ -180,11 +181,23 @@ TEST_CASE("an interrupted run: likewise") {
   process.send(SIGINT);
   CHECK(process.wait().exit_code == 1);
   const json checks = checks_of(workspace);
-  CHECK(checks[0]["passed"] == false);
-  CHECK(checks[1]["passed"].is_null());
+  CHECK((checks[0]["name"] == "judge" && checks[0]["passed"].is_null()));
+  CHECK(checks[1]["passed"] == false);
+  CHECK(checks[2]["passed"].is_null());
   CHECK_THAT(read(workspace / "report.xml"),
              Contains("<error message=\"the run was interrupted at ") &&
-                 Contains("tests=\"3\" failures=\"1\" errors=\"1\" skipped=\"1\""));
+                 Contains("tests=\"4\" failures=\"1\" errors=\"1\" skipped=\"2\""));
+}
+
+TEST_CASE("what is printed comes before the error, where both go to one file") {
+  const Workspace workspace = watched(kBad);
+  Arguments command{"/bin/sh", "-c", "\"$0\" \"$@\" > both.log 2>&1"};
+  const Arguments failing = stride_command(
+      Workspace::run_arguments({"--set", "filter.u=1", "--set", "filter.time_constant=0.1"}));
+  command.insert(command.end(), failing.begin(), failing.end());
+  CHECK(run_program(command, workspace.scratch().path()).exit_code == 1);
+  CHECK_THAT(read(workspace / "both.log"),
+             Contains("Results in out: ") && Contains("report.html\nstride: error: "));
 }
 
 TEST_CASE("--junit: a test case for the run, each unit's verdict and each check") {
