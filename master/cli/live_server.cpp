@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cstddef>
 #include <exception>
+#include <list>
 #include <memory>
 #include <optional>
 #include <set>
@@ -40,7 +41,7 @@ using asio::use_awaitable;
 using asio::ip::tcp;
 using namespace std::chrono_literals;
 
-constexpr std::size_t kMostConnections = 16;
+constexpr std::size_t kMostConnections = 32;
 constexpr std::uint32_t kLongestHeader = 8192;
 /// What the system keeps of an answer: so small that a slow client is seen to take something.
 constexpr int kSendBuffer = 256 * 1024;
@@ -100,6 +101,27 @@ core::Descriptor duplicate_of(int file) {
   return duplicate;
 }
 
+/// The connections that have not asked for what is served yet, the oldest first.
+using Strangers = std::list<beast::tcp_stream*>;
+
+/// A connection is one of these until it leaves, or ends.
+class Stranger {
+ public:
+  Stranger(Strangers& all, beast::tcp_stream& stream)
+      : all_(all), place_(all.insert(all.end(), &stream)) {}
+  ~Stranger() { leave(); }
+  Stranger(const Stranger&) = delete;
+  Stranger& operator=(const Stranger&) = delete;
+
+  void leave() {
+    if (const auto place = std::exchange(place_, std::nullopt)) all_.erase(*place);
+  }
+
+ private:
+  Strangers& all_;
+  std::optional<Strangers::iterator> place_;
+};
+
 /// Counts for as long as it exists.
 class Counted {
  public:
@@ -130,6 +152,10 @@ Response response_to(const Request& request, http::status status, std::string bo
   return response;
 }
 
+bool is_read(const Request& request) {
+  return request.method() == http::verb::get || request.method() == http::verb::head;
+}
+
 }  // namespace
 
 /// All but the constructor, announce_update() and end() happens in one thread, and what makes pages
@@ -151,6 +177,9 @@ class LiveServer::Connections {
   void tell_update();
   asio::awaitable<void> accept();
   asio::awaitable<void> serve(tcp::socket socket);
+  bool turn_stranger_away();
+  bool is_here(const Request& request) const;
+  bool is_of_friend(const Request& request) const;
   asio::awaitable<bool> answer(beast::tcp_stream& stream, const Request& request);
   asio::awaitable<Response> page_for(const Request& request);
   asio::awaitable<void> send(beast::tcp_stream& stream, Response& response);
@@ -167,6 +196,7 @@ class LiveServer::Connections {
   const MakePage make_page_;
   const std::chrono::milliseconds patience_;
   std::size_t open_ = 0;       ///< connections
+  Strangers strangers_;        ///< among them
   std::size_t listeners_ = 0;  ///< to events
   std::size_t in_work_ = 0;    ///< pages that are made or sent
   std::size_t last_pages_ = 0;
@@ -230,7 +260,7 @@ asio::awaitable<void> LiveServer::Connections::accept() {
       co_await timer.async_wait(use_awaitable);
       continue;
     }
-    if (open_ >= kMostConnections) continue;
+    if (open_ >= kMostConnections && !turn_stranger_away()) continue;
     tcp::socket socket(context_);
     socket.assign(tcp::v4(), accepted.release());
     boost::system::error_code ignored;
@@ -239,17 +269,38 @@ asio::awaitable<void> LiveServer::Connections::accept() {
   }
 }
 
+/// So that those who do not know the address cannot keep out those who do. Returns whether there
+/// was one, which ends soon.
+bool LiveServer::Connections::turn_stranger_away() {
+  if (strangers_.empty()) return false;
+  strangers_.front()->cancel();
+  strangers_.splice(strangers_.end(), strangers_, strangers_.begin());
+  return true;
+}
+
+bool LiveServer::Connections::is_here(const Request& request) const {
+  const beast::string_view host = request[http::field::host];
+  return host == site_.host || host == site_.other_host;
+}
+
+bool LiveServer::Connections::is_of_friend(const Request& request) const {
+  return is_here(request) && is_read(request) &&
+         (request.target() == site_.page || request.target() == site_.events);
+}
+
 /// A client that breaks off, or is too slow, is one less.
 asio::awaitable<void> LiveServer::Connections::serve(tcp::socket socket) {
   const Counted counted(open_);
   try {
     beast::tcp_stream stream(std::move(socket));
+    Stranger stranger(strangers_, stream);
     beast::flat_buffer buffer;
     for (bool goes_on = true; goes_on;) {
       http::request_parser<http::empty_body> parser;
       parser.header_limit(kLongestHeader);
       stream.expires_after(patience_);
       co_await http::async_read(stream, buffer, parser, use_awaitable);
+      if (is_of_friend(parser.get())) stranger.leave();
       goes_on = co_await answer(stream, parser.get());
     }
     stream.socket().shutdown(tcp::socket::shutdown_send);
@@ -262,13 +313,10 @@ asio::awaitable<bool> LiveServer::Connections::answer(beast::tcp_stream& stream,
                                                       const Request& request) {
   const Counted counted(in_work_);
   const bool is_last = is_over_;
-  const beast::string_view host = request[http::field::host];
-  const bool is_here = host == site_.host || host == site_.other_host;
-  const bool is_read = request.method() == http::verb::get || request.method() == http::verb::head;
   std::optional<Response> response;
-  if (!is_here) {
+  if (!is_here(request)) {
     response = response_to(request, http::status::forbidden, "This host is not served here.\n");
-  } else if (!is_read) {
+  } else if (!is_read(request)) {
     response = response_to(request, http::status::method_not_allowed, "Only GET and HEAD.\n");
     response->set(http::field::allow, "GET, HEAD");
   } else if (request.target() == site_.events && request.method() == http::verb::get) {

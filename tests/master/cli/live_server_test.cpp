@@ -192,15 +192,23 @@ TEST_CASE("the end does not wait for those who have gone, hang, or only look at 
   CHECK(half.receive() == "");
 }
 
-TEST_CASE("many connections, and further ones") {
+TEST_CASE("strangers make room for who knows the address, and friends do not") {
+  constexpr int kMost = 32;
   Bench bench;
   std::vector<std::unique_ptr<Client>> silent;
-  for (int i = 0; i < 15; ++i) silent.push_back(std::make_unique<Client>(bench.server));
+  for (int i = 0; i < kMost; ++i) silent.push_back(std::make_unique<Client>(bench.server));
   CHECK_THAT(answer(bench.server), EndsWith("page 1"));
-  Client last(bench.server);
-  last.send(text_of(bench.server, {.more = ""}));
-  last.receive("page 2");
+  CHECK(silent.front()->receive() == "");  // the oldest
+  std::vector<std::unique_ptr<Client>> friends;
+  for (int i = 0; i < kMost; ++i) {
+    friends.push_back(std::make_unique<Client>(bench.server));
+    friends.back()->send(text_of(bench.server, {.more = ""}));
+    friends.back()->receive("page ");
+  }
+  for (const auto& client : silent) CHECK(client->receive() == "");
   CHECK(Client(bench.server).receive() == "");
+  friends.front()->send(text_of(bench.server, {.more = ""}));
+  CHECK_THAT(friends.front()->receive(), Contains("page"));
 }
 
 TEST_CASE("who takes a large page slowly gets all of it, and who takes nothing is one less") {

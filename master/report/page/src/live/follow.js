@@ -28,6 +28,7 @@ export class Follower {
    * @param {object} page
    * @param {(data: object) => Promise<void>} page.update shows other data
    * @param {(data: object) => Promise<void>} page.conclude shows the last data
+   * @param {(isConnected: boolean) => void} page.connect
    * @param {import("./mark.js").LiveMark} mark
    */
   constructor(page, mark) {
@@ -53,11 +54,13 @@ export class Follower {
 
   #onOpen() {
     this.#failures = 0;
+    this.page.connect(true);
     this.mark.show(this.#isPaused ? "paused" : "live");
   }
 
   #onError() {
     if (this.isOver) return;
+    this.page.connect(false);
     this.mark.show("lost");
     if (++this.#failures >= kMostFailures) this.events.close();
   }

@@ -69,10 +69,13 @@ export class Kept {
   }
 }
 
-/** Shows in a view what another one shows, as far as the run is the same. */
+/** Shows in a view what another one shows, if its reader has chosen that; a cursor that follows the mouse is no choice. */
 export function keepView(view, before) {
-  if (!before.isWhole) view.show(before.from, before.until);
-  if (before.cursor === null) return;
+  const isChosen = before.isHeld || !before.isWhole;
+  if (!isChosen && view.isHeld) return; // a failure, where the page opens by itself
+  view.releaseCursor();
+  if (before.isWhole) view.showWhole();
+  else view.show(before.from, before.until);
   if (before.isHeld) view.holdCursor(before.cursor);
   else view.moveCursor(before.cursor);
 }

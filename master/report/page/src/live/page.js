@@ -4,12 +4,6 @@ import { Kept, keepView } from "./kept.js";
 import { LiveMark } from "./mark.js";
 import { isAlike, keepRow, takeOver } from "./update.js";
 
-/** Without its end it may have been killed, but not if it answers. */
-function knownToGoOn(report) {
-  report.run.goesOn = report.run.outcome === "running";
-  return report;
-}
-
 /**
  * @param {object} report
  * @param {(data: object) => Promise<object>} read makes a report of the data
@@ -19,7 +13,12 @@ function knownToGoOn(report) {
 export function buildLivePage(report, read, build) {
   const root = document.getElementById("report");
   const mark = new LiveMark((isPaused) => follower.pause(isPaused));
-  const life = { controller: null, kept: null };
+  const life = { controller: null, kept: null, isConnected: true };
+  // Without its end it may have been killed, but not if it answers.
+  const knownToGoOn = (shown) => {
+    shown.run.goesOn = life.isConnected && shown.run.outcome === "running";
+    return shown;
+  };
   const readNow = async (data) => knownToGoOn(await read(data));
   const fill = (shown, theme) => {
     life.controller?.abort();
@@ -53,7 +52,13 @@ export function buildLivePage(report, read, build) {
     rebuild(await readNow(data));
     tell();
   };
-  const follower = new Follower({ update: show, conclude }, mark);
+  const connect = (isConnected) => {
+    if (isConnected === life.isConnected) return;
+    life.isConnected = isConnected;
+    knownToGoOn(window.stride.report);
+    window.stride.view.dispatchEvent(new Event("data"));
+  };
+  const follower = new Follower({ update: show, conclude, connect }, mark);
   fill(knownToGoOn(report));
   mark.show("live");
   tell();

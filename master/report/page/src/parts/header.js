@@ -18,6 +18,7 @@ function outcomeText(run, hasFailed) {
   const reached = Number.isFinite(run.reached) ? `at ${run.reached} s` : "";
   if (!run.outcome) return "without run.json";
   if (run.outcome === "completed") return hasFailed ? "" : "completed";
+  if (run.outcome === "running" && !run.goesOn) return reached; // or killed
   return run.outcome === "failed" ? reached : `${run.outcome} ${reached}`;
 }
 

@@ -130,8 +130,11 @@ class LiveTest(unittest.TestCase):
         self.assertEqual(browser.run(f"return {SAMPLES}"), before)
         browser.one(".live button").click()
         browser.wait_for(f"return {SAMPLES} > arguments[0]", before)
+        self.assertIn("the run goes on", browser.one(".banner").text)
         run.end()
         browser.wait_for("return document.querySelector('.live strong').textContent === 'connection lost'")
+        self.assertEqual(browser.one(".banner").text, "Not judged: the run was killed, or goes on")
+        self.assertNotIn("running", browser.one("header").text)
         self.assertGreater(browser.run(f"return {SAMPLES}"), 1)
 
 
