@@ -1,11 +1,7 @@
 #include "master/report/results.h"
 
-#include <array>
 #include <cerrno>
-#include <cstdint>
-#include <cstdio>
 #include <map>
-#include <string_view>
 #include <system_error>
 #include <utility>
 
@@ -16,6 +12,7 @@
 #include "master/recorders/unit_folders.h"
 #include "master/report/notes.h"
 #include "master/report/table.h"
+#include "master/report/world_file.h"
 #include "master/util/error.h"
 #include "master/util/input_file.h"
 #include "master/util/untrusted_folder.h"
@@ -178,25 +175,6 @@ std::vector<Film> read_films(const fs::path& folder, const RunFile& run, const L
   return films;
 }
 
-/// What is wrong with a world's file, in words; empty if its header is that of a whole one.
-std::string mistake_in_world(std::FILE* file, std::uintmax_t size) {
-  // https://registry.khronos.org/glTF/specs/2.0/glTF-2.0.html#binary-header, little-endian
-  constexpr std::size_t kHeader = 12;
-  constexpr std::string_view kBegin("glTF\2\0\0\0", 8);
-  if (size > kLargestWorld) return fmt::format("it is larger than {} MiB", kLargestWorld >> 20);
-  std::array<char, kHeader> header{};
-  if (std::fread(header.data(), 1, kHeader, file) != kHeader ||
-      !std::string_view(header.data(), kHeader).starts_with(kBegin)) {
-    return "it is no binary glTF 2.0 file";
-  }
-  std::uint32_t length = 0;
-  for (std::size_t i = kHeader; i-- > kBegin.size();) {
-    length = length << 8 | static_cast<unsigned char>(header[i]);
-  }
-  if (length == size) return "";
-  return fmt::format("it has {} bytes, but its header says {}", size, length);
-}
-
 std::vector<World> read_worlds(const fs::path& folder, const RunFile& run, Notes& notes) {
   const core::UntrustedFolder results(folder);
   std::vector<World> worlds;
@@ -225,6 +203,18 @@ std::optional<fs::path> present(const fs::path& folder, const std::string& name,
   if (fs::is_regular_file(file, error)) return file;
   notes.add(file, fs::exists(file, error) ? "this is not a regular file" : "this file is missing");
   return std::nullopt;
+}
+
+/// At its end a run has written their headers.
+void note_empty(const fs::path& folder, const recorders::ResultFiles& files, const RunFile& run,
+                Notes& notes) {
+  const auto outcome = run.json.find("outcome");
+  if (outcome == run.json.end() || *outcome == "running") return;
+  for (const std::string& name : {files.signals, files.events, files.activity}) {
+    std::error_code error;
+    if (name.empty() || fs::file_size(folder / name, error) != 0 || error) continue;
+    notes.add(folder / name, "the file is empty, without the header that its run has written");
+  }
 }
 
 /// What read(file) returns; nothing where there is no such file or it cannot be read, which is
@@ -275,6 +265,7 @@ Results read_results(const fs::path& folder, const recorders::ResultFiles& files
   results.folder = folder;
   Notes notes(folder, state == RunState::GoingOn);
   results.run = read_present(folder, files.statistics, notes, &read_run_file);
+  note_empty(folder, files, results.run, notes);
   if (const auto file = present(folder, files.signals, notes)) {
     results.signals = read_signals(*file, results.run.signals, limits.signals, notes);
   }

@@ -34,7 +34,7 @@ struct Film {
 /// A picture may have so many bytes.
 inline constexpr std::size_t kLargestPicture = std::size_t{16} << 20;
 
-/// A component's world in 3D: a binary glTF 2.0 file, of which no more than the header was read.
+/// A component's world in 3D: a binary glTF 2.0 file, whose references were checked.
 struct World {
   std::string component;
   std::filesystem::path file;  ///< in the results folder

@@ -10,6 +10,7 @@
 
 #include "master/util/error.h"
 #include "master/util/input_file.h"
+#include "master/util/readable_text.h"
 
 namespace stride::core {
 namespace {
@@ -128,8 +129,13 @@ void CsvReader::fail(const std::string& message) const {
   fail_input({.where = {file_.string(), static_cast<int>(line_)}}, message);
 }
 
+/// A file that is none of ours may have anything in its first row.
 void CsvReader::fail(const std::string& column, const std::string& message) const {
-  fail(fmt::format("column '{}': {}", column, message));
+  constexpr std::size_t kMost = 200;
+  std::size_t end = std::min(column.size(), kMost);
+  while (end < column.size() && is_within_character(column[end])) --end;
+  fail(fmt::format("column '{}{}': {}", column.substr(0, end), end < column.size() ? "…" : "",
+                   message));
 }
 
 }  // namespace stride::core

@@ -16,7 +16,8 @@ constexpr File kFiles[] = {{"run.json", "run_json/run.json"},
                            {"signals.csv", "signals/signals.csv"},
                            {"events.csv", "events/events.csv"},
                            {"activity.csv", "activity/activity.csv"},
-                           {"units/world/film/frames.csv", "film/frames.csv"}};
+                           {"units/world/film/frames.csv", "film/frames.csv"},
+                           {"units/world/world.glb", "world/world.glb"}};
 
 /// A folder of results in which this file is another one.
 std::filesystem::path results_with(const std::string& name, const std::string& bytes) {
@@ -85,6 +86,10 @@ const Registration kReportParsers("report", {
                                                 {.name = "film",
                                                  .read = read_results<4>,
                                                  .seed_files = {"tests/fuzz/seeds/film"},
+                                                 .alphabet = kResultsAlphabet},
+                                                {.name = "world",
+                                                 .read = read_results<5>,
+                                                 .seed_files = {"tests/fuzz/seeds/world"},
                                                  .alphabet = kResultsAlphabet},
                                             });
 

@@ -1,6 +1,7 @@
 #include "master/report/results.h"
 
 #include <catch2/catch.hpp>
+#include <fmt/format.h>
 
 #include "master/recorders/unit_folders.h"
 #include "tests/master/report/support.h"
@@ -9,6 +10,7 @@ using namespace stride;
 using namespace stride::report;
 using Catch::Contains;
 using Catch::Equals;
+using Catch::StartsWith;
 
 namespace {
 
@@ -52,6 +54,31 @@ struct Folder {
     folder.write("units/world/world.glb", content);
   }
 };
+
+/// A binary glTF 2.0 file.
+std::string glb(const std::string& text, const std::string& binary) {
+  const auto number = [](std::size_t value) {
+    std::string bytes;
+    for (int i = 0; i < 4; ++i) bytes += static_cast<char>(value >> 8 * i & 0xff);
+    return bytes;
+  };
+  return "glTF" + number(2) + number(28 + text.size() + binary.size()) + number(text.size()) +
+         "JSON" + text + number(binary.size()) + std::string("BIN\0", 4) + binary;
+}
+
+const std::string kTriangle =
+    R"({"asset":{"version":"2.0"},"scenes":[{"nodes":[0]}],"nodes":[{"children":[1]},{"mesh":0}],)"
+    R"("meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1}]}],)"
+    R"("accessors":[{"bufferView":0,"componentType":5126,"type":"VEC3","count":3},)"
+    R"({"bufferView":1,"componentType":5123,"type":"SCALAR","count":3}],)"
+    R"("bufferViews":[{"buffer":0,"byteOffset":0,"byteLength":36},)"
+    R"({"buffer":0,"byteOffset":36,"byteLength":6}],"buffers":[{"byteLength":42}]})";
+
+/// The same file in which one part of the text is another one.
+std::string with(const std::string& part, const std::string& other) {
+  std::string text = kTriangle;
+  return glb(text.replace(text.find(part), part.size(), other), std::string(42, '\0'));
+}
 
 }  // namespace
 
@@ -161,8 +188,7 @@ TEST_CASE("no link below the folder is followed to a film") {
 
 TEST_CASE("a component's world is a binary glTF 2.0 file, or is left out with the reason") {
   const Folder f;
-  // magic, version, length: https://registry.khronos.org/glTF/specs/2.0/glTF-2.0.html
-  const std::string whole("glTF\2\0\0\0\x10\0\0\0rest", 16);
+  const std::string whole = glb(kTriangle, std::string(42, '\0'));
   SECTION("whole") {
     f.world(whole);
     const Results results = f.read();
@@ -173,12 +199,34 @@ TEST_CASE("a component's world is a binary glTF 2.0 file, or is left out with th
   }
   SECTION("not whole") {
     const auto [content, reason] = GENERATE_COPY(table<std::string, std::string>(
-        {{whole.substr(0, 15), "it has 15 bytes, but its header says 16"},
-         {whole + "more", "it has 20 bytes, but its header says 16"},
-         {whole.substr(0, 11), "it is no binary glTF 2.0 file"},
+        {{whole.substr(0, whole.size() - 1),
+          fmt::format("it has {} bytes, but its header says {}", whole.size() - 1, whole.size())},
+         {whole.substr(0, 11), "it is cut off"},
          {"", "it is no binary glTF 2.0 file"},
          {std::string("glTF\1\0\0\0\x10\0\0\0rest", 16), "it is no binary glTF 2.0 file"},
-         {"{\"asset\": {\"version\": \"2.0\"}}", "it is no binary glTF 2.0 file"}}));
+         {"{\"asset\": {\"version\": \"2.0\"}}", "it is no binary glTF 2.0 file"},
+         {glb("{\"asset\"", ""), "its JSON is not well-formed, or no object"},
+         {glb("[]", ""), "its JSON is not well-formed, or no object"},
+         {glb(kTriangle, std::string(41, '\0')),
+          "its buffer has 42 bytes, and the file holds 41 of them"},
+         {with("byteLength\":6", "byteLength\":7"), "7 bytes from 36 on are not within its buffer"},
+         {with("byteOffset\":36", "byteOffset\":18446744073709551615"),
+          "6 bytes from 18446744073709551615 on are not within its buffer"},
+         {with("count\":3", "count\":1000000000"),
+          "an accessor has 1000000000 elements, more than its 36 bytes can be"},
+         {with("5123", "5125"), "an accessor has 3 elements, more than its 6 bytes can be"},
+         {with("5123", "1"), "an accessor is of no known type"},
+         {with("POSITION\":0", "POSITION\":2"), "it refers to number 2 of its 2 'accessors'"},
+         {with("POSITION\":0", "POSITION\":-1"), "-1 is no index of 'accessors'"},
+         {with("mesh\":0", "mesh\":1"), "it refers to number 1 of its 1 'meshes'"},
+         {with("mesh\":0", "mesh\":\"a\""), "'mesh' is \"a\", no index or size"},
+         {with("\"buffers\":[{", "\"buffers\":[{\"uri\":\"a.bin\","), "its buffer is another file"},
+         {with("\"nodes\":[{\"", "\"images\":[{\"uri\":\"a.png\"}],\"nodes\":[{\""),
+          "one of its images is another file"},
+         {with("\"children\":[1]", "\"children\":[1,1]"), "node 1 has two parents"},
+         {with("\"children\":[1]", "\"children\":[0]"), "node 0 is a root and has a parent"},
+         {with("\"children\":[1]", "\"children\":[9]"), "it refers to number 9 of its 2 'nodes'"},
+         {with("\"scenes\":[{\"nodes\":[0]}]", "\"scenes\":[]"), "it has no scene"}}));
     f.world(content);
     const Results results = f.read();
     CHECK(results.worlds.empty());
@@ -281,6 +329,18 @@ TEST_CASE("the results of a killed run are shown, and what was cut off is report
   REQUIRE(results.notes.size() == 3);
   CHECK_THAT(results.notes[1], Contains("signals.csv:3: the last line was cut off"));
   CHECK_THAT(results.notes[2], Contains("events.csv:2: the last line was cut off"));
+}
+
+TEST_CASE("files that are empty behind the end of a run are reported") {
+  const Folder f;
+  for (const char* name : {"signals.csv", "events.csv", "activity.csv"}) f.folder.write(name, "");
+  const Results results = f.read();
+  REQUIRE(results.notes.size() == 3);
+  CHECK_THAT(results.notes[0], Equals("signals.csv: the file is empty, without the header that its "
+                                      "run has written"));
+  CHECK_THAT(results.notes[2], StartsWith("activity.csv: the file is empty"));
+  f.folder.write("run.json", R"({"outcome": "running"})");
+  CHECK(f.read().notes.empty());
 }
 
 TEST_CASE("what the scenario has switched off is not missed") {

@@ -13,7 +13,10 @@ export function actionsOf(context, theme, help) {
     showWhole: () => view.showWhole(),
     releaseCursor: () => view.releaseCursor(),
     switchTheme: () => theme.switch(),
-    showHelp: () => help.showModal(),
+    showHelp: () => {
+      help.showModal();
+      help.scrollTop = 0; // the focus is on the button at its end
+    },
   };
 }
 

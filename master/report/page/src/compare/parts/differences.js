@@ -7,6 +7,14 @@ import { timeLink } from "../../parts/verdicts.js";
 export const extremeText = (extreme) =>
   extreme === null ? "" : `${briefText(extreme.value)} at ${numberText(extreme.time)} s`;
 
+const kImportant = new Set(["outcome", "verdict", "check"]);
+
+/** How the runs ended, and what was demanded of them, come before all else. */
+export function mostImportant(differences) {
+  const isImportant = ({ kind }) => kImportant.has(kind);
+  return [...differences.filter(isImportant), ...differences.filter((each) => !isImportant(each))];
+}
+
 function differenceRow(difference, view, show) {
   const { kind, name, time, a, b, count, absolute, relative } = difference;
   const isSignal = kind === "signal";
@@ -32,6 +40,7 @@ function differenceRow(difference, view, show) {
 /** @param {(difference: object) => void} show the curves of a signal */
 export function differenceTable({ differences, not_compared: others }, view, show) {
   if (differences.length === 0) return h("p.note", {}, `Not compared: ${others}`);
+  const rows = mostImportant(differences).map((difference) => differenceRow(difference, view, show));
   const heads = ["first at", "what", "", "A", "B", "places", "greatest", "relative to B"].map((text) =>
     h("th", { scope: "col" }, text),
   );
@@ -46,7 +55,7 @@ export function differenceTable({ differences, not_compared: others }, view, sho
         "table.differences",
         {},
         h("thead", {}, h("tr", {}, ...heads)),
-        h("tbody", {}, ...differences.map((difference) => differenceRow(difference, view, show))),
+        h("tbody", {}, ...rows),
       ),
     ),
     h("p.note", {}, `Not compared: ${others}`),

@@ -27,13 +27,17 @@ export function settingsText({ time, signals, only, ignored, golden, ...all }) {
   return parts.join("; ");
 }
 
+/** A message that is both sent and received counts twice. */
+const comparedText = (compared) =>
+  `${["signal", "row", "message"].map((what) => countText(compared[`${what}s`], what)).join(", ")} sent or received`;
+
 /** One line for each. */
 function origin({ comparison, version }) {
   const { a, b, compared, settings } = comparison;
   const lines = [
     ["A", a],
     ["B", b],
-    ["compared", ["signal", "row", "message"].map((what) => countText(compared[`${what}s`], what)).join(", ")],
+    ["compared", comparedText(compared)],
     ["equal within", settingsText(settings)],
     ["version", `stride ${version}`],
   ];

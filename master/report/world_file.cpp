@@ -1,0 +1,292 @@
+#include "master/report/world_file.h"
+
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <stdexcept>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "master/report/results.h"
+
+namespace stride::report {
+namespace {
+
+using nlohmann::json;
+
+struct Mistake : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+template <class... Values>
+[[noreturn]] void fail(fmt::format_string<Values...> format, Values&&... values) {
+  throw Mistake(fmt::format(format, std::forward<Values>(values)...));
+}
+
+/// https://registry.khronos.org/glTF/specs/2.0/glTF-2.0.html#binary-gltf-layout
+struct Chunks {
+  std::string text;          ///< JSON
+  std::uint64_t binary = 0;  ///< how many bytes follow that
+};
+
+class Reader {
+ public:
+  explicit Reader(std::FILE* file) : file_(file) {}
+
+  std::string bytes(std::size_t count) {
+    std::string read(count, '\0');
+    read.resize(std::fread(read.data(), 1, count, file_));
+    return read;
+  }
+
+  /// Little-endian.
+  std::uint32_t number() {
+    const std::string read = bytes(4);
+    if (read.size() < 4) fail("it is cut off");
+    std::uint32_t value = 0;
+    for (std::size_t i = 4; i-- > 0;) value = value << 8 | static_cast<unsigned char>(read[i]);
+    return value;
+  }
+
+ private:
+  std::FILE* file_;
+};
+
+Chunks read_chunks(std::FILE* file, std::uintmax_t size) {
+  constexpr std::string_view kBegin("glTF\2\0\0\0", 8);
+  constexpr std::uint64_t kHeader = 12;
+  constexpr std::uint64_t kChunkHeader = 8;
+  constexpr std::uint32_t kJson = 0x4E4F534A;
+  constexpr std::uint32_t kBinary = 0x004E4942;
+  if (size > kLargestWorld) fail("it is larger than {} MiB", kLargestWorld >> 20);
+  Reader reader(file);
+  if (reader.bytes(kBegin.size()) != kBegin) fail("it is no binary glTF 2.0 file");
+  if (const std::uint32_t length = reader.number(); length != size) {
+    fail("it has {} bytes, but its header says {}", size, length);
+  }
+  const std::uint64_t text = reader.number();
+  const std::uint64_t behind = kHeader + kChunkHeader + text;
+  if (reader.number() != kJson || behind > size) fail("it does not begin with JSON");
+  Chunks chunks;
+  chunks.text = reader.bytes(text);
+  if (chunks.text.size() != text) fail("it is cut off");
+  if (behind + kChunkHeader > size) return chunks;
+  chunks.binary = reader.number();
+  if (reader.number() != kBinary || behind + kChunkHeader + chunks.binary > size) {
+    fail("what follows its JSON is not as long as it says, or no binary data");
+  }
+  return chunks;
+}
+
+/// What the JSON refers to is there.
+class Content {
+ public:
+  explicit Content(const Chunks& chunks)
+      : root_(json::parse(chunks.text, nullptr, false)), binary_(chunks.binary) {
+    if (!root_.is_object()) fail("its JSON is not well-formed, or no object");
+  }
+
+  void check() const {
+    check_buffers();
+    check_views();
+    check_accessors();
+    check_images();
+    check_meshes();
+    check_animations();
+    check_nodes();
+  }
+
+ private:
+  /// A list of objects of the root, or of another object.
+  static const json& list(const json& object, const char* name) {
+    static const json none = json::array();
+    const auto found = object.find(name);
+    if (found == object.end()) return none;
+    if (!found->is_array()) fail("'{}' is no list", name);
+    return *found;
+  }
+  const json& list(const char* name) const {
+    const json& all = list(root_, name);
+    for (const json& each : all) {
+      if (!each.is_object()) fail("an entry of '{}' is no object", name);
+    }
+    return all;
+  }
+
+  static std::optional<std::uint64_t> number(const json& object, const char* name) {
+    const auto found = object.find(name);
+    if (found == object.end()) return std::nullopt;
+    if (!found->is_number_unsigned()) fail("'{}' is {}, no index or size", name, found->dump());
+    return found->get<std::uint64_t>();
+  }
+
+  void require_index(std::optional<std::uint64_t> index, const char* among) const {
+    if (index && *index >= list(root_, among).size()) {
+      fail("it refers to number {} of its {} '{}'", *index, list(root_, among).size(), among);
+    }
+  }
+  void require_index(const json& object, const char* name, const char* among) const {
+    require_index(number(object, name), among);
+  }
+  void require_indices(const json& indices, const char* among) const {
+    for (const json& index : indices) {
+      if (!index.is_number_unsigned()) fail("{} is no index of '{}'", index.dump(), among);
+      require_index(index.get<std::uint64_t>(), among);
+    }
+  }
+  /// Of an object whose members are indices, such as the attributes of a primitive.
+  void require_members(const json& object, const char* name, const char* among) const {
+    const auto found = object.find(name);
+    if (found == object.end()) return;
+    if (!found->is_object()) fail("'{}' is no object", name);
+    require_indices(*found, among);
+  }
+
+  /// Whether so many bytes from there on are within a length.
+  static bool is_within(std::uint64_t offset, std::uint64_t count, std::uint64_t length) {
+    return offset <= length && count <= length - offset;
+  }
+
+  void check_buffers() const {
+    const json& buffers = list("buffers");
+    if (buffers.size() > 1) fail("it has {} buffers, and can hold one", buffers.size());
+    for (const json& buffer : buffers) {
+      if (buffer.contains("uri")) fail("its buffer is another file");
+      if (number(buffer, "byteLength").value_or(0) > binary_) {
+        fail("its buffer has {} bytes, and the file holds {} of them",
+             *number(buffer, "byteLength"), binary_);
+      }
+    }
+  }
+
+  void check_views() const {
+    for (const json& view : list("bufferViews")) {
+      require_index(view, "buffer", "buffers");
+      const auto offset = number(view, "byteOffset").value_or(0);
+      const auto length = number(view, "byteLength").value_or(0);
+      if (!is_within(offset, length, binary_)) {
+        fail("{} bytes from {} on are not within its buffer", length, offset);
+      }
+    }
+  }
+
+  /// Of one element, tightly packed; nothing for what is unknown.
+  static std::uint64_t bytes_of(const json& accessor) {
+    static const std::map<std::string, std::uint64_t> components = {
+        {"SCALAR", 1}, {"VEC2", 2}, {"VEC3", 3}, {"VEC4", 4},
+        {"MAT2", 4},   {"MAT3", 9}, {"MAT4", 16}};
+    static const std::map<std::uint64_t, std::uint64_t> sizes = {{5120, 1}, {5121, 1}, {5122, 2},
+                                                                 {5123, 2}, {5125, 4}, {5126, 4}};
+    const auto type = accessor.find("type");
+    const auto component = sizes.find(number(accessor, "componentType").value_or(0));
+    if (type == accessor.end() || !type->is_string() || component == sizes.end() ||
+        components.count(type->get<std::string>()) == 0) {
+      fail("an accessor is of no known type");
+    }
+    return components.at(type->get<std::string>()) * component->second;
+  }
+
+  void check_accessors() const {
+    for (const json& accessor : list("accessors")) {
+      require_index(accessor, "bufferView", "bufferViews");
+      const auto view = number(accessor, "bufferView");
+      const auto count = number(accessor, "count").value_or(0);
+      if (!view || count == 0) continue;
+      const json& holder = list("bufferViews")[*view];
+      const std::uint64_t length = number(holder, "byteLength").value_or(0);
+      const std::uint64_t size = bytes_of(accessor);
+      const std::uint64_t stride = number(holder, "byteStride").value_or(size);
+      const auto offset = number(accessor, "byteOffset").value_or(0);
+      if (!is_within(offset, size, length) ||
+          (count > 1 && (stride == 0 || count - 1 > (length - offset - size) / stride))) {
+        fail("an accessor has {} elements, more than its {} bytes can be", count, length);
+      }
+    }
+  }
+
+  void check_images() const {
+    for (const json& image : list("images")) {
+      if (image.contains("uri")) fail("one of its images is another file");
+      require_index(image, "bufferView", "bufferViews");
+    }
+    for (const json& texture : list("textures")) {
+      require_index(texture, "source", "images");
+      require_index(texture, "sampler", "samplers");
+    }
+  }
+
+  void check_meshes() const {
+    for (const json& mesh : list("meshes")) {
+      for (const json& primitive : list(mesh, "primitives")) {
+        require_members(primitive, "attributes", "accessors");
+        require_index(primitive, "indices", "accessors");
+        require_index(primitive, "material", "materials");
+      }
+    }
+  }
+
+  void check_animations() const {
+    for (const json& animation : list("animations")) {
+      const std::size_t samplers = list(animation, "samplers").size();
+      for (const json& sampler : list(animation, "samplers")) {
+        require_index(sampler, "input", "accessors");
+        require_index(sampler, "output", "accessors");
+      }
+      for (const json& channel : list(animation, "channels")) {
+        if (number(channel, "sampler").value_or(0) >= samplers) fail("a channel has no sampler");
+        const auto target = channel.find("target");
+        if (target != channel.end()) require_index(*target, "node", "nodes");
+      }
+    }
+  }
+
+  /// Each has one parent at most, and roots none: so what is below a root is a tree.
+  void check_nodes() const {
+    const json& nodes = list("nodes");
+    std::vector<bool> has_parent(nodes.size(), false);
+    for (const json& node : nodes) {
+      require_index(node, "mesh", "meshes");
+      require_index(node, "camera", "cameras");
+      require_index(node, "skin", "skins");
+      const json& children = list(node, "children");
+      require_indices(children, "nodes");
+      for (const json& child : children) {
+        const auto index = child.get<std::size_t>();
+        if (has_parent[index]) fail("node {} has two parents", index);
+        has_parent[index] = true;
+      }
+    }
+    const json& scenes = list("scenes");
+    if (scenes.empty()) fail("it has no scene");
+    require_index(root_, "scene", "scenes");
+    for (const json& scene : scenes) {
+      const json& roots = list(scene, "nodes");
+      require_indices(roots, "nodes");
+      for (const json& root : roots) {
+        if (has_parent[root.get<std::size_t>()]) {
+          fail("node {} is a root and has a parent", root.get<std::size_t>());
+        }
+      }
+    }
+  }
+
+  json root_;
+  std::uint64_t binary_;
+};
+
+}  // namespace
+
+std::string mistake_in_world(std::FILE* file, std::uintmax_t size) {
+  try {
+    Content(read_chunks(file, size)).check();
+    return "";
+  } catch (const Mistake& mistake) {
+    return mistake.what();
+  }
+}
+
+}  // namespace stride::report
