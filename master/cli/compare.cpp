@@ -1,6 +1,7 @@
 // stride compare: two results side by side.
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,7 +31,7 @@ namespace {
 struct CompareArguments {
   std::filesystem::path a, b;
   std::string absolute = "0", relative = "0";
-  std::string time_tolerance;  ///< empty: none
+  std::optional<std::string> time_tolerance;  ///< empty: none
   std::vector<std::string> tolerances;
   std::vector<std::string> only, ignored;
   std::filesystem::path json;  ///< empty: none
@@ -44,9 +45,9 @@ compare::Settings settings_of(const CompareArguments& arguments) {
   settings.tolerance = {
       settings::parse_option("--absolute", arguments.absolute, core::parse_at_least_zero),
       settings::parse_option("--relative", arguments.relative, core::parse_at_least_zero)};
-  if (!arguments.time_tolerance.empty()) {
+  if (arguments.time_tolerance) {
     settings.time_tolerance =
-        settings::parse_option("--time-tolerance", arguments.time_tolerance, core::parse_seconds)
+        settings::parse_option("--time-tolerance", *arguments.time_tolerance, core::parse_seconds)
             .count();
   }
   for (const std::string& text : arguments.tolerances) {

@@ -28,7 +28,7 @@ std::string plural(std::size_t count, const char* what) {
 
 std::string verdict(const compare::Comparison& comparison) {
   if (comparison.differences.empty()) {
-    return fmt::format("equal: {} in {}, {}", plural(comparison.signals, "signal"),
+    return fmt::format("equal: {} in {}, {} sent or received", plural(comparison.signals, "signal"),
                        plural(comparison.rows, "row"), plural(comparison.messages, "message"));
   }
   const compare::Difference& first = comparison.differences.front();

@@ -4,7 +4,9 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <set>
 #include <stdexcept>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -94,9 +96,10 @@ void Tolerances::require_use(std::span<const std::string> signals,
       is_used = is_about(rule.pattern, signals[i], units[i]);
     }
     if (is_used) continue;
-    core::fail_input({.where = rule.where},
-                     fmt::format("'{}' is no signal of either run", rule.pattern),
-                     core::suggestion(rule.pattern, signals));
+    const std::set<std::string> known(signals.begin(), signals.end());  // both runs may have it
+    core::fail_input(
+        {.where = rule.where}, fmt::format("'{}' is no signal of either run", rule.pattern),
+        core::suggestion(rule.pattern, std::vector<std::string>(known.begin(), known.end())));
   }
 }
 

@@ -41,7 +41,7 @@ TEST_CASE("two runs of one scenario are equal, and the answer is code 0") {
   const Outcome outcome = TwoRuns().compare();
   CHECK(outcome.exit_code == 0);
   CHECK(outcome.err == "");
-  CHECK_THAT(outcome.out, StartsWith("equal: 2 signals in 1001 rows, 0 messages\n"
+  CHECK_THAT(outcome.out, StartsWith("equal: 2 signals in 1001 rows, 0 messages sent or received\n"
                                      "They were made from the same inputs.\nNot compared: dates"));
 }
 
