@@ -23,10 +23,12 @@ def rows(file: Path, header: list[str]) -> Iterator[tuple[int, list[str]]]:
     """The number of the line, and the fields, of each row below the header.
 
     A last line that was cut off, as a run that was killed leaves it, is left out with a warning; that may be the
-    header. Raises InputError where the header or the number of fields is another one.
+    header, or all that there was. Raises InputError where the header or the number of fields is another one.
     """
     found = _whole_lines(file)
     _, first = next(found, (0, header))
+    if file.stat().st_size == 0:
+        _log.warning("%s is empty: its run was ended before it was written, or it is damaged", file)
     if first != header:
         text = f"its columns are {', '.join(first)}; expected {', '.join(header)}"
         raise InputError(f"{file}:1: {text}", file=str(file), line=1)

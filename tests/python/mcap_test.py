@@ -325,6 +325,16 @@ def test_a_run_that_was_killed(folder, caplog):
     assert export(stride.Run("out")).messages["/signals/first"] == []
 
 
+def test_files_that_are_empty(folder, caplog):
+    stride.run("test.ssd", set={"first.u": 1}, out="out")
+    for name in ("signals.csv", "events.csv"):
+        pathlib.Path("out", name).write_text("")
+    content = export(stride.Run("out"))
+    assert content.messages["/signals/first"] == []
+    for name in ("signals.csv", "events.csv"):
+        assert f"{name} is empty" in caplog.text
+
+
 def test_pictures(folder):
     run = stride.run("test.ssd", out="out", set={"first.u": 1})
     film = run.folder / "units" / "a%2Fb" / "film"

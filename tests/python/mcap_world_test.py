@@ -276,6 +276,8 @@ def damaged(change):
         damaged(lambda document: document["animations"][0]["samplers"][1].update(interpolation="CUBICSPLINE")),
         damaged(lambda document: document["asset"]["extras"]["stride"].update(startTime="soon")),
         damaged(lambda document: document.pop("meshes")),
+        damaged(lambda document: document.pop("nodes")),
+        damaged(lambda document: document["accessors"][0].update(count=10**9)),
         damaged(lambda document: document.update(scenes=[{"nodes": [0, 1]}])),
     ],
 )

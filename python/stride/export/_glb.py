@@ -13,7 +13,8 @@ import numpy as np
 _MAGIC = 0x46546C67
 _JSON = 0x4E4F534A
 _BINARY = 0x004E4942
-_COMPONENTS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4}
+_COMPONENTS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT2": 4, "MAT3": 9, "MAT4": 16}
+_SIZES = {5120: 1, 5121: 1, 5122: 2, 5123: 2, 5125: 4, 5126: 4}
 _FLOAT = 5126
 
 # z-up, as in MuJoCo, to y-up, as in glTF
@@ -45,6 +46,17 @@ class Glb:
         if not isinstance(self.document, dict):
             raise ValueError("its JSON is no object")
         self.binary = chunks.get(_BINARY, memoryview(b""))
+        for index, accessor in enumerate(self.document.get("accessors", [])):
+            self._require_elements(index, accessor)
+
+    def _require_elements(self, index: int, accessor: dict[str, Any]) -> None:
+        if "bufferView" not in accessor or accessor["count"] == 0:
+            return
+        size = _COMPONENTS[accessor["type"]] * _SIZES[accessor["componentType"]]
+        stride = self.document["bufferViews"][accessor["bufferView"]].get("byteStride", size)
+        end = accessor.get("byteOffset", 0) + (accessor["count"] - 1) * stride + size
+        if end > len(self.view(accessor["bufferView"])):
+            raise ValueError(f"accessor {index} has more elements, {accessor['count']}, than its buffer view has room for")
 
     def view(self, index: int) -> memoryview:
         """The bytes of a buffer view."""

@@ -32,7 +32,8 @@ def world_events(folder: Path, output: Output) -> list[Iterator[Event]]:
             models = {frame.name: world.glb.part(frame.geoms) for frame in world.with_geoms}
             parts = {geom: world.glb.part([geom], with_scale=False) for geom in world.geoms_of_lamps}
         except DAMAGES as error:
-            _logger.warning("%s is damaged, and left out: %s", file, error)
+            reason = f"{error} is missing, or of no known kind" if isinstance(error, KeyError) else error
+            _logger.warning("%s is damaged, and left out: %s", file, reason)
             continue
         scene = _Scene(component, output)
         found.append(scene.show(world.start, models))
