@@ -4,6 +4,7 @@
 #include <exception>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -59,7 +60,10 @@ std::vector<results::OutputPath> output_paths(const RunArguments& arguments) {
 std::vector<results::KeptPath> further_inputs(const RunArguments& arguments) {
   std::vector<results::KeptPath> inputs;
   if (arguments.branches.request) {
-    inputs.push_back({arguments.branches.request->file, "the file of the branches"});
+    inputs.push_back({arguments.branches.request->file, recorders::kBranchesFile});
+  }
+  for (const std::filesystem::path& file : arguments.scenario.parameter_files) {
+    inputs.push_back({file, results::kParameters});
   }
   if (arguments.resumed) inputs.push_back({arguments.resumed->file, "the checkpoint"});
   return inputs;
@@ -244,11 +248,26 @@ void require_later_interventions(const core::RunOptions& options,
                    "let it begin later, or resume the run from an earlier checkpoint");
 }
 
+/// Those with the branches of the run, and with the one that it is itself.
+std::set<std::filesystem::path> branch_files(const RunArguments& arguments) {
+  std::set<std::filesystem::path> files;
+  if (arguments.branches.request) files.insert(arguments.branches.request->file);
+  for (const scenario::BranchReference& branch : arguments.scenario.branches) {
+    files.insert(branch.file);
+  }
+  return files;
+}
+
 /// A run that goes on has to agree with its checkpoint in that.
 recorders::Provenance provenance(const RunArguments& arguments,
                                  const scenario::LoadedScenario& loaded) {
   core::FileDigests digests;
   recorders::Provenance made = results::provenance_of(loaded, command_line(), digests);
+  for (const std::filesystem::path& file : branch_files(arguments)) {
+    if (core::is_file(file)) {  // a pipe has been read
+      made.sources.push_back(recorders::make_source(recorders::kBranchesFile, file, digests));
+    }
+  }
   if (!arguments.resumed) return made;
   const recorders::Provenance& before = arguments.resumed->from.provenance;
   results::require_same(before, made, arguments.resumed->file);

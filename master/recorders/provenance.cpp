@@ -1,6 +1,8 @@
 #include "master/recorders/provenance.h"
 
-#include <algorithm>
+#include <cstddef>
+#include <map>
+#include <tuple>
 #include <utility>
 
 #include <fmt/format.h>
@@ -13,11 +15,19 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const Source* find(const Provenance& provenance, const std::string& what, const fs::path& name) {
-  const auto found = std::ranges::find_if(provenance.sources, [&](const Source& source) {
-    return source.what == what && source.path.filename() == name;
-  });
-  return found == provenance.sources.end() ? nullptr : &*found;
+/// Files may have been moved, but folders of one run have files of the same name in the same order.
+using SourceKey = std::tuple<std::string, fs::path, std::size_t>;
+using SourcesByKey = std::map<SourceKey, const Source*>;
+
+SourcesByKey by_key(const Provenance& provenance) {
+  SourcesByKey sources;
+  for (const Source& source : provenance.sources) {
+    if (source.what == kBranchesFile) continue;
+    SourceKey key{source.what, source.path.filename(), 0};
+    while (sources.contains(key)) ++std::get<std::size_t>(key);
+    sources.emplace(std::move(key), &source);
+  }
+  return sources;
 }
 
 }  // namespace
@@ -37,18 +47,21 @@ std::vector<std::string> differences(const Provenance& before, const Provenance&
   if (before.version != now.version) {
     texts.push_back(fmt::format("it is of stride {}, and this is {}", before.version, now.version));
   }
-  for (const Source& source : before.sources) {
-    const Source* const other = find(now, source.what, source.path.filename());
-    if (other == nullptr) {
+  const SourcesByKey earlier = by_key(before);
+  const SourcesByKey later = by_key(now);
+  for (const auto& [key, source] : earlier) {
+    const auto found = later.find(key);
+    if (found == later.end()) {
       texts.push_back(
-          fmt::format("{}, {}, is not used any more", source.what, source.path.string()));
-    } else if (other->sha256 != source.sha256) {
-      texts.push_back(fmt::format("{}, {}, is not what it was", source.what, other->path.string()));
+          fmt::format("{}, {}, is not used any more", source->what, source->path.string()));
+    } else if (found->second->sha256 != source->sha256) {
+      texts.push_back(
+          fmt::format("{}, {}, is not what it was", source->what, found->second->path.string()));
     }
   }
-  for (const Source& source : now.sources) {
-    if (find(before, source.what, source.path.filename()) != nullptr) continue;
-    texts.push_back(fmt::format("{}, {}, was not used", source.what, source.path.string()));
+  for (const auto& [key, source] : later) {
+    if (earlier.contains(key)) continue;
+    texts.push_back(fmt::format("{}, {}, was not used", source->what, source->path.string()));
   }
   return texts;
 }

@@ -21,6 +21,10 @@ struct Source {
   bool operator==(const Source&) const = default;
 };
 
+/// What a file with branches is, which decides nothing of a run before they begin: the
+/// interventions that come later are compared by themselves.
+inline constexpr const char* kBranchesFile = "the file of the branches";
+
 struct Command {
   std::vector<std::string> words;  ///< behind the program's name
   std::filesystem::path folder;    ///< the working folder, absolute
@@ -45,7 +49,7 @@ struct Provenance {
 /// Throws core::Error (Input) for what cannot be read.
 Source make_source(std::string what, const std::filesystem::path& path, core::FileDigests& digests);
 
-/// For each source that differs, or is missing: in words.
+/// For each source that differs, or is missing, but kBranchesFile: in words.
 std::vector<std::string> differences(const Provenance& before, const Provenance& now);
 
 nlohmann::ordered_json to_json(const Provenance& provenance);

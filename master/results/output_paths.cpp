@@ -121,6 +121,9 @@ std::vector<KeptPath> inputs_of(const scenario::LoadedScenario& loaded) {
   std::set<fs::path> units;
   for (const auto& fmu : loaded.fmus()) units.insert(fmu->path());
   for (const fs::path& unit : units) inputs.push_back({unit, kAUnit});
+  for (const fs::path& file : loaded.changes().parameter_files) {
+    if (core::is_file(file)) inputs.push_back({file, kParameters});  // a pipe has been read
+  }
   return inputs;
 }
 

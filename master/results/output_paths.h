@@ -30,6 +30,9 @@ struct KeptPath {
 /// What the file of the scenario itself is, or its package.
 inline constexpr const char* kTheScenario = "the scenario";
 
+/// What a file is that the command line names for values at the start (--parameters).
+inline constexpr const char* kParameters = "a file of parameters";
+
 /// What a scenario consists of.
 struct ScenarioFiles {
   std::vector<KeptPath> inputs;      ///< its files and units that exist, and its package
@@ -44,7 +47,7 @@ ScenarioFiles files_of_scenario(const std::filesystem::path& scenario,
                                 std::span<const std::string> swaps = {});
 
 /// What a scenario that has been loaded consists of: its files, and its units, of which there may
-/// be others than it names (--swap).
+/// be others than it names (--swap), and the files of parameters that were given with it.
 std::vector<KeptPath> inputs_of(const scenario::LoadedScenario& loaded);
 
 /// Throws core::Error (Input) if a file of the results in this folder is one of these paths, or in

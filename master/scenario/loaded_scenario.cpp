@@ -57,7 +57,8 @@ std::vector<ssp::ParameterValue> set_values(const ScenarioRequest& request) {
 }
 
 ScenarioChanges changes_of(const ScenarioRequest& request) {
-  ScenarioChanges changes{.swaps = request.swaps, .values = {}};
+  ScenarioChanges changes{
+      .swaps = request.swaps, .values = {}, .parameter_files = request.parameter_files};
   for (const ssp::ParameterValue& parameter : request.parameters) {
     changes.values.push_back(parameter.name + "=" + parameter.value);
   }

@@ -37,14 +37,15 @@ using UnitStore = std::map<std::filesystem::path, std::shared_ptr<importer::Fmu>
 /// The settings of the command line for a scenario.
 struct ScenarioRequest {
   std::filesystem::path scenario;
-  std::vector<std::string> swaps;               ///< "component=FILE"
-  std::vector<ssp::ParameterValue> parameters;  ///< start values, which `sets` replace
-  std::vector<std::string> sets;                ///< "component.variable=value"
-  std::vector<std::string> set_at;              ///< "component.variable=value@time"
-  std::vector<std::string> forces;              ///< "component.variable[=value]@from..[until]"
-  std::vector<std::string> drops;               ///< "component.variable@from..[until]"
-  std::vector<std::string> delays;              ///< "component.variable=seconds@from..[until]"
-  std::vector<std::string> corruptions;         ///< "component.variable[=bits]@from..[until]"
+  std::vector<std::string> swaps;                      ///< "component=FILE"
+  std::vector<ssp::ParameterValue> parameters;         ///< start values, which `sets` replace
+  std::vector<std::filesystem::path> parameter_files;  ///< from which these are, if from files
+  std::vector<std::string> sets;                       ///< "component.variable=value"
+  std::vector<std::string> set_at;                     ///< "component.variable=value@time"
+  std::vector<std::string> forces;       ///< "component.variable[=value]@from..[until]"
+  std::vector<std::string> drops;        ///< "component.variable@from..[until]"
+  std::vector<std::string> delays;       ///< "component.variable=seconds@from..[until]"
+  std::vector<std::string> corruptions;  ///< "component.variable[=bits]@from..[until]"
   std::vector<InterventionDeclaration> interventions;  ///< further ones
   std::vector<BranchReference> branches;               ///< whose interventions are added
   std::vector<std::string> signals;                    ///< globs that replace the scenario's
@@ -65,8 +66,9 @@ struct ScenarioRequest {
 
 /// What a request changes in the scenario as it is written.
 struct ScenarioChanges {
-  std::vector<std::string> swaps;   ///< "component=FILE"
-  std::vector<std::string> values;  ///< at the start, "component.variable=value"
+  std::vector<std::string> swaps;                      ///< "component=FILE"
+  std::vector<std::string> values;                     ///< at the start, "component.variable=value"
+  std::vector<std::filesystem::path> parameter_files;  ///< with some of these values
 };
 
 /// The scenario with each component's FMU, and the system built from them. Throws core::Error

@@ -96,6 +96,7 @@ void add_host_options(CLI::App& command, scenario::HostRequest& request) {
 /// A value for what is not there is a mistake, as it is of --set.
 void add_parameters(scenario::ScenarioRequest& request, const std::vector<std::string>& files) {
   for (const std::string& file : files) {
+    request.parameter_files.emplace_back(file);
     std::vector<std::string> warnings;
     for (ssp::ParameterValue& value : ssp::read_parameter_set(file, warnings)) {
       value.is_required = true;

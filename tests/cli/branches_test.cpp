@@ -96,6 +96,20 @@ TEST_CASE("captured stimuli of a branch are in its folder") {
   CHECK(read(workspace / "out/branches/other value/stimuli/b.csv") != nominal);
 }
 
+TEST_CASE("the file of the branches is among what a run, and each branch, was made from") {
+  const Arguments hosted = GENERATE(Arguments{}, Arguments{"--isolate"});
+  const BranchingWorkspace workspace(kThree);
+  Arguments words{"--quiet", "--set", "a.u=1", "--branch", "0.5:futures.xml"};
+  words.insert(words.end(), hosted.begin(), hosted.end());
+  REQUIRE(workspace.run(words).exit_code == 0);
+  for (const char* const file : {"out/run.json", "out/branches/same/run.json"}) {
+    const auto run = nlohmann::json::parse(read(workspace / file));
+    const auto& sources = run["provenance"]["sources"];
+    CHECK(std::ranges::count(sources, "the file of the branches",
+                             [](const auto& source) { return source["what"]; }) == 1);
+  }
+}
+
 TEST_CASE("a branch that fails is an error with its name, and the others are complete") {
   const BranchingWorkspace workspace(
       Parts{component("a", "minimal.fmu"), "",

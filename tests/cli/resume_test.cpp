@@ -311,6 +311,39 @@ TEST_CASE("what has changed since the checkpoint is named") {
   CHECK(cut.result("signals.csv") == results);
 }
 
+TEST_CASE("files of parameters are among what a run was made from") {
+  const Workspace cut(plain_parts());
+  const auto write_gain = [&](const std::string& file, const std::string& value) {
+    cut.scratch().write(
+        file,
+        "<ssv:ParameterSet xmlns:ssv='http://ssp-standard.org/SSP1/SystemStructureParameterValues' "
+        "version='1.0' name='p'><ssv:Parameters><ssv:Parameter name='a.u'><ssv:Real value='" +
+            value + "'/></ssv:Parameter></ssv:Parameters></ssv:ParameterSet>");
+  };
+  fs::create_directory(cut / "other");
+  write_gain("p.ssv", "1");
+  write_gain("other/p.ssv", "2");
+  REQUIRE(cut.run({"--quiet", "--checkpoint", "0.5", "--parameters", "p.ssv", "--parameters",
+                   "other/p.ssv"})
+              .exit_code == 0);
+  const auto run = nlohmann::json::parse(cut.result("run.json"));
+  std::vector<std::string> found;
+  for (const auto& source : run["provenance"]["sources"]) {
+    if (source["what"] == "a file of parameters") found.push_back(source["path"]);
+  }
+  const fs::path folder = fs::canonical(cut / "test.ssd").parent_path();
+  CHECK(found == std::vector<std::string>{folder / "p.ssv", folder / "other/p.ssv"});
+  CHECK(cut.stride({"resume", "out", "--quiet"}).exit_code == 0);
+  write_gain("other/p.ssv", "3");
+  CHECK_THAT(input_error_of(cut.stride({"resume", "out"})),
+             Contains("a file of parameters, ") && Contains("other/p.ssv, is not what it was"));
+  for (const Arguments& output : {Arguments{"--junit", "p.ssv"}, {"--capture", "a=p.ssv"}}) {
+    Arguments words{"--parameters", "p.ssv"};
+    words.insert(words.end(), output.begin(), output.end());
+    CHECK_THAT(input_error_of(cut.run(words)), Contains("p.ssv: this is a file of parameters"));
+  }
+}
+
 TEST_CASE("a folder without checkpoints, a file that is none and missing results are errors") {
   const Workspace cut(plain_parts());
   REQUIRE(cut.run({"--quiet"}).exit_code == 0);

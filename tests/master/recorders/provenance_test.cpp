@@ -54,6 +54,21 @@ TEST_CASE("what results were made from is told apart by its content") {
   CHECK_THROWS_AS(of(TemporaryFolder()), stride::core::Error);
 }
 
+TEST_CASE("files of the same name are told apart by their order, and branches are left out") {
+  const Provenance before{
+      .version = "1", .sources = {{"a unit", "/one/a.fmu", "00"}, {"a unit", "/two/a.fmu", "11"}}};
+  Provenance now = before;
+  now.sources[0].path = "/moved/one/a.fmu";
+  now.sources.push_back({kBranchesFile, "/branches.xml", "22"});
+  CHECK(differences(before, now).empty());
+  CHECK(differences(now, before).empty());
+  now.sources[1].sha256 = "12";
+  CHECK(differences(before, now) ==
+        std::vector<std::string>{"a unit, /two/a.fmu, is not what it was"});
+  now.sources.erase(now.sources.begin());
+  CHECK(differences(before, now).size() == 2);
+}
+
 TEST_CASE("provenance is read back from its JSON") {
   const Provenance made{"1",
                         "2026-01-01T00:00:00Z",
