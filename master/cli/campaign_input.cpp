@@ -42,12 +42,12 @@ std::set<std::string> value_files(const campaign::Campaign& campaign) {
 
 fs::path campaign_file(const CampaignArguments& arguments) {
   if (!core::is_folder(arguments.file)) return arguments.file;
-  if (!arguments.out.empty()) {
-    core::fail_input({.where = {arguments.file.string(), 0}},
-                     "this is the folder of a campaign, so --out cannot name another one",
-                     "name the file of the campaign, or leave --out out");
-  }
-  return campaign::campaign_of(arguments.file);
+  const fs::path file = campaign::campaign_of(arguments.file);
+  if (arguments.out.empty()) return file;
+  core::fail_input(
+      {.where = {arguments.file.string(), 0}},
+      "this is the folder of a campaign, so --out cannot name another one",
+      fmt::format("name the file of the campaign, {}, or give no --out", file.string()));
 }
 
 fs::path campaign_folder(const CampaignArguments& arguments) {

@@ -40,6 +40,15 @@ std::size_t edit_distance(std::string_view a, std::string_view b, std::size_t li
   return row.back();
 }
 
+/// What the edit distance of a name has to be below. Parts that are the same, such as the component
+/// in "sensor.led", do not make the others more alike.
+std::size_t limit_of(const std::string& word, const std::string& candidate) {
+  const auto differs = std::ranges::mismatch(word, candidate).in1;
+  const std::string same(word.begin(), differs);
+  const std::size_t size = word.size() - (same.rfind('.') + 1);  // npos + 1 is 0
+  return std::max<std::size_t>(2, size / 3) + 1;
+}
+
 }  // namespace
 
 std::string nearest(const std::string& word, std::span<const std::string> candidates) {
@@ -48,10 +57,11 @@ std::string nearest(const std::string& word, std::span<const std::string> candid
     if (candidate.size() == word.size() && lower_case(candidate) == lower) return candidate;
   }
   std::string best;
-  std::size_t best_distance = std::max<std::size_t>(2, word.size() / 3) + 1;
+  std::size_t best_distance = std::string::npos;
   for (const std::string& candidate : candidates) {
-    const std::size_t distance = edit_distance(word, candidate, best_distance);
-    if (distance < best_distance) {
+    const std::size_t limit = std::min(best_distance, limit_of(word, candidate));
+    const std::size_t distance = edit_distance(word, candidate, limit);
+    if (distance < limit) {
       best = candidate;
       best_distance = distance;
     }

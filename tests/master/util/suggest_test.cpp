@@ -24,6 +24,14 @@ TEST_CASE("the nearest of several near names is suggested, and the first of the 
   CHECK(nearest("speed_min", names) == "speed_min");
 }
 
+TEST_CASE("what names have in common before a dot does not make the rest alike") {
+  const std::vector<std::string> names{"types.time", "types.colour", "types.colour.echo"};
+  CHECK(nearest("types.nope", names).empty());
+  CHECK(nearest("types.color", names) == "types.colour");
+  CHECK(nearest("types.colour.ecko", names) == "types.colour.echo");
+  CHECK(nearest("tipes.time", names) == "types.time");
+}
+
 TEST_CASE("a long list is shortened") {
   const std::vector<std::string> names(20, "abcdefgh");
   CHECK(suggestion("zzzzzzzzzzzzzzzzzzz", names).find("…") != std::string::npos);
