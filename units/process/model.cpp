@@ -138,6 +138,8 @@ Sync Session::step(Time to, bool may_stop) {
 void Session::finish() {
   TagWriter(lines_.commands(), "end").end();
   lines_.finish();
+  while (const auto line = lines_.next_last_line()) take_last(*line);
+  lines_.require_success();
 }
 
 // ---- Answers ----
@@ -162,6 +164,18 @@ Sync Session::read_answer(Time to, bool may_stop) {
   }
 }
 
+/// What a program that is about to end may say; nobody waits for anything else.
+void Session::take_last(std::string_view line) {
+  try {
+    tag_.parse(line);
+    if (tag_.name() == "log") take_log();
+    if (tag_.name() == "error") fail_by_itself();
+  } catch (const std::invalid_argument&) {
+  }
+}
+
+void Session::fail_by_itself() const { lines_.fail("fails: " + std::string(tag_.text("text"))); }
+
 void Session::read_tag(std::string_view name) {
   if (name == "log") return take_log();
   if (name == "time-unit") {
@@ -170,7 +184,7 @@ void Session::read_tag(std::string_view name) {
     unit_ = Duration(picoseconds);
     return;
   }
-  if (name == "error") lines_.fail("fails: " + std::string(tag_.text("text")));
+  if (name == "error") fail_by_itself();
   throw std::invalid_argument("<" + std::string(name) +
                               "> is not known: expected <output>, <message>, <log>, <time-unit>, "
                               "<error> or <sync>");

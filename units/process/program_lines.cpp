@@ -170,14 +170,19 @@ void ProgramLines::make_room() {
 }
 
 void ProgramLines::read_output() {
+  if (read_some() == 0) fail_at_end();
+}
+
+/// Returns what read() does.
+ssize_t ProgramLines::read_some() {
   make_room();
   const ssize_t size =
       ::read(child_->output().number(), buffer_.data() + end_, buffer_.size() - end_);
-  if (size == 0) fail_at_end();
-  if (size < 0) return;
+  if (size <= 0) return size;
   heard_ = Clock::now();
   end_ += static_cast<std::size_t>(size);
   count(static_cast<std::size_t>(size));
+  return size;
 }
 
 void ProgramLines::count(std::size_t bytes) {
@@ -221,6 +226,7 @@ void ProgramLines::note_error(std::string line) {
 
 void ProgramLines::finish() {
   awaited_ = "end";
+  answered_ = 0;
   heard_ = Clock::now();
   if (!write_some()) {
     fail("does not read that it is to end");
@@ -232,9 +238,20 @@ void ProgramLines::finish() {
          std::to_string(limits_.silence.count()) +
          " ms; it should end after <end/>, or where its standard input ends");
   }
-  if (!child_->has_succeeded()) {
-    fail(child_->ending() + " at the end of the run; expected the exit code 0");
+}
+
+std::optional<std::string_view> ProgramLines::next_last_line() {
+  while (take_line(line_)) {
+    ++line_number_;
+    line_ = without_blanks(line_);
+    if (!line_.empty()) return line_;
   }
+  return std::nullopt;
+}
+
+void ProgramLines::require_success() const {
+  if (child_->has_succeeded()) return;
+  fail(child_->ending() + " at the end of the run; expected the exit code 0");
 }
 
 /// Returns whether the program has ended by itself within the limit; else it is killed.
@@ -244,13 +261,19 @@ bool ProgramLines::wait_for_end(std::chrono::milliseconds limit) {
   bool has_ended = child_->wait({});
   while (!has_ended && Clock::now() < end) {
     has_ended = child_->wait(kSlice);
-    while (read_error()) {  // so that the program is not blocked by a full pipe
-    }
+    read_rest();  // so that the program is not blocked by a full pipe
   }
   child_->kill();
+  read_rest();
+  return has_ended;
+}
+
+/// All that is there, of both outputs.
+void ProgramLines::read_rest() {
   while (read_error()) {
   }
-  return has_ended;
+  while (read_some() > 0) {
+  }
 }
 
 void ProgramLines::fail_at_end() {

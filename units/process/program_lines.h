@@ -8,9 +8,12 @@
 #include <deque>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include <sys/types.h>
 
 #include "units/process/child.h"
 
@@ -47,8 +50,13 @@ class ProgramLines {
   [[noreturn]] void fail(const std::string& message) const;
 
   /// Closes the program's standard input, and waits for its end. Throws if it does not end
-  /// within the limit of its silence, or with another exit code than 0.
+  /// within the limit of its silence.
   void finish();
+  /// Behind finish(): the next of the lines that the program has written on its way to the end;
+  /// none where there is no more. Stays until the next call.
+  std::optional<std::string_view> next_last_line();
+  /// Behind finish(): throws if the program has ended with another exit code than 0.
+  void require_success() const;
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -58,6 +66,8 @@ class ProgramLines {
   bool take_line(std::string_view& line);
   void make_room();
   void read_output();
+  ssize_t read_some();
+  void read_rest();
   bool read_error();
   bool wait_for_end(std::chrono::milliseconds limit);
   void hear(std::string_view text);

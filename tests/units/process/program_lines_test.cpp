@@ -126,14 +126,30 @@ TEST_CASE("what is not text is quoted as far as it is") {
   CHECK(heard.lines == std::vector<std::string>{"a\uFFFD\uFFFD[1mb"});
 }
 
+TEST_CASE("a program may write until it ends, more than a pipe holds") {
+  ProgramLines program(shell("cat > /dev/null; yes line | head -n 100000; echo last"), {}, {});
+  program.commands() = "<end/>\n";
+  program.finish();
+  std::size_t count = 0;
+  std::string last;
+  while (const auto line = program.next_last_line()) {
+    ++count;
+    last = *line;
+  }
+  CHECK(count == 100001);
+  CHECK(last == "last");
+}
+
 TEST_CASE("the end is waited for, and has to be a good one") {
   ProgramLines good(shell("cat > /dev/null; echo late >&2; sleep 0.05"), {}, {});
   good.commands() = "<end/>\n";
   CHECK_NOTHROW(good.finish());
+  CHECK_NOTHROW(good.require_success());
   ProgramLines bad(shell("cat > /dev/null; echo sorry >&2; exit 2"), {}, {});
-  CHECK_THROWS_WITH(bad.finish(), Contains("ended with the exit code 2 at the end of the run; "
-                                           "expected the exit code 0") &&
-                                      Contains("sorry"));
+  bad.finish();
+  CHECK_THROWS_WITH(bad.require_success(), Contains("ended with the exit code 2 at the end of the "
+                                                    "run; expected the exit code 0") &&
+                                               Contains("sorry"));
   ProgramLines stubborn(shell("exec sleep 1000"), {50ms, 1000}, {});
   CHECK_THROWS_WITH(stubborn.finish(),
                     Contains("received the end command, and has not ended within 50 ms"));

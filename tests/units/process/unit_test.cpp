@@ -238,6 +238,19 @@ TEST_CASE("an end that is not a good one is an error") {
   CHECK_THAT(scripted.unit.last_message(), Contains("the exit code 5 at the end of the run"));
 }
 
+TEST_CASE("what a program says on its way to the end is heard, its error first") {
+  const std::string farewell = "<log level=\"warning\" text=\"bye\"/>";
+  Scripted good(start_answer() + answer("end", farewell));
+  REQUIRE(good.unit.start_steps() == fmi3OK);
+  CHECK(good.unit.fmi.Terminate(good.unit.handle) == fmi3OK);
+  CHECK_THAT(good.unit.last_message(), Contains("bye"));
+  Scripted bad(start_answer() + answer("end", farewell) +
+               "echo '<error text=\"no ink\"/>'; exit 1");
+  REQUIRE(bad.unit.start_steps() == fmi3OK);
+  CHECK(bad.unit.fmi.Terminate(bad.unit.handle) == fmi3Error);
+  CHECK_THAT(bad.unit.last_message(), Contains("the program 'sh -c' fails: no ink"));
+}
+
 TEST_CASE("a program may request the end of the simulation") {
   Scripted scripted(start_answer() + answer("step", "<sync time=\"1000000000000\" end=\"true\"/>") +
                     "cat > /dev/null");
