@@ -2,9 +2,11 @@
 
 import os
 import re
+import signal
 import subprocess
 import sys
 import textwrap
+import time
 import zipfile
 
 import numpy as np
@@ -437,6 +439,18 @@ STEP = "def step(self, now, end): pass"
         ("no_step = True", "the class U has no step(self, now, end)"),
         ("step = None", "the class U has no step(self, now, end)"),
         ("def step(self, now): pass", "U.step(self, now): expected step(self, now, end)"),
+        ("def event(self): pass", "U.event(self): expected event(self, now)"),
+        ("def start(self, now): pass", "U.start(self, now): expected start(self)"),
+        ("def next_event(self, now): pass", "U.next_event(self, now): expected next_event(self)"),
+        ("def trace(self, file): pass", "U.trace(self, file): expected trace(self, file, signals)"),
+        ("def finish(): pass", "U.finish(): expected finish(self)"),
+        ("finish = 3", "U.finish: expected finish(self), is 3"),
+        ("def __init__(self, gain): pass", "U.__init__(self, gain): expected __init__(self)"),
+        ("m = su.MessageInput(str)\n        @m.receive\n        def obey(self): pass", "U.obey(self): expected obey(self, value)"),
+        ("def event(self, now): yield", "U.event: expected a method without yield or async"),
+        ("async def finish(self): pass", "U.finish: expected a method without yield or async"),
+        ("now = 3.0", "U.now: each unit has something of this name; choose another one"),
+        ("def results(self): pass", "U.results: each unit has something of this name"),
         ("y = su.Output(complex)", "<class 'complex'> is neither a type nor a start value: expected float, int, bool"),
         ("y = su.Output(float, start='high')", "U.y: start: expected a float, is 'high' (str)"),
         ("y = su.Output('UInt8', start=256)", "U.y: start: expected a number of the type UInt8, from 0 to 255, is 256"),
@@ -547,6 +561,9 @@ def failure(units, source, **settings):
             "self.i = 2**63",
             "output 'i': expected a number of the type Int64, from -9223372036854775808 to 9223372036854775807",
         ),
+        ("self.f = 1e300", "output 'f': expected a number of the type Float32, from -3.4028234663852886e+38 to"),
+        ("self.y = 10**400", "output 'y': expected a number of the type Float64, from -1.7976931348623157e+308 to"),
+        ("self.g = [1e300, 0]", "output 'g': expected an array of float32 with the shape (2,), has elements beyond that"),
         ("self.b = 1", "output 'b': expected a bool, is 1 (int)"),
         ("self.s = b'x'", "output 's': expected a str, is b'x' (bytes)"),
         ("self.s = '\\x01'", "output 's': a str cannot have the character '\\x01' here, but bytes can"),
@@ -565,6 +582,11 @@ def failure(units, source, **settings):
         ("self.p = 2.0", "parameter 'p': the unit has changed it"),
         ("del self.u", "input 'u': the unit has changed it"),
         ("self.m = 'x'", "message 'm': the unit has assigned it; send it: self.m.send(value)"),
+        ("self.o = 'x'", "message 'o': the unit has assigned it; it comes to the method behind @o.receive"),
+        ("self.now = 3.0", "self.now: the unit has assigned it, which stride alone does"),
+        ("self.results = 3", "self.results: the unit has assigned it"),
+        ("del self.resources", "self.resources: the unit has assigned it"),
+        ("self.early_return_allowed = True", "self.early_return_allowed: the unit has assigned it"),
         ("del self.y", "output 'y': it was deleted"),
         ("self.v[0] = 1", "ValueError: assignment destination is read-only (u.py:16, in step)"),
         ("raise SystemExit", "SystemExit (u.py:16, in step)"),
@@ -588,8 +610,8 @@ def test_mistakes_in_a_step(units, assignment, expected):
         b = su.Output(bool)
         s = su.Output(str)
         d = su.Output(bytes)
-        a = su.Output('UInt8', shape=2)
-        m = su.MessageOutput(str)
+        a = su.Output('UInt8', shape=2); f = su.Output('Float32'); g = su.Output('Float32', shape=2)
+        m = su.MessageOutput(str); o = su.MessageInput(str)
         due = None
         def step(self, now, end):
             if now >= 0.25:
@@ -620,16 +642,52 @@ def test_mistakes_at_the_start_and_at_the_end(units):
     """,
         )
     )
-    assert "OSError: late" in str(
-        failure(
-            units,
-            """
-        class U(su.Unit):
-            def finish(self): raise OSError("late")
-            def step(self, now, end): pass
-    """,
-        )
-    )
+
+
+AT_THE_END = """
+    class U(su.Unit):
+        u = su.Input(float)
+        y = su.Output(float, shape=2); s = su.Output(str)
+        m = su.MessageOutput(str)
+        private = None
+        def step(self, now, end): self.y = [end, 0]
+        def finish(self):
+            {body}
+"""
+
+
+@pytest.mark.parametrize(
+    "body, expected",
+    [
+        ("raise OSError('late')", "OSError: late (u.py:10, in finish)"),
+        ("self.y[1] = 3", "output 'y': finish() has assigned it, but the run has ended"),
+        ("self.s = 3", "output 's': finish() has assigned it, but the run has ended"),
+        ("self.m.send('x')", "message 'm': finish() has sent it, but the run has ended"),
+        ("self.u = 3.0", "input 'u': the unit has changed it"),
+        ("self.now = 3.0", "self.now: the unit has assigned it"),
+    ],
+)
+def test_mistakes_at_the_end(units, body, expected):
+    error = failure(units, AT_THE_END.format(body=body))
+    assert f"fails: {expected}" in error.text.partition("\n")[0]
+    assert error.run.reached == 0.5
+
+
+def test_what_is_said_and_kept_at_the_end_is_no_mistake(units, caplog):
+    body = "self._sent = self._ends = self.y = self.y; self.warn('bye')"
+    assert units.run(AT_THE_END.format(body=body)).passed
+    assert "bye" in caplog.text
+
+
+def test_what_is_said_before_a_mistake_is_logged(units, caplog):
+    failure(units, THERMOSTAT + "            self.warn('too hot'); 1/0\n")
+    assert "too hot" in caplog.text
+
+
+@pytest.mark.parametrize("name", ["now", "results", "early_return_allowed"])
+def test_names_of_each_unit_that_are_assigned_before_the_start(units, name):
+    source = THERMOSTAT + f"\n        def __init__(self): self.{name} = []\n"
+    assert f"fails: self.{name}: the unit has assigned it" in str(failure(units, source))
 
 
 def test_the_whole_traceback_is_there(units):
@@ -674,3 +732,26 @@ def test_a_missing_module(units):
 def test_the_package_is_light():
     code = "import sys, stride.unit; sys.exit('numpy' in sys.modules or 'ctypes' in sys.modules)"
     assert subprocess.run([sys.executable, "-c", code], env={**os.environ}, check=False).returncode == 0
+
+
+_LOOPING = """
+import stride
+with stride.Simulation("u.fmu", stop=1, set={"u.process.time_limit": 2}) as sim:
+    print("begun", flush=True)
+    sim.run()
+"""
+
+
+def test_ctrl_c_waits_for_a_unit_no_longer_than_its_time_limit(units):
+    assert units.pack("""
+    class U(su.Unit):
+        def step(self, now, end):
+            while True: pass
+    """) == ""
+    command = [sys.executable, "-c", _LOOPING]
+    process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    assert process.stdout.readline() == "begun\n"
+    time.sleep(0.5)
+    process.send_signal(signal.SIGINT)
+    _, messages = process.communicate(timeout=30)
+    assert "KeyboardInterrupt" in messages

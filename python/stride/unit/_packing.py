@@ -121,11 +121,38 @@ def _refusal(messages: str, declared: Path, cls: type[Unit], variables: list[str
     return UnitError(text.replace("stride: error: ", "", 1).strip())
 
 
-def _check_step(cls: type[Unit]) -> None:
-    try:
-        inspect.signature(cls.step).bind(None, 0.0, 1.0)
-    except TypeError:
-        raise UnitError(f"{cls.__name__}.step{inspect.signature(cls.step)}: expected step(self, now, end)") from None
+# with the arguments behind self that stride gives them
+_METHODS = {
+    "__init__": "",
+    "start": "",
+    "step": "now, end",
+    "event": "now",
+    "next_event": "",
+    "trace": "file, signals",
+    "finish": "",
+}
+
+
+_NOT_CALLED_AT_ONCE = (inspect.isgeneratorfunction, inspect.iscoroutinefunction, inspect.isasyncgenfunction)
+
+
+def _check_methods(cls: type[Unit]) -> None:
+    """What would be an error of the call, or no call of the body at all."""
+    receivers = [variable.receiver for variable in cls._variables.values() if isinstance(variable, MessageInput)]
+    for name, words in {**_METHODS, **{name: "value" for name in receivers if name}}.items():
+        method = getattr(cls, name)
+        if method is object.__init__:
+            continue
+        arguments = words.split(", ") if words else []
+        expected = f"expected {name}({', '.join(['self', *arguments])})"
+        if not callable(method):
+            raise UnitError(f"{cls.__name__}.{name}: {expected}, is {method!r:.80}")
+        try:
+            inspect.signature(getattr(cls.__new__(cls), name)).bind(*arguments)
+        except (TypeError, ValueError):  # ValueError: without self
+            raise UnitError(f"{cls.__name__}.{name}{inspect.signature(method)}: {expected}") from None
+        if any(is_kind(method) for is_kind in _NOT_CALLED_AT_ONCE):
+            raise UnitError(f"{cls.__name__}.{name}: expected a method without yield or async, whose body runs when it is called")
 
 
 def pack(
@@ -150,7 +177,7 @@ def pack(
     """
     file = Path(file).resolve()
     cls = load_class(str(file), name)
-    _check_step(cls)
+    _check_methods(cls)
     packed = {_RUNTIME: Path(), _DECLARATION: Path(), "origin.txt": Path()}
     with tempfile.TemporaryDirectory() as folder:
         _write_runtime(Path(folder, _RUNTIME))

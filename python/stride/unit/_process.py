@@ -6,7 +6,7 @@ import os
 import sys
 
 from ._errors import UnitError
-from ._program import Program
+from ._program import OWN, Program
 from ._unit import Unit, UnitType
 from ._values import printable
 
@@ -53,13 +53,16 @@ def error_text(error: BaseException) -> str:
 def serve(find_class: Callable[[], type[Unit]]) -> int:
     """Runs the class until stride ends it. Returns the exit code."""
     commands, write = _take_pipes()
+    program = None
     try:
-        Program(find_class(), commands, write).run()
+        program = Program(find_class(), commands, write)
+        program.run()
         return 0
     except BrokenPipeError:  # stride has gone
         return 1
     except BaseException as error:  # sys.exit() in a step, too, would leave stride without an answer
-        write(f'<error text="{printable(error_text(error))}"/>\n'.encode())
+        said = program.take_answer() if program is not None else ""  # what was logged before the mistake
+        write(f'{said}<error text="{printable(error_text(error))}"/>\n'.encode())
         return 1
 
 
@@ -107,4 +110,7 @@ def checked(cls: type[Unit]) -> type[Unit]:
     """The class, if it can be a unit."""
     if not callable(cls.step) or cls.step is Unit.step:
         raise UnitError(f"the class {cls.__name__} has no step(self, now, end), which every unit has")
+    for name in OWN:
+        if any(name in vars(base) for base in cls.__mro__[: cls.__mro__.index(Unit)]):
+            raise UnitError(f"{cls.__name__}.{name}: each unit has something of this name; choose another one")
     return cls

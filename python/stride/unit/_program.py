@@ -8,7 +8,7 @@ import os
 from ._errors import UnitError
 from ._time import SECOND, Time
 from ._values import MISTAKES
-from ._variables import Input, MessageInput, MessageOutput, Output, Parameter, Variable
+from ._variables import Input, Message, MessageInput, MessageOutput, Output, Parameter, Variable
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -16,6 +16,10 @@ if TYPE_CHECKING:
     from typing import Any, Callable, Optional
 
     from ._unit import Unit
+
+# what each unit has from stride, beside its variables
+OWN = ("now", "early_return_allowed", "instance_name", "resources", "results")
+_TOO_LATE = "but the run has ended, so nothing would read it; do it in step()"
 
 
 def read_tag(line: str) -> tuple[str, dict[str, str]]:
@@ -51,7 +55,7 @@ class Program:
         self._unit = unit = cls()
         self._commands = commands
         self._write = write
-        self._answer = unit._answer
+        self._answer = unit._stride_answer
         self._time_unit = 1  # [ps]
         variables = cls._variables.values()
         # tag -> name -> the variable
@@ -61,12 +65,15 @@ class Program:
             (v.attribute, v.name, f'<output name="{v.name}" value="', v.text) for v in variables if isinstance(v, Output)
         ]
         # what is in the attributes that the unit must not assign to
-        self._given = {
-            v.attribute: (v, unit.__dict__[v.attribute]) for v in variables if type(v) in (Parameter, Input, MessageOutput)
-        }
+        self._given = {v.attribute: (v, unit.__dict__[v.attribute]) for v in variables if not isinstance(v, Output)}
         for variable, value in self._given.values():
-            if not isinstance(variable, MessageOutput) and variable.shape is None and value is not variable.start:
+            if not isinstance(variable, Message) and variable.shape is None and value is not variable.start:
                 raise self._changed(variable)
+        self._own: dict[str, Any] = {}  # likewise those that each unit has
+        for name in OWN:
+            if name in unit.__dict__:
+                raise self._taken(name)
+            self._tell(name, getattr(unit, name))
         self._told = [""] * len(self._outputs)
         self._has_told = False
         self._announced: Optional[int] = None  # what next_event() has returned [ps]
@@ -90,7 +97,7 @@ class Program:
             elif name == "start":
                 self._start(int(attributes["time"]) * self._time_unit)
             elif name == "end":
-                self._unit.finish()
+                self._finish()
                 return
             else:
                 raise UnitError(f"the command <{name}> is not known to the stride.unit in the FMU: pack it again")
@@ -100,10 +107,12 @@ class Program:
     def _open(self, attributes: dict[str, str]) -> None:
         if attributes["protocol"] != "1":
             raise UnitError(f"the FMU knows protocol 1, not {attributes['protocol']}: pack it again")
-        unit = self._unit
-        unit.instance_name = attributes["instance"]
-        unit.resources = attributes["resources"]
-        unit.results = os.environ.get("STRIDE_RESULTS", "")
+        self._tell("instance_name", attributes["instance"])
+        self._tell("resources", attributes["resources"])
+        self._tell("results", os.environ.get("STRIDE_RESULTS", ""))
+
+    def _tell(self, name: str, value: Any) -> None:
+        self._unit.__dict__[name] = self._own[name] = value
 
     def _set(self, tag: str, name: str, text: str) -> None:
         try:
@@ -126,8 +135,8 @@ class Program:
 
     def _start(self, ps: int) -> None:
         unit = self._unit
-        unit.now = Time.from_ps(ps)
-        unit._end_ps = ps
+        self._tell("now", Time.from_ps(ps))
+        unit._stride_end_ps = ps
         unit.start()
         self._reply()
 
@@ -138,16 +147,41 @@ class Program:
             unit.event(now)
             self._reply()
             return
-        unit._end_ps = now.ps + size
-        end = Time.from_ps(unit._end_ps)
-        unit.early_return_allowed = may_stop
+        unit._stride_end_ps = now.ps + size
+        end = Time.from_ps(unit._stride_end_ps)
+        self._tell("early_return_allowed", may_stop)
         reached = unit.step(now, end)
-        unit.now = now = end if reached is None else self._reached(reached, now, end, may_stop)
-        unit._end_ps = now.ps
-        unit.early_return_allowed = False
+        self._require_own()
+        now = end if reached is None else self._reached(reached, now, end, may_stop)
+        self._tell("now", now)
+        unit._stride_end_ps = now.ps
+        self._tell("early_return_allowed", False)
         if self._announced is not None and now.ps >= self._announced:
             unit.event(now)
         self._reply()
+
+    def _finish(self) -> None:
+        """Nothing is read of the unit behind it, but what it has said."""
+        unit, before, sent = self._unit, self._output_texts(), len(self._unit._stride_sent)
+        unit.finish()
+        self._require_given()
+        for i, text in enumerate(self._output_texts()):
+            if text != before[i]:
+                raise UnitError(f"output '{self._outputs[i][1]}': finish() has assigned it, {_TOO_LATE}")
+        if len(unit._stride_sent) > sent:
+            raise UnitError(f"message '{unit._stride_sent[sent][1]}': finish() has sent it, {_TOO_LATE}")
+        self.flush()
+
+    def _output_texts(self) -> list[str]:
+        """Of the values that are there; of one that is none of the output, what Python writes for it."""
+        texts = []
+        for attribute, _, _, write in self._outputs:
+            value = self._unit.__dict__.get(attribute)
+            try:
+                texts.append(write(value))
+            except MISTAKES:
+                texts.append(f"{type(value).__name__} {value!r:.80}")
+        return texts
 
     @staticmethod
     def _reached(returned: Any, now: Time, end: Time, may_stop: bool) -> Time:
@@ -169,19 +203,39 @@ class Program:
             return UnitError(
                 f"message '{variable.name}': the unit has assigned it; send it: self.{variable.attribute}.send(value)"
             )
+        if isinstance(variable, MessageInput):
+            return UnitError(
+                f"message '{variable.name}': the unit has assigned it; it comes to the method behind"
+                f" @{variable.attribute}.receive"
+            )
         return UnitError(
             f"{variable.tag} '{variable.name}': the unit has changed it, which stride alone does; keep what it is to"
             " remember in an attribute that is no variable"
         )
 
-    def _reply(self) -> None:
-        unit, told, answer = self._unit, self._told, self._answer
-        if unit._sent:
-            self._send()
-        values = unit.__dict__
+    @staticmethod
+    def _taken(name: str) -> UnitError:
+        return UnitError(f"self.{name}: the unit has assigned it, which stride alone does; choose another name")
+
+    def _require_own(self) -> None:
+        values = self._unit.__dict__
+        for name, value in self._own.items():
+            if values.get(name) is not value:
+                raise self._taken(name)
+
+    def _require_given(self) -> None:
+        self._require_own()
+        values = self._unit.__dict__
         for attribute, (variable, given) in self._given.items():
             if values.get(attribute) is not given:
                 raise self._changed(variable)
+
+    def _reply(self) -> None:
+        unit, told, answer = self._unit, self._told, self._answer
+        if unit._stride_sent:
+            self._send()
+        self._require_given()
+        values = unit.__dict__
         for i, (attribute, name, prefix, write) in enumerate(self._outputs):
             try:
                 text = write(values[attribute])
@@ -201,7 +255,7 @@ class Program:
         else:
             time, following = self._counts(now, self._announced)
             answer.append(f'<sync time="{time}" next="{following}"')
-        answer.append(' end="true"/>\n' if unit._ends else "/>\n")
+        answer.append(' end="true"/>\n' if unit._stride_ends else "/>\n")
         self.flush()
 
     def _next(self, now: int) -> Optional[int]:
@@ -216,8 +270,8 @@ class Program:
     def _send(self) -> None:
         """In the order of time; messages without an instant of their own have that of the end."""
         unit = self._unit
-        messages = [((unit.now if at is None else at).ps, name, text) for at, name, text in unit._sent]
-        unit._sent.clear()
+        messages = [((unit.now if at is None else at).ps, name, text) for at, name, text in unit._stride_sent]
+        unit._stride_sent.clear()
         for ps, name, text in sorted(messages, key=operator.itemgetter(0)):
             if ps > unit.now.ps:
                 raise UnitError(
@@ -236,6 +290,10 @@ class Program:
         return [ps // unit for ps in times]
 
     def flush(self) -> None:
+        self._write(self.take_answer().encode())
+
+    def take_answer(self) -> str:
+        """What is to be written."""
         text = "".join(self._answer)
         self._answer.clear()
-        self._write(text.encode())
+        return text

@@ -31,12 +31,12 @@ class _Sender:
             text = self._variable.text(value)
         except MISTAKES as mistake:
             raise type(mistake)(f"message '{name}': {mistake}") from None
-        if at is not None and not unit.now <= at <= Time.from_ps(unit._end_ps):
+        if at is not None and not unit.now <= at <= Time.from_ps(unit._stride_end_ps):
             raise ValueError(
                 f"message '{name}': at={float(at)!r} is not in this step, from {float(unit.now)!r} s to"
-                f" {unit._end_ps / SECOND!r} s"
+                f" {unit._stride_end_ps / SECOND!r} s"
             )
-        unit._sent.append((None if at is None else Time(at), name, text))
+        unit._stride_sent.append((None if at is None else Time(at), name, text))
 
 
 class _Body(dict):  # type: ignore[type-arg]
@@ -89,10 +89,10 @@ class Unit(metaclass=UnitType):
     results: str = ""
     """The folder for files that the unit writes."""
 
-    _sent: list[tuple[Optional[Time], str, str]]
-    _end_ps: int
-    _ends: bool
-    _answer: list[str]
+    _stride_sent: list[tuple[Optional[Time], str, str]]
+    _stride_end_ps: int
+    _stride_ends: bool
+    _stride_answer: list[str]
 
     def __init_subclass__(
         cls,
@@ -111,10 +111,10 @@ class Unit(metaclass=UnitType):
 
     def __new__(cls: type[U], *arguments: Any, **words: Any) -> U:
         unit = super().__new__(cls)
-        unit._sent = []
-        unit._end_ps = 0
-        unit._ends = False
-        unit._answer = []
+        unit._stride_sent = []
+        unit._stride_end_ps = 0
+        unit._stride_ends = False
+        unit._stride_answer = []
         for attribute, variable in cls._variables.items():
             is_sender = isinstance(variable, MessageOutput)
             unit.__dict__[attribute] = _Sender(variable, unit) if is_sender else variable.new(variable.start)
@@ -145,12 +145,12 @@ class Unit(metaclass=UnitType):
 
     def log(self, text: object) -> None:
         """Writes a line to stride's log."""
-        self._answer.append(f'<log level="info" text="{printable(text)}"/>\n')
+        self._stride_answer.append(f'<log level="info" text="{printable(text)}"/>\n')
 
     def warn(self, text: object) -> None:
         """Writes a warning to stride's log."""
-        self._answer.append(f'<log level="warning" text="{printable(text)}"/>\n')
+        self._stride_answer.append(f'<log level="warning" text="{printable(text)}"/>\n')
 
     def end_simulation(self) -> None:
         """Stride is to end the simulation where this step ends."""
-        self._ends = True
+        self._stride_ends = True

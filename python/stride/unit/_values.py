@@ -25,12 +25,22 @@ def _float_text(value: Any) -> str:
         return repr(value)
     if isinstance(value, (str, bytes, bytearray, bool)) or not hasattr(value, "__float__"):
         _refuse("a float", value)
-    return repr(float(value))
+    try:
+        return repr(float(value))
+    except OverflowError:
+        raise _beyond("Float64", "1.7976931348623157e+308", f"a larger {type(value).__name__}") from None
+
+
+def _beyond(name: str, most: str, value: str) -> OverflowError:
+    return OverflowError(f"expected a number of the type {name}, from -{most} to {most}, is {value}")
 
 
 def _float32_text(value: Any) -> str:
     text = _float_text(value)
-    struct.pack("f", float(text))  # OverflowError for what is too large
+    try:
+        struct.pack("<f", float(text))
+    except OverflowError:
+        raise _beyond("Float32", "3.4028234663852886e+38", text) from None
     return text
 
 
@@ -195,8 +205,10 @@ class Array:
         is_suitable = kind == expected or (kind in "iu" and expected in "iuf")
         if array.shape != self._shape or not is_suitable:
             raise TypeError(f"expected {self._name}, is one of {array.dtype} with the shape {array.shape}")
-        copy = array.astype(self._dtype)
-        if expected in "iu" and (copy != array).any():
+        with self._numpy.errstate(over="ignore"):
+            copy = array.astype(self._dtype)
+        is_other = copy != array if expected in "iu" else self._numpy.isinf(copy) & ~self._numpy.isinf(array)
+        if expected != "b" and is_other.any():
             raise OverflowError(f"expected {self._name}, has elements beyond that: {array.tolist()!r:.80}")
         return copy
 
