@@ -20,10 +20,12 @@ import csv
 import fnmatch
 import itertools
 import os
+import re
 import shlex
 import tempfile
+import threading
 import zipfile
-from collections import Counter
+from collections import Counter, defaultdict
 from collections.abc import Generator, Iterable
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -74,7 +76,8 @@ def _stamps(run: Run) -> list[_Stamp]:
     searched = {folder, *(source.parent for source in sources), *map(Path, os.environ.get("STRIDE_UNITS", "").split(":"))}
     names = {source.name for source in sources}
     files = {*sources, *(place / name for place in searched for name in names), run.folder / "run.json"}
-    return [_stamp(file) for file in sorted(files)]
+    below = {file for folder in files if folder.is_dir() for file in folder.rglob("*")}  # of an unpacked unit
+    return [_stamp(file) for file in sorted(files | below)]
 
 
 def _stamp(file: Path) -> _Stamp:
@@ -113,20 +116,24 @@ class _Runs:
     def __init__(self, folder: Path) -> None:
         self._folder = folder
         self._made: dict[Any, _Made] = {}
-        self._count = 0
+        self._locks: defaultdict[Any, threading.Lock] = defaultdict(threading.Lock)
+        self._lock = threading.Lock()  # of the locks
+        self._numbers = itertools.count(1)
 
     def new_folder(self, name: str) -> Path:
-        self._count += 1
-        return self._folder / f"{self._count:03}-{name}"
+        return self._folder / f"{next(self._numbers):03}-{name}"
 
     def run(self, scenario: Any, **options: Any) -> Run:
         _refuse_out(options)
         name = word_of(scenario, "the scenario")
         settings = sorted(item for item in os.environ.items() if item[0].startswith("STRIDE_"))
         key = (os.getcwd(), name, *sorted(words(options)), *settings)  # files are named from the folder
-        if key not in self._made or not self._made[key].is_valid:
-            self._made[key] = self._make(name, options)
-        return self._made[key].shared()
+        with self._lock:
+            lock = self._locks[key]
+        with lock:  # threads of a test that want the same run wait for it
+            if key not in self._made or not self._made[key].is_valid:
+                self._made[key] = self._make(name, options)
+            return self._made[key].shared()
 
     def _make(self, scenario: str, options: dict[str, Any]) -> _Made:
         try:
@@ -146,14 +153,16 @@ def _refuse_out(options: dict[str, Any]) -> None:
 
 
 _session_runs = pytest.StashKey[_Runs]()
+_first_use = threading.Lock()
 
 
 def _runs_of(config: pytest.Config) -> _Runs:
     """Those of the session, for tests, items and cases."""
-    if _session_runs not in config.stash:
-        factory = getattr(config, "_tmp_path_factory")  # noqa: B009 - what pytest's fixture returns
-        config.stash[_session_runs] = _Runs(factory.mktemp("stride"))
-    return config.stash[_session_runs]
+    with _first_use:
+        if _session_runs not in config.stash:
+            factory = getattr(config, "_tmp_path_factory")  # noqa: B009 - what pytest's fixture returns
+            config.stash[_session_runs] = _Runs(factory.mktemp("stride"))
+        return config.stash[_session_runs]
 
 
 def _noted(node: pytest.Item, make: Callable[[], Run]) -> Run:
@@ -278,8 +287,16 @@ class _ScenarioItem(pytest.Item):
 
     def repr_failure(self, excinfo: Any, style: Any = None) -> Any:
         if isinstance(excinfo.value, (Error, _Verdict)):
-            return str(excinfo.value)
+            return f"{excinfo.value}{self._other_way(getattr(excinfo.value, 'hint', None))}"
         return super().repr_failure(excinfo)
+
+    def _other_way(self, hint: Optional[str]) -> str:
+        """Where a hint names an option of `stride run`, which pytest has not."""
+        option = re.search(r"--([a-z][-a-z]*)", hint or "")
+        if option is None:
+            return ""
+        keyword = option[1].replace("-", "_")
+        return f"\n  pytest has no --{option[1]}: a test in Python has, stride_run({self.path.name!r}, {keyword}=…)"
 
     def reportinfo(self) -> tuple[Path, Optional[int], str]:
         return self.path, None if self.line is None else self.line - 1, f"{self.path.name}: {self.name}"
@@ -345,6 +362,10 @@ def _plan(campaign: Path, *options: str) -> str:
 
 def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
     if "stride_case" not in metafunc.fixturenames:
+        if any(marker.name == "stride_campaign" for marker in metafunc.definition.own_markers):
+            raise pytest.UsageError(
+                f"{metafunc.function.__name__} has the mark stride_campaign: take the cases, with the fixture stride_case"
+            )
         return
     marker = metafunc.definition.get_closest_marker("stride_campaign")
     if marker is None or len(marker.args) != 1 or not isinstance(marker.args[0], (str, os.PathLike)):

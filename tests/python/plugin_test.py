@@ -8,6 +8,12 @@ from conftest import CHECKS, scenario
 from run_test import _CAMPAIGN
 
 
+_PARAMETERS = """<ssv:ParameterSet version="1.0" name="p"
+    xmlns:ssv="http://ssp-standard.org/SSP1/SystemStructureParameterValues">
+<ssv:Parameters><ssv:Parameter name="first.u"><ssv:Real value='{value}'/></ssv:Parameter></ssv:Parameters>
+</ssv:ParameterSet>"""
+
+
 @pytest.fixture
 def project(pytester):
     """A project with a scenario of which one of two checks fails, unless first.u is set."""
@@ -152,6 +158,48 @@ def test_a_run_is_made_again_where_another_unit_would_be_found(project):
     run(project).assert_outcomes(passed=3)
 
 
+def test_a_run_is_made_again_where_a_file_that_an_option_names_has_changed(project):
+    project.makefile(".ssv", gains=_PARAMETERS.format(value=1))
+    project.makepyfile(
+        """
+        import pathlib, shutil, zipfile
+
+        def test_parameters(stride_run):
+            first = lambda: stride_run("test.ssd", parameters="gains.ssv").signals["first.y"][-1]
+            before = first()
+            assert first() == before
+            file = pathlib.Path("gains.ssv")
+            file.write_text(file.read_text().replace("value='1'", "value='-1'"))
+            assert first() == -before
+
+        def test_an_unpacked_unit(stride_run, tmp_path):
+            packed = stride_run("test.ssd").info["provenance"]["sources"][-1]["path"]
+            zipfile.ZipFile(packed).extractall(tmp_path / "unit")
+            folder = lambda: stride_run("test.ssd", swap={"first": tmp_path / "unit"}).folder
+            before = folder()
+            assert folder() == before
+            description = tmp_path / "unit" / "modelDescription.xml"
+            description.write_text(description.read_text() + "<!-- another one -->")
+            assert folder() != before
+        """
+    )
+    run(project).assert_outcomes(passed=2)
+
+
+def test_threads_that_want_the_same_run_have_one(project):
+    project.makepyfile(
+        """
+        from concurrent.futures import ThreadPoolExecutor
+
+        def test_it(stride_run):
+            with ThreadPoolExecutor(6) as threads:
+                runs = threads.map(lambda _: stride_run("test.ssd", stop=3), range(6))
+            assert len({run.folder for run in runs}) == 1
+        """
+    )
+    run(project).assert_outcomes(passed=1)
+
+
 def test_a_scenario_that_is_no_path(project):
     project.makepyfile(
         """
@@ -224,6 +272,9 @@ def test_packages_and_fmus_are_tests(project):
     result = run(project, "pack.ssp", "-v")
     result.assert_outcomes(passed=2, failed=1)
     result.stdout.fnmatch_lines(["*pack.ssp::run PASSED*", "*pack.ssp::it does not overshoot PASSED*"])
+    (project.path / "endless.ssd").write_text((project.path / "test.ssd").read_text().replace('stopTime="1"', ""))
+    result = run(project, "endless.ssd")
+    result.stdout.fnmatch_lines(["*pytest has no --stop: a test in Python has, stride_run('endless.ssd', stop=…)*"])
     (project.path / "broken.fmu").write_text("no archive")
     result = run(project, "broken.fmu")
     result.assert_outcomes(failed=1)
@@ -276,3 +327,28 @@ def test_a_campaign_that_is_missing(project):
     result = run(project)
     result.stdout.fnmatch_lines(["*nowhere.xosc*"])
     assert result.ret != 0
+
+
+@pytest.mark.parametrize("is_known", [True, False])
+def test_a_campaign_whose_cases_are_not_taken(project, is_known):
+    project.makefile(".xosc", inputs=_CAMPAIGN)
+    project.makepyfile(
+        f"""
+        import pytest
+
+        pytestmark = [pytest.mark.stride_campaign("inputs.xosc")] if {is_known} else []
+
+        {"" if is_known else '@pytest.mark.stride_campaign("inputs.xosc")'}
+        def test_none():
+            pass
+
+        def test_case(request):
+            pass
+        """
+    )
+    result = run(project)
+    if is_known:  # a mark of the module is for those that take it
+        result.assert_outcomes(passed=2)
+        return
+    assert result.ret != 0
+    result.stdout.fnmatch_lines(["*test_none has the mark stride_campaign: take the cases, with the fixture stride_case*"])
