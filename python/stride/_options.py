@@ -21,10 +21,24 @@ def word_of(value: Any, what: str) -> str:
     return text
 
 
+def path_of(value: Any, what: str) -> str:
+    """Of a file or folder. Raises InputError likewise, and for an empty name, which would be the working folder."""
+    text = word_of(value, what)
+    if not text:
+        raise InputError(f"{what}: an empty name is that of no file and no folder", hint="'.' is the working folder")
+    return text
+
+
 def file_word(value: Any, what: str) -> str:
     """Of a path, which may begin as an option does."""
-    word = word_of(value, what)
+    word = path_of(value, what)
     return f"./{word}" if word.startswith("-") else word
+
+
+def refuse_keyword(options: Mapping[str, Any], keyword: str, instead: str) -> None:
+    """Raises InputError for what another call has under this name."""
+    if keyword in options:
+        raise InputError(f"there is no '{keyword}' here", hint=f"the folder of the results is {instead}=")
 
 
 def _text(value: Any) -> str:

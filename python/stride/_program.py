@@ -15,7 +15,7 @@ import numpy as np
 
 from ._errors import Error, InputError, RunError, parse_error
 from ._installed import program
-from ._options import file_word, word_of, words
+from ._options import file_word, path_of, refuse_keyword, words
 from ._rows import read_table
 from .results import Run, TemporaryFolder
 
@@ -38,7 +38,7 @@ def _command(arguments: list[str]) -> list[str]:
 def _call(arguments: list[str], folder: Optional[PathLike] = None) -> tuple[int, str, str]:
     """Runs the program. Returns its exit code, and what it printed: results and messages.
 
-    Ctrl-C ends it in order.
+    Ctrl-C ends it in order; a second one, where a unit does not come to an end.
     """
     process = subprocess.Popen(
         _command(arguments),
@@ -53,10 +53,20 @@ def _call(arguments: list[str], folder: Optional[PathLike] = None) -> tuple[int,
     try:
         output, messages = process.communicate()
     except BaseException:
-        process.send_signal(signal.SIGINT)
-        process.communicate()
+        _end(process)
         raise
     return process.returncode, output, messages
+
+
+def _end(process: subprocess.Popen[str]) -> None:
+    """In order, at a second Ctrl-C meanwhile without waiting for a unit, and at a third one at once."""
+    for number in (signal.SIGINT, signal.SIGINT, signal.SIGKILL):
+        process.send_signal(number)
+        try:
+            process.communicate()
+            return
+        except BaseException:  # noqa: BLE001 - the one before it goes on
+            continue
 
 
 def output_of(arguments: list[str], folder: Optional[PathLike] = None) -> str:
@@ -123,11 +133,12 @@ def run_words(
     arguments: list[str], *, out: Optional[PathLike] = None, folder: Optional[PathLike] = None, **options: Any
 ) -> Run:
     """Likewise, of the words behind `stride run`, in this working folder."""
+    refuse_keyword(options, "results", "out")
     keeper = None
     if out is None:
         keeper = TemporaryFolder()
         out = keeper.name
-    results = Path(word_of(out, "out")).absolute()
+    results = Path(path_of(out, "out")).absolute()
     code, output, messages = _call(["run", *arguments, f"--out={results}", "--progress=none", *words(options)], folder)
     if code == 2:
         raise _failure(messages, InputError)
@@ -155,7 +166,7 @@ class Campaign:
 
     def __init__(self, folder: Union[str, Path], summary: str = "") -> None:
         """Reads cases.csv in this folder. Raises InputError if there is none."""
-        self.folder = Path(word_of(folder, "a folder of a campaign")).absolute()
+        self.folder = Path(path_of(folder, "a folder of a campaign")).absolute()
         self.summary = summary
         table = self.folder / "cases.csv"
         if not table.is_file():
@@ -219,7 +230,7 @@ def campaign(file: PathLike, *, out: Optional[PathLike] = None, **options: Any) 
     >>> table["aggregate:end"].min()
 
     Args:
-        file: The campaign (.xosc).
+        file: The campaign (.xosc), or the folder of one that has begun.
         out: Its folder; None: campaigns/ and its name, in the working folder.
         options: Those of `stride campaign run`.
 
@@ -231,10 +242,13 @@ def campaign(file: PathLike, *, out: Optional[PathLike] = None, **options: Any) 
     for name in ("case", "cases"):
         if options.get(name) is not None:
             raise InputError(f"'{name}' runs cases without making the table; stride.run runs a scenario like a case")
-    folder = Path("campaigns", Path(file).stem) if out is None else Path(word_of(out, "out"))
-    code, output, messages = _call(
-        ["campaign", "run", file, f"--out={folder}", "--progress=none", *words(options)]
-    )
+    refuse_keyword(options, "results", "out")
+    if out is None and Path(file).is_dir():  # of a campaign that has begun, or the program says that it is none
+        folder, place = Path(file), []
+    else:
+        folder = Path("campaigns", Path(file).stem) if out is None else Path(path_of(out, "out"))
+        place = [f"--out={folder}"]
+    code, output, messages = _call(["campaign", "run", file, *place, "--progress=none", *words(options)])
     if code == 2:
         raise _failure(messages, InputError)
     _warn(messages)

@@ -20,7 +20,7 @@ from typing import TYPE_CHECKING, Any, Optional, Union
 import numpy as np
 
 from ._errors import InputError
-from ._options import word_of
+from ._options import path_of
 from ._rows import rows, signal_header
 from .simulation import TYPES, Message, Verdict
 
@@ -207,7 +207,7 @@ class Run:
 
         `keeper` is whatever removes the folder when this object goes.
         """
-        self.folder = Path(word_of(folder, "a folder of results")).absolute()
+        self.folder = Path(path_of(folder, "a folder of results")).absolute()
         self.summary = summary
         self._keeper = keeper
         file = self.folder / "run.json"

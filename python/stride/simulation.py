@@ -12,7 +12,8 @@ import signal
 import threading
 import time
 import weakref
-from collections.abc import Iterator, Mapping
+from collections import Counter
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
 from typing import Any, Optional, Union
@@ -21,7 +22,7 @@ import numpy as np
 
 from . import _library as c
 from ._errors import InputError, MisuseError, RunError
-from ._options import settings
+from ._options import path_of, refuse_keyword, settings
 
 __all__ = ["Message", "Simulation", "Variable", "Verdict"]
 
@@ -159,12 +160,13 @@ class Simulation:
         self._handle = ctypes.c_void_p()
         self._last: Optional[list[Verdict]] = None
         self._library = _library()
-        if not isinstance(messages, int) or messages < 0:
+        if not isinstance(messages, int) or not 0 <= messages < 2**63:
             raise InputError(f"messages= is a number of messages, not {messages!r}")
+        if not isinstance(can_save, (bool, np.bool_)):
+            raise InputError(f"can_save= is True or False, not {can_save!r:.80}")
+        refuse_keyword(options, "out", "results")
         pairs = settings(options)
-        for text in [os.fsencode(scenario), *(os.fsencode(each) for each in (results, checkpoint) if each is not None)]:
-            if b"\0" in text:
-                raise InputError(f"the name of a file has no NUL: {text!r}")
+        system = os.fsencode(path_of(scenario, "the scenario"))
         for name, value in pairs:
             _text_bytes(f"{name}={value}", "an option")
         array = (c.Setting * len(pairs))(
@@ -177,17 +179,18 @@ class Simulation:
             size=ctypes.sizeof(c.Options),
             settings=array,
             setting_count=len(pairs),
-            results=None if results is None else os.fsencode(results),
-            checkpoint=None if checkpoint is None else os.fsencode(checkpoint),
-            can_save=can_save,
+            results=None if results is None else os.fsencode(path_of(results, "results")),
+            checkpoint=None if checkpoint is None else os.fsencode(path_of(checkpoint, "checkpoint")),
+            can_save=bool(can_save),
             message_limit=messages,
             progress=self._progress,
         )
-        c.check(self._library.stride_open(os.fsencode(scenario), ctypes.byref(given), ctypes.byref(self._handle)))
+        c.check(self._library.stride_open(system, ctypes.byref(given), ctypes.byref(self._handle)))
 
     # ---- Life ----
 
     def __enter__(self) -> Simulation:
+        self._open()
         return self
 
     def __exit__(self, kind: Any, *_exception: Any) -> None:
@@ -373,12 +376,22 @@ class Simulation:
         An enumeration takes a number, or the name of an item.
         """
         index, variable = self._find(name)
-        if variable.type == "Enumeration" and isinstance(value, str):  # the library knows the items, and lists them
-            seconds, picoseconds = divmod(self.time_ps, c.SECOND)
-            self.intervene("set-at", f"{name}={value}@{seconds}.{picoseconds:012}")
-            return
+        if variable.is_message and variable.causality == "input":
+            raise InputError(
+                f"'{name}' is a message, which cannot be set", hint=f'send it: sim.send("{name}", …)', **_place(variable)
+            )
+        if variable.type == "Enumeration" and isinstance(value, str):
+            return self._set_item(variable, value)
         elements, count = _elements(variable, value)
         self._call("stride_set", index, ctypes.byref(elements), count)
+
+    def _set_item(self, variable: Variable, item: str) -> None:
+        """Of an enumeration: the library knows the items, and lists them."""
+        seconds, picoseconds = divmod(self.time_ps, c.SECOND)
+        try:
+            self.intervene("set-at", f"{variable.name}={item}@{seconds}.{picoseconds:012}")
+        except InputError as error:
+            raise InputError(f"'{variable.name}': {error.text}", hint=error.hint, **_place(variable)) from None
 
     # ---- Messages and interventions ----
 
@@ -400,6 +413,9 @@ class Simulation:
         elif value is not None:
             raise InputError(f"'{name}' is a clock, which has no value; name the input that has")
         payload += [(f"{variable.component}.{key}", item) for key, item in values.items()]
+        for key, count in Counter(key for key, _ in payload).items():
+            if count > 1:
+                raise InputError(f"'{key}' has two values", hint="give one, as the value or by its name")
         array = (c.Value * len(payload))()
         kept = []
         for entry, (key, item) in zip(array, payload):
@@ -442,11 +458,12 @@ class Simulation:
 
         >>> sim.intervene("force", "sensor.supply.voltage=2@1.5..2")
         """
-        self._call("stride_intervene", _text_bytes(option, "an option"), _text_bytes(text, "an intervention"))
+        name = _text_bytes(option, "an option").replace(b"_", b"-")  # also as an argument of Python has it
+        self._call("stride_intervene", name, _text_bytes(text, "an intervention"))
 
     def save(self, file: PathLike) -> None:
         """Writes a checkpoint of the present instant: see the arguments `can_save` and `checkpoint`."""
-        self._call("stride_save", os.fsencode(file))
+        self._call("stride_save", os.fsencode(path_of(file, "the checkpoint")))
 
     @property
     def verdicts(self) -> list[Verdict]:
@@ -599,12 +616,33 @@ def _value(variable: Variable, elements: Any, count: int) -> Any:
     return values[0] if isinstance(values, list) else values[0].item()
 
 
+def _place(variable: Variable) -> dict[str, Any]:
+    """For an error."""
+    local_name = variable.name[len(variable.component) + 1 :] if variable.component else variable.name
+    return {"component": variable.component, "variable": local_name}
+
+
+def _flat(value: Any, shape: tuple[int, ...]) -> Optional[list[Any]]:
+    """The elements of nested sequences, which are texts or bytes; None where the shape is another one."""
+    if not shape:
+        return [value]
+    if isinstance(value, (str, bytes, bytearray, memoryview)) or not isinstance(value, Iterable):
+        return None
+    parts = [_flat(part, shape[1:]) for part in value] if getattr(value, "ndim", 1) > 0 else []
+    if len(parts) != shape[0]:
+        return None
+    found: list[Any] = []
+    for part in parts:
+        if part is None:
+            return None
+        found += part
+    return found
+
+
 def _elements(variable: Variable, value: Any) -> tuple[Any, int]:
     """The elements in their C type. Raises InputError for what is none of the variable."""
     count = math.prod(variable.shape)
-
-    local_name = variable.name[len(variable.component) + 1 :] if variable.component else variable.name
-    where: dict[str, Any] = {"component": variable.component, "variable": local_name}
+    where = _place(variable)
 
     def fail(wanted: str) -> InputError:
         return InputError(f"'{variable.name}' is {wanted}, not {value!r}", **where)
@@ -613,9 +651,10 @@ def _elements(variable: Variable, value: Any) -> tuple[Any, int]:
         raise fail("a clock, which has no value")
     if variable.type in ("String", "Binary"):
         wanted = str if variable.type == "String" else (bytes, bytearray, memoryview)
-        flat = list(np.asarray(value, dtype=object).ravel()) if variable.shape else [value]
-        if len(flat) != count or not all(isinstance(element, wanted) for element in flat):
-            raise fail("a text (str)" if variable.type == "String" else "bytes")
+        flat = _flat(value, variable.shape)
+        if flat is None or not all(isinstance(element, wanted) for element in flat):
+            kind = "a text (str)" if variable.type == "String" else "bytes"
+            raise fail(f"an array of {kind.removeprefix('a ')} with the shape {variable.shape}" if variable.shape else kind)
         if variable.type == "String":
             texts = [_text_bytes(element, variable.name, **where) for element in flat]
             return (ctypes.c_char_p * count)(*texts), count

@@ -117,6 +117,18 @@ def test_signals_of_each_type(types):
         (lambda: stride.run("test.ssd", **{"x\0": 1}), "an option: a text has no NUL"),
         (lambda: stride.run("test.ssd", out="a\0"), "out: a text has no NUL"),
         (lambda: stride.run("test.ssd", out=3), "out is a text or a path, not 3"),
+        (lambda: stride.run("test.ssd", out=""), "out: an empty name is that of no file and no folder"),
+        (lambda: stride.run("test.ssd", results="x"), "there is no 'results' here\n  hint: .* is out="),
+        (lambda: stride.run(""), "the scenario: an empty name"),
+        (lambda: stride.campaign("c.xosc", out=""), "out: an empty name"),
+        (lambda: stride.campaign("."), r"there is no plan in this folder\n  hint: name the file of the campaign"),
+        (lambda: stride.Run(""), "a folder of results: an empty name"),
+        (lambda: stride.Campaign(""), "a folder of a campaign: an empty name"),
+        (lambda: stride.compare("", "b"), "a folder of results: an empty name"),
+        (lambda: stride.Simulation(3), "the scenario is a text or a path, not 3"),
+        (lambda: stride.Simulation(b"test.ssd"), "the scenario is a text or a path, not b'test.ssd'"),
+        (lambda: stride.Simulation("test.ssd", can_save=True).save(3), "the checkpoint is a text or a path, not 3"),
+        (lambda: stride.export_mcap(3, "x.mcap"), "a folder of results is a text or a path, not 3"),
         (lambda: stride.compare("--help", "b"), "./--help: this is not a folder"),
         (lambda: stride.compare("a", None), "a folder of results is a text or a path, not None"),
         (lambda: stride.campaign("--help"), "./--help: the file does not exist"),
@@ -132,6 +144,15 @@ def test_signals_of_each_type(types):
 def test_arguments_that_make_no_sense(folder, call, message):
     with pytest.raises(stride.InputError, match=message):
         call()
+
+
+def test_a_file_and_a_date_for_another_tool(folder):
+    pytest.importorskip("mcap")
+    run = stride.run("test.ssd")
+    with pytest.raises(stride.InputError, match="the MCAP file is a text or a path, not 3"):
+        run.to_mcap(3)
+    with pytest.raises(stride.InputError, match="3 is no date\n  hint: epoch is 'run' or a date"):
+        run.to_mcap("x.mcap", epoch=3)
 
 
 def test_runs_are_compared(folder):
@@ -372,6 +393,25 @@ def test_ctrl_c_ends_it_in_order(folder):
     assert stride.Run("out").info["outcome"] == "interrupted"
 
 
+_STUCK = """
+import stride
+stride.run("stuck.ssd", out="out")
+"""
+
+
+def test_a_second_ctrl_c_ends_a_run_whose_unit_does_not(folder):
+    (folder / "stuck.ssd").write_text(scenario("unit=lying_hangs_in_step"))
+    process = subprocess.Popen([sys.executable, "-c", _STUCK], stderr=subprocess.PIPE, text=True)
+    while not (folder / "out" / "signals.csv").exists():
+        time.sleep(0.05)
+    for _ in range(2):
+        time.sleep(0.5)
+        process.send_signal(signal.SIGINT)
+    _, messages = process.communicate(timeout=30)
+    assert "KeyboardInterrupt" in messages
+    assert processes_below() == set()
+
+
 _CAMPAIGN = """<?xml version="1.0" encoding="UTF-8"?>
 <OpenSCENARIO>
   <FileHeader revMajor="1" revMinor="1" date="2026-01-01T00:00:00" author="a test" description="inputs"/>
@@ -406,6 +446,8 @@ def test_a_campaign(campaign):
     assert not table.passed
     assert "2 of 3 cases passed" in repr(table)
     assert list(stride.campaign(campaign)["outcome"]) == list(table["outcome"])
+    again = stride.campaign(table.folder)
+    assert (again.folder, again.rows) == (table.folder, table.rows)
 
 
 @pytest.mark.parametrize(

@@ -85,7 +85,7 @@ def test_arrays_keep_their_shape(types):
         assert sim["types.matrix.echo"].tolist() == [[6, 5, 4], [3, 2, 1]]
         words = sim["types.words"]
         sim["types.words"] = np.full(words.shape, "ö", dtype=object)
-        sim["types.blobs"] = np.full(sim["types.blobs"].shape, b"\x01", dtype=object)
+        sim["types.blobs"] = [bytearray(b"\x01"), memoryview(b"\x01")]
         sim.step(0.25)
         assert (sim["types.words.echo"] == "ö").all()
         assert (sim["types.blobs.echo"] == b"\x01").all()
@@ -118,10 +118,13 @@ def test_interventions(folder):
     with stride.Simulation("test.ssd") as sim:
         sim.step(until=0.25)
         sim.intervene("force", "second.u=3@0.5..0.75")
+        sim.intervene("set_at", "first.u=1@0.5")
         sim.step(until=0.625)
         assert sim["second.u"] == 3
+        assert sim["first.u"] == 1
+        sim["first.u"] = 0
         sim.run()
-        assert sim["second.u"] == 0
+        assert sim["second.u"] == sim["first.y"]
 
 
 def test_a_checkpoint_goes_on(folder):
@@ -179,11 +182,27 @@ def test_errors_say_what_and_where(folder):
         ({"stop": "soon"}, "soon"),
         ({"swap": {"first": "nowhere.fmu"}}, "nowhere.fmu"),
         ({"checkpoint": "nowhere.zip"}, "nowhere.zip"),
+        ({"checkpoint": 3}, "checkpoint is a text or a path, not 3"),
+        ({"checkpoint": ""}, "checkpoint: an empty name is that of no file"),
+        ({"results": 3}, "results is a text or a path, not 3"),
+        ({"results": b"out"}, "results is a text or a path, not b'out'"),
+        ({"results": ""}, "results: an empty name is that of no file and no folder"),
+        ({"out": "out"}, "there is no 'out' here\n  hint: the folder of the results is results="),
+        ({"can_save": "x"}, "can_save= is True or False, not 'x'"),
+        ({"messages": 2**64}, "messages= is a number of messages"),
     ],
 )
 def test_wrong_options(folder, options, message):
     with pytest.raises(stride.InputError, match=message):
         stride.Simulation("test.ssd", **options)
+    assert [each.name for each in folder.iterdir()] == ["test.ssd"]
+
+
+def test_a_closed_one_cannot_be_entered(folder):
+    with stride.Simulation("test.ssd") as sim:
+        pass
+    with pytest.raises(stride.MisuseError, match="is closed"), sim:
+        pass
 
 
 @pytest.mark.parametrize(
@@ -200,6 +219,12 @@ def test_wrong_options(folder, options, message):
         ("float32", 1e300, "Float32"),
         ("matrix", [1.0, 2.0], "shape"),
         ("string", b"x", "text"),
+        ("words", ["a"], r"an array of text \(str\) with the shape \(2,\), not \['a'\]"),
+        ("words", [["a", "b"]], r"with the shape \(2,\)"),
+        ("words", "ab", r"with the shape \(2,\)"),
+        ("words", 3, r"with the shape \(2,\)"),
+        ("blobs", [b"a", b"b", b"c"], r"an array of bytes with the shape \(2,\)"),
+        ("blobs", ["a", "b"], "an array of bytes"),
         ("string", "a\0b", "NUL"),
         ("binary", "x", "bytes"),
         ("colour", 3, "3 is none of the items of its type: "),
@@ -215,8 +240,17 @@ def test_values_that_are_none_of_a_variable(types, name, value, message):
         assert (caught.value.component, caught.value.variable) == ("types", name)
 
 
+def test_a_message_is_sent_and_not_set(types):
+    with stride.Simulation("types.ssd") as sim:
+        with pytest.raises(stride.InputError) as caught:
+            sim["types.receive.frame"] = b"x"
+        assert caught.value.hint == 'send it: sim.send("types.receive.frame", …)'
+
+
 def test_messages_that_nobody_receives(types):
     with stride.Simulation("types.ssd") as sim:
+        with pytest.raises(stride.InputError, match="'types.receive.frame' has two values"):
+            sim.send("types.receive.frame", b"x", **{"receive.frame": b"y"})
         for name, value in [("types.float64", 1.0), ("types.send.frame", b"x"), ("types.receive.clock", 3)]:
             with pytest.raises(stride.InputError):
                 sim.send(name, value)
@@ -478,7 +512,10 @@ def test_an_enumeration_is_set_by_number_or_name(types):
             sim.step(0.1)
             sim["types.colour"] = value
             assert sim["types.colour"] == number
-        with pytest.raises(stride.InputError, match="'blau' is not a value for it, expected one of red, green, blue"):
+        with pytest.raises(stride.InputError) as caught:
             sim["types.colour"] = "blau"
+        text = "'types.colour': 'blau' is not a value for it, expected one of red, green, blue"
+        assert (str(caught.value), caught.value.file) == (text, None)
+        assert (caught.value.component, caught.value.variable) == ("types", "colour")
         with pytest.raises(stride.InputError, match="a text has no NUL"):
             sim["types.colour"] = "a\0"

@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import Any, Literal, Union
 
 from .._errors import InputError
+from .._options import path_of
 from ..results import Run
 from ._film import film_events
 from ._log import Log, activity_events, failure_events, message_events, write_end
@@ -59,8 +60,8 @@ def export_mcap(run: Union[Run, PathLike], file: PathLike, *, epoch: Epoch = Non
         InputError: The folder has no results, a file of them is malformed, or the file cannot be there.
         RunError: The file cannot be written.
     """
-    run = run if isinstance(run, Run) else Run(os.fspath(run))
-    target = Path(file)
+    run = run if isinstance(run, Run) else Run(run)  # type: ignore[arg-type]  # which looks at it
+    target = Path(path_of(file, "the MCAP file"))
     _refuse_results(run.folder, target)
     begin = _begin(run.info, epoch)
     limit = csv.field_size_limit(sys.maxsize)  # a Binary value may be long
@@ -88,14 +89,15 @@ def _begin(info: dict[str, Any], epoch: Epoch) -> int:
     if isinstance(epoch, datetime):
         return since_1970(epoch)
     text = info.get("provenance", {}).get("date") if epoch == "run" else epoch
+    hint = "epoch is 'run' or a date such as 2026-11-27T04:09:51Z"
+    if not isinstance(epoch, str):
+        raise InputError(f"{epoch!r:.80} is no date", hint=hint)
     if text is None:
         raise InputError("these results do not say when the run was made", hint="name a date")
     try:
         return since_1970(date_of(text))
     except ValueError as error:
-        raise InputError(
-            f"'{text}' is no date", hint="epoch is 'run' or a date such as 2026-11-27T04:09:51Z"
-        ) from error
+        raise InputError(f"'{text}' is no date", hint=hint) from error
 
 
 def _write(folder: Path, info: dict[str, Any], output: Output) -> None:
