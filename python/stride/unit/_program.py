@@ -141,21 +141,21 @@ class Program:
         self._reply()
 
     def _step(self, size: int, may_stop: bool) -> None:
-        unit = self._unit
-        now = unit.now
+        unit, own = self._unit, self._own
+        now = own["now"]
         if size == 0:
             unit.event(now)
             self._reply()
             return
         unit._stride_end_ps = now.ps + size
         end = Time.from_ps(unit._stride_end_ps)
-        self._tell("early_return_allowed", may_stop)
+        unit.early_return_allowed = own["early_return_allowed"] = may_stop
         reached = unit.step(now, end)
-        self._require_own()
-        now = end if reached is None else self._reached(reached, now, end, may_stop)
-        self._tell("now", now)
+        if unit.now is not now or unit.early_return_allowed is not may_stop:
+            self._require_own()
+        unit.now = own["now"] = now = end if reached is None else self._reached(reached, now, end, may_stop)
         unit._stride_end_ps = now.ps
-        self._tell("early_return_allowed", False)
+        unit.early_return_allowed = own["early_return_allowed"] = False
         if self._announced is not None and now.ps >= self._announced:
             unit.event(now)
         self._reply()
