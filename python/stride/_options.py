@@ -8,6 +8,8 @@ from typing import Any, Optional
 
 from ._errors import InputError
 
+_BYTES = (bytes, bytearray, memoryview)
+
 Setting = tuple[str, Optional[str]]
 
 
@@ -46,7 +48,7 @@ def _text(value: Any) -> str:
         return "true" if value else "false"
     if value is None:
         raise InputError("None is no value of a variable")
-    if isinstance(value, (bytes, bytearray, memoryview)):
+    if isinstance(value, _BYTES):
         return bytes(value).hex()
     if isinstance(value, (str, os.PathLike)):
         return word_of(value, "a value")
@@ -62,6 +64,11 @@ def _text(value: Any) -> str:
         return repr(float(value))  # that of numpy has another text
     item = getattr(value, "item", None)  # a number of numpy
     return _text(item()) if item is not None else str(value)
+
+
+def _text_of_no_bytes(value: Any) -> str:
+    """Of what is no value of a variable, such as the name of a file."""
+    return word_of(value, "an option") if isinstance(value, _BYTES) else _text(value)
 
 
 def settings(options: Mapping[str, Any]) -> list[Setting]:
@@ -80,11 +87,12 @@ def settings(options: Mapping[str, Any]) -> list[Setting]:
         if value is True:
             found.append((name, None))
         elif isinstance(value, Mapping):
-            found.extend((name, f"{word_of(key, 'a name')}={_text(item)}") for key, item in value.items())
-        elif isinstance(value, (str, os.PathLike)) or not isinstance(value, Iterable):
-            found.append((name, _text(value)))
+            text = _text if name == "set" else _text_of_no_bytes
+            found.extend((name, f"{word_of(key, 'a name')}={text(item)}") for key, item in value.items())
+        elif isinstance(value, (str, os.PathLike, *_BYTES)) or not isinstance(value, Iterable):
+            found.append((name, _text_of_no_bytes(value)))
         else:
-            found.extend((name, _text(item)) for item in value)
+            found.extend((name, _text_of_no_bytes(item)) for item in value)
     return found
 
 

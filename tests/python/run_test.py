@@ -118,6 +118,8 @@ def test_signals_of_each_type(types):
         (lambda: stride.run("test.ssd", out="a\0"), "out: a text has no NUL"),
         (lambda: stride.run("test.ssd", out=3), "out is a text or a path, not 3"),
         (lambda: stride.run("test.ssd", out=""), "out: an empty name is that of no file and no folder"),
+        (lambda: stride.run("test.ssd", parameters=b"p.ssv"), "an option is a text or a path, not b'p.ssv'"),
+        (lambda: stride.run("test.ssd", swap={"first": b"a.fmu"}), "an option is a text or a path, not b'a.fmu'"),
         (lambda: stride.run("test.ssd", results="x"), "there is no 'results' here\n  hint: .* is out="),
         (lambda: stride.run(""), "the scenario: an empty name"),
         (lambda: stride.campaign("c.xosc", out=""), "out: an empty name"),
