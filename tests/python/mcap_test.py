@@ -328,7 +328,7 @@ def test_a_run_that_was_killed(folder, caplog):
 def test_files_that_are_empty(folder, caplog):
     stride.run("test.ssd", set={"first.u": 1}, out="out")
     for name in ("signals.csv", "events.csv"):
-        pathlib.Path("out", name).write_text("")
+        Path("out", name).write_text("")
     content = export(stride.Run("out"))
     assert content.messages["/signals/first"] == []
     for name in ("signals.csv", "events.csv"):
