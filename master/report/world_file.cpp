@@ -96,6 +96,7 @@ class Content {
     check_accessors();
     check_images();
     check_meshes();
+    check_skins();
     check_animations();
     check_nodes();
   }
@@ -109,18 +110,30 @@ class Content {
     if (!found->is_array()) fail("'{}' is no list", name);
     return *found;
   }
-  const json& list(const char* name) const {
-    const json& all = list(root_, name);
+  static const json& objects(const json& object, const char* name) {
+    const json& all = list(object, name);
     for (const json& each : all) {
       if (!each.is_object()) fail("an entry of '{}' is no object", name);
     }
     return all;
   }
+  const json& objects(const char* name) const { return objects(root_, name); }
+
+  /// An empty one where there is none.
+  static const json& member(const json& object, const char* name) {
+    static const json none = json::object();
+    const auto found = object.find(name);
+    if (found == object.end()) return none;
+    if (!found->is_object()) fail("'{}' is no object", name);
+    return *found;
+  }
 
   static std::optional<std::uint64_t> number(const json& object, const char* name) {
     const auto found = object.find(name);
     if (found == object.end()) return std::nullopt;
-    if (!found->is_number_unsigned()) fail("'{}' is {}, no index or size", name, found->dump());
+    if (!found->is_number_unsigned()) {
+      fail("'{}' is a {}, no index or size", name, found->type_name());
+    }
     return found->get<std::uint64_t>();
   }
 
@@ -134,16 +147,15 @@ class Content {
   }
   void require_indices(const json& indices, const char* among) const {
     for (const json& index : indices) {
-      if (!index.is_number_unsigned()) fail("{} is no index of '{}'", index.dump(), among);
+      if (!index.is_number_unsigned()) {
+        fail("a {} is no index of '{}'", index.type_name(), among);
+      }
       require_index(index.get<std::uint64_t>(), among);
     }
   }
   /// Of an object whose members are indices, such as the attributes of a primitive.
   void require_members(const json& object, const char* name, const char* among) const {
-    const auto found = object.find(name);
-    if (found == object.end()) return;
-    if (!found->is_object()) fail("'{}' is no object", name);
-    require_indices(*found, among);
+    require_indices(member(object, name), among);
   }
 
   /// Whether so many bytes from there on are within a length.
@@ -152,10 +164,10 @@ class Content {
   }
 
   void check_buffers() const {
-    const json& buffers = list("buffers");
+    const json& buffers = objects("buffers");
     if (buffers.size() > 1) fail("it has {} buffers, and can hold one", buffers.size());
     for (const json& buffer : buffers) {
-      if (buffer.contains("uri")) fail("its buffer is another file");
+      if (buffer.contains("uri")) fail("its buffer is not its binary part");
       if (number(buffer, "byteLength").value_or(0) > binary_) {
         fail("its buffer has {} bytes, and the file holds {} of them",
              *number(buffer, "byteLength"), binary_);
@@ -164,7 +176,7 @@ class Content {
   }
 
   void check_views() const {
-    for (const json& view : list("bufferViews")) {
+    for (const json& view : objects("bufferViews")) {
       require_index(view, "buffer", "buffers");
       const auto offset = number(view, "byteOffset").value_or(0);
       const auto length = number(view, "byteLength").value_or(0);
@@ -174,79 +186,105 @@ class Content {
     }
   }
 
-  /// Of one element, tightly packed; nothing for what is unknown.
+  static std::uint64_t bytes_of_component(const json& object) {
+    static const std::map<std::uint64_t, std::uint64_t> sizes = {{5120, 1}, {5121, 1}, {5122, 2},
+                                                                 {5123, 2}, {5125, 4}, {5126, 4}};
+    const auto size = sizes.find(number(object, "componentType").value_or(0));
+    if (size == sizes.end()) fail("an accessor is of no known type");
+    return size->second;
+  }
+
+  /// Of one element, tightly packed.
   static std::uint64_t bytes_of(const json& accessor) {
     static const std::map<std::string, std::uint64_t> components = {
         {"SCALAR", 1}, {"VEC2", 2}, {"VEC3", 3}, {"VEC4", 4},
         {"MAT2", 4},   {"MAT3", 9}, {"MAT4", 16}};
-    static const std::map<std::uint64_t, std::uint64_t> sizes = {{5120, 1}, {5121, 1}, {5122, 2},
-                                                                 {5123, 2}, {5125, 4}, {5126, 4}};
     const auto type = accessor.find("type");
-    const auto component = sizes.find(number(accessor, "componentType").value_or(0));
-    if (type == accessor.end() || !type->is_string() || component == sizes.end() ||
+    if (type == accessor.end() || !type->is_string() ||
         components.count(type->get<std::string>()) == 0) {
       fail("an accessor is of no known type");
     }
-    return components.at(type->get<std::string>()) * component->second;
+    return components.at(type->get<std::string>()) * bytes_of_component(accessor);
+  }
+
+  /// So many elements of `size` bytes are in the view that an object has.
+  void require_elements(const json& object, std::uint64_t count, std::uint64_t size) const {
+    require_index(object, "bufferView", "bufferViews");
+    const auto view = number(object, "bufferView");
+    if (!view || count == 0) return;
+    const json& holder = objects("bufferViews")[*view];
+    const std::uint64_t length = number(holder, "byteLength").value_or(0);
+    const std::uint64_t stride = number(holder, "byteStride").value_or(size);
+    const auto offset = number(object, "byteOffset").value_or(0);
+    if (!is_within(offset, size, length) ||
+        (count > 1 && (stride == 0 || count - 1 > (length - offset - size) / stride))) {
+      fail("an accessor has {} elements, more than its {} bytes can be", count, length);
+    }
   }
 
   void check_accessors() const {
-    for (const json& accessor : list("accessors")) {
-      require_index(accessor, "bufferView", "bufferViews");
-      const auto view = number(accessor, "bufferView");
+    for (const json& accessor : objects("accessors")) {
       const auto count = number(accessor, "count").value_or(0);
-      if (!view || count == 0) continue;
-      const json& holder = list("bufferViews")[*view];
-      const std::uint64_t length = number(holder, "byteLength").value_or(0);
-      const std::uint64_t size = bytes_of(accessor);
-      const std::uint64_t stride = number(holder, "byteStride").value_or(size);
-      const auto offset = number(accessor, "byteOffset").value_or(0);
-      if (!is_within(offset, size, length) ||
-          (count > 1 && (stride == 0 || count - 1 > (length - offset - size) / stride))) {
-        fail("an accessor has {} elements, more than its {} bytes can be", count, length);
-      }
+      require_elements(accessor, count, bytes_of(accessor));
+      const json& sparse = member(accessor, "sparse");
+      const auto others = number(sparse, "count").value_or(0);
+      if (others > count) fail("an accessor has {} elements, and others for {}", count, others);
+      if (others == 0) continue;
+      const json& places = member(sparse, "indices");
+      require_elements(places, others, bytes_of_component(places));
+      require_elements(member(sparse, "values"), others, bytes_of(accessor));
     }
   }
 
   void check_images() const {
-    for (const json& image : list("images")) {
-      if (image.contains("uri")) fail("one of its images is another file");
+    for (const json& image : objects("images")) {
+      if (image.contains("uri")) fail("one of its images is not in its binary part");
       require_index(image, "bufferView", "bufferViews");
     }
-    for (const json& texture : list("textures")) {
+    for (const json& texture : objects("textures")) {
       require_index(texture, "source", "images");
       require_index(texture, "sampler", "samplers");
     }
   }
 
   void check_meshes() const {
-    for (const json& mesh : list("meshes")) {
-      for (const json& primitive : list(mesh, "primitives")) {
+    for (const json& mesh : objects("meshes")) {
+      for (const json& primitive : objects(mesh, "primitives")) {
         require_members(primitive, "attributes", "accessors");
+        for (const json& target : objects(primitive, "targets")) {
+          require_indices(target, "accessors");
+        }
         require_index(primitive, "indices", "accessors");
         require_index(primitive, "material", "materials");
       }
     }
   }
 
+  void check_skins() const {
+    for (const json& skin : objects("skins")) {
+      require_indices(list(skin, "joints"), "nodes");
+      require_index(skin, "skeleton", "nodes");
+      require_index(skin, "inverseBindMatrices", "accessors");
+    }
+  }
+
   void check_animations() const {
-    for (const json& animation : list("animations")) {
-      const std::size_t samplers = list(animation, "samplers").size();
-      for (const json& sampler : list(animation, "samplers")) {
+    for (const json& animation : objects("animations")) {
+      const std::size_t samplers = objects(animation, "samplers").size();
+      for (const json& sampler : objects(animation, "samplers")) {
         require_index(sampler, "input", "accessors");
         require_index(sampler, "output", "accessors");
       }
-      for (const json& channel : list(animation, "channels")) {
+      for (const json& channel : objects(animation, "channels")) {
         if (number(channel, "sampler").value_or(0) >= samplers) fail("a channel has no sampler");
-        const auto target = channel.find("target");
-        if (target != channel.end()) require_index(*target, "node", "nodes");
+        require_index(member(channel, "target"), "node", "nodes");
       }
     }
   }
 
   /// Each has one parent at most, and roots none: so what is below a root is a tree.
   void check_nodes() const {
-    const json& nodes = list("nodes");
+    const json& nodes = objects("nodes");
     std::vector<bool> has_parent(nodes.size(), false);
     for (const json& node : nodes) {
       require_index(node, "mesh", "meshes");
@@ -260,7 +298,7 @@ class Content {
         has_parent[index] = true;
       }
     }
-    const json& scenes = list("scenes");
+    const json& scenes = objects("scenes");
     if (scenes.empty()) fail("it has no scene");
     require_index(root_, "scene", "scenes");
     for (const json& scene : scenes) {

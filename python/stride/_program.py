@@ -22,7 +22,7 @@ from .results import Run, TemporaryFolder
 __all__ = ["Campaign", "campaign", "run"]
 
 AnyError = TypeVar("AnyError", bound=Error)
-PathLike = Union[str, "os.PathLike[str]"]
+PathLike = Union[str, os.PathLike[str]]
 
 _ERROR = "stride: error: "
 _WARNING = "stride: warning: "

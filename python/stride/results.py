@@ -306,7 +306,7 @@ class Run:
 
         return pandas.DataFrame(dict(self.signals), index=pandas.Index(self.time, name="time"))
 
-    def to_mcap(self, file: Union[str, "os.PathLike[str]"], *, epoch: Union[None, str, datetime] = None) -> McapFile:
+    def to_mcap(self, file: Union[str, os.PathLike[str]], *, epoch: Union[None, str, datetime] = None) -> McapFile:
         """Writes all of it as an MCAP file, for Foxglove, PlotJuggler and Rerun; see `stride.export_mcap`."""
         from .export import export_mcap
 

@@ -26,7 +26,7 @@ from ._options import path_of, refuse_keyword, settings
 
 __all__ = ["Message", "Simulation", "Variable", "Verdict"]
 
-PathLike = Union[str, "os.PathLike[str]"]
+PathLike = Union[str, os.PathLike[str]]
 
 _DTYPES = [np.dtype(name) for name in "float32 float64 int8 uint8 int16 uint16 int32 uint32 int64 uint64 bool".split()]
 _STRING, _BINARY, _ENUMERATION, _CLOCK = range(11, 15)
