@@ -1,6 +1,10 @@
 #include "master/report/world_file.h"
 
+#include <algorithm>
 #include <cstddef>
+#include <cstring>
+#include <initializer_list>
+#include <limits>
 #include <map>
 #include <optional>
 #include <stdexcept>
@@ -29,8 +33,8 @@ template <class... Values>
 
 /// https://registry.khronos.org/glTF/specs/2.0/glTF-2.0.html#binary-gltf-layout
 struct Chunks {
-  std::string text;          ///< JSON
-  std::uint64_t binary = 0;  ///< how many bytes follow that
+  std::string text;    ///< JSON
+  std::string binary;  ///< what follows that
 };
 
 class Reader {
@@ -75,10 +79,12 @@ Chunks read_chunks(std::FILE* file, std::uintmax_t size) {
   chunks.text = reader.bytes(text);
   if (chunks.text.size() != text) fail("it is cut off");
   if (behind + kChunkHeader > size) return chunks;
-  chunks.binary = reader.number();
-  if (reader.number() != kBinary || behind + kChunkHeader + chunks.binary > size) {
+  const std::uint64_t binary = reader.number();
+  if (reader.number() != kBinary || behind + kChunkHeader + binary > size) {
     fail("what follows its JSON is not as long as it says, or no binary data");
   }
+  chunks.binary = reader.bytes(binary);
+  if (chunks.binary.size() != binary) fail("it is cut off");
   return chunks;
 }
 
@@ -91,6 +97,7 @@ class Content {
   }
 
   void check() const {
+    check_versions();
     check_buffers();
     check_views();
     check_accessors();
@@ -163,14 +170,31 @@ class Content {
     return offset <= length && count <= length - offset;
   }
 
+  /// The page cannot decode what is compressed by extensions.
+  void check_versions() const {
+    const json& asset = member(root_, "asset");
+    const auto version = asset.find("version");
+    if (version == asset.end() || !version->is_string() ||
+        !version->get<std::string>().starts_with("2.")) {
+      fail("it is no glTF 2.0");
+    }
+    for (const json& extension : list(root_, "extensionsRequired")) {
+      for (const char* unknown :
+           {"KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_texture_basisu"}) {
+        if (extension == unknown)
+          fail("it needs the extension {}, which is not known here", unknown);
+      }
+    }
+  }
+
   void check_buffers() const {
     const json& buffers = objects("buffers");
     if (buffers.size() > 1) fail("it has {} buffers, and can hold one", buffers.size());
     for (const json& buffer : buffers) {
       if (buffer.contains("uri")) fail("its buffer is not its binary part");
-      if (number(buffer, "byteLength").value_or(0) > binary_) {
+      if (number(buffer, "byteLength").value_or(0) > binary_.size()) {
         fail("its buffer has {} bytes, and the file holds {} of them",
-             *number(buffer, "byteLength"), binary_);
+             *number(buffer, "byteLength"), binary_.size());
       }
     }
   }
@@ -180,7 +204,7 @@ class Content {
       require_index(view, "buffer", "buffers");
       const auto offset = number(view, "byteOffset").value_or(0);
       const auto length = number(view, "byteLength").value_or(0);
-      if (!is_within(offset, length, binary_)) {
+      if (!is_within(offset, length, binary_.size())) {
         fail("{} bytes from {} on are not within its buffer", length, offset);
       }
     }
@@ -222,6 +246,30 @@ class Content {
     }
   }
 
+  /// Where the elements of a view begin, and how far apart they are.
+  struct Place {
+    std::uint64_t begin, stride;
+  };
+  Place place_of(const json& object, std::uint64_t size) const {
+    const json& holder = objects("bufferViews")[*number(object, "bufferView")];
+    return {number(holder, "byteOffset").value_or(0) + number(object, "byteOffset").value_or(0),
+            number(holder, "byteStride").value_or(size)};
+  }
+
+  /// Of integers that were found to be there.
+  void require_below(const json& object, std::uint64_t count, std::uint64_t limit) const {
+    if (!object.contains("bufferView")) return;
+    const std::uint64_t size = bytes_of_component(object);
+    auto [at, stride] = place_of(object, size);
+    for (std::uint64_t i = 0; i < count; ++i, at += stride) {
+      std::uint64_t value = 0;
+      for (std::uint64_t k = size; k-- > 0;) {
+        value = value << 8 | static_cast<unsigned char>(binary_[at + k]);
+      }
+      if (value >= limit) fail("it refers to element {} of {}", value, limit);
+    }
+  }
+
   void check_accessors() const {
     for (const json& accessor : objects("accessors")) {
       const auto count = number(accessor, "count").value_or(0);
@@ -232,6 +280,7 @@ class Content {
       if (others == 0) continue;
       const json& places = member(sparse, "indices");
       require_elements(places, others, bytes_of_component(places));
+      require_below(places, others, count);
       require_elements(member(sparse, "values"), others, bytes_of(accessor));
     }
   }
@@ -256,8 +305,18 @@ class Content {
         }
         require_index(primitive, "indices", "accessors");
         require_index(primitive, "material", "materials");
+        check_corners(primitive);
       }
     }
+  }
+
+  void check_corners(const json& primitive) const {
+    const auto indices = number(primitive, "indices");
+    const auto positions = number(member(primitive, "attributes"), "POSITION");
+    if (!indices || !positions) return;
+    const json& corners = objects("accessors")[*indices];
+    const auto vertices = number(objects("accessors")[*positions], "count").value_or(0);
+    require_below(corners, number(corners, "count").value_or(0), vertices);
   }
 
   void check_skins() const {
@@ -268,17 +327,61 @@ class Content {
     }
   }
 
+  /// Each keyframe has its values, and each is later than the one before.
+  void check_sampler(const json& sampler) const {
+    require_index(sampler, "input", "accessors");
+    require_index(sampler, "output", "accessors");
+    const auto input = number(sampler, "input");
+    const auto output = number(sampler, "output");
+    if (!input || !output) fail("a part of its animation has no times, or no values");
+    const auto is_cubic = sampler.value("interpolation", json()) == "CUBICSPLINE";
+    const json& times = objects("accessors")[*input];
+    const auto count = number(times, "count").value_or(0);
+    const auto values = number(objects("accessors")[*output], "count").value_or(0);
+    const std::uint64_t each = is_cubic ? 3 : 1;
+    if (count == 0 || values < count * each || values % (count * each) != 0) {
+      fail("a part of its animation has {} times, but {} values", count, values);
+    }
+    float last = -std::numeric_limits<float>::infinity();
+    for (const float time : floats(times)) {
+      if (!(time > last)) fail("the times of its animation do not grow");
+      last = time;
+    }
+  }
+
+  /// Of an accessor that is checked, of numbers; none where it is of another type.
+  std::vector<float> floats(const json& accessor) const {
+    const auto view = number(accessor, "bufferView");
+    if (!view || number(accessor, "componentType") != 5126 ||
+        accessor.value("type", "") != "SCALAR") {
+      fail("the times of its animation are no float numbers");
+    }
+    auto [at, stride] = place_of(accessor, sizeof(float));
+    std::vector<float> values(number(accessor, "count").value_or(0));
+    for (float& value : values) {
+      std::memcpy(&value, binary_.data() + at, sizeof value);
+      at += stride;
+    }
+    return values;
+  }
+
   void check_animations() const {
     for (const json& animation : objects("animations")) {
       const std::size_t samplers = objects(animation, "samplers").size();
-      for (const json& sampler : objects(animation, "samplers")) {
-        require_index(sampler, "input", "accessors");
-        require_index(sampler, "output", "accessors");
-      }
+      for (const json& sampler : objects(animation, "samplers")) check_sampler(sampler);
       for (const json& channel : objects(animation, "channels")) {
         if (number(channel, "sampler").value_or(0) >= samplers) fail("a channel has no sampler");
         require_index(member(channel, "target"), "node", "nodes");
       }
+    }
+  }
+
+  static void require_numbers(const json& object, const char* name, std::size_t size) {
+    const json& all = list(object, name);
+    if (!object.contains(name)) return;
+    const auto is_number = [](const json& each) { return each.is_number(); };
+    if (all.size() != size || !std::all_of(all.begin(), all.end(), is_number)) {
+      fail("'{}' are not {} numbers", name, size);
     }
   }
 
@@ -290,6 +393,10 @@ class Content {
       require_index(node, "mesh", "meshes");
       require_index(node, "camera", "cameras");
       require_index(node, "skin", "skins");
+      for (const auto& [name, size] : std::initializer_list<std::pair<const char*, std::size_t>>{
+               {"translation", 3}, {"rotation", 4}, {"scale", 3}, {"matrix", 16}}) {
+        require_numbers(node, name, size);
+      }
       const json& children = list(node, "children");
       require_indices(children, "nodes");
       for (const json& child : children) {
@@ -313,14 +420,15 @@ class Content {
   }
 
   json root_;
-  std::uint64_t binary_;
+  const std::string& binary_;
 };
 
 }  // namespace
 
 std::string mistake_in_world(std::FILE* file, std::uintmax_t size) {
   try {
-    Content(read_chunks(file, size)).check();
+    const Chunks chunks = read_chunks(file, size);
+    Content(chunks).check();
     return "";
   } catch (const Mistake& mistake) {
     return mistake.what();

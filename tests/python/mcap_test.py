@@ -427,14 +427,16 @@ def test_the_command(folder):
         (["out", "--mcap=link.mcap"], 2, "is one of the results"),
         (["out", "--mcap=/dev/full"], 1, "cannot write /dev/full: No space left on device"),
         (["wrong", "--mcap=x.mcap"], 2, "signals.csv:3: a value is wrong"),
+        (["back", "--mcap=x.mcap"], 2, "signals.csv:4: a value is wrong: the time goes back to 0.5"),
         (["short", "--mcap=x.mcap"], 2, "signals.csv:2: there are 2 fields; expected 3"),
         (["other", "--mcap=x.mcap"], 2, "signals.csv:1: its columns are time, a"),
     ],
 )
 def test_mistakes(folder, words, code, message):
-    for name in ("out", "wrong", "short", "other"):
+    for name in ("out", "wrong", "back", "short", "other"):
         stride.run("test.ssd", out=name, set={"first.u": 1})
     (folder / "wrong" / "signals.csv").write_text("time,first.y,second.y\n0,1,2\n1,2,x\n")
+    (folder / "back" / "signals.csv").write_text("time,first.y,second.y\n0,1,2\n1,2,3\n0.5,2,3\n")
     (folder / "short" / "signals.csv").write_text("time,first.y,second.y\n0,1\n1,2,3\n")
     (folder / "other" / "signals.csv").write_text("time,a\n0,1\n")
     (folder / "link.mcap").symlink_to("out/signals.csv")

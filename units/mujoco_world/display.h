@@ -29,7 +29,7 @@ struct Display {
 /// Where a magnetic dipole's field is as strong as on its axis in the distance R, it is
 /// R ((1 + 3 cos^2 t) / 4)^(1/6) away, t being the angle to the axis (|H| = m sqrt(1 + 3 cos^2 t) /
 /// (4 pi r^3): Jackson, "Classical Electrodynamics", 3rd ed., sect. 5.6). An ellipsoid of
-/// revolution with the same axes is drawn, which is inside of that by 5 % at most.
+/// revolution with the same axes is drawn, which is inside of that by 5.1 % at most.
 inline constexpr double kFieldWidth = 0.793700525984099737;  ///< across the axis: (1/4)^(1/6)
 inline constexpr float kFieldOpacity = 0.2F;
 

@@ -21,30 +21,34 @@ _FLOAT = 5126
 Z_TO_Y_UP = [-(0.5**0.5), 0.0, 0.0, 0.5**0.5]
 
 
+class NotShown(ValueError):
+    """A file that is damaged, or other than it is shown here; the text says how."""
+
+
 class Glb:
     """The document and the binary chunk of a file."""
 
     def __init__(self, data: bytes) -> None:
         if len(data) < 12:
-            raise ValueError("it is too short")
+            raise NotShown("it is too short")
         magic, version, length = struct.unpack_from("<III", data)
         if magic != _MAGIC or version != 2:
-            raise ValueError("it is no binary glTF 2.0")
+            raise NotShown("it is no binary glTF 2.0")
         if length != len(data):
-            raise ValueError(f"it has {len(data)} bytes where its header says {length}")
+            raise NotShown(f"it has {len(data)} bytes where its header says {length}")
         chunks: dict[int, memoryview] = {}
         at = 12
         while at + 8 <= length:
             size, kind = struct.unpack_from("<II", data, at)
             if at + 8 + size > length:
-                raise ValueError("a chunk is cut off")
+                raise NotShown("a chunk is cut off")
             chunks.setdefault(kind, memoryview(data)[at + 8 : at + 8 + size])
             at += 8 + size
         if _JSON not in chunks:
-            raise ValueError("it has no chunk of JSON")
+            raise NotShown("it has no chunk of JSON")
         self.document: dict[str, Any] = json.loads(bytes(chunks[_JSON]))
         if not isinstance(self.document, dict):
-            raise ValueError("its JSON is no object")
+            raise NotShown("its JSON is no object")
         self.binary = chunks.get(_BINARY, memoryview(b""))
         for index, accessor in enumerate(self.document.get("accessors", [])):
             self._require_elements(index, accessor)
@@ -56,16 +60,16 @@ class Glb:
         stride = self.document["bufferViews"][accessor["bufferView"]].get("byteStride", size)
         end = accessor.get("byteOffset", 0) + (accessor["count"] - 1) * stride + size
         if end > len(self.view(accessor["bufferView"])):
-            raise ValueError(f"accessor {index} has more elements, {accessor['count']}, than its buffer view has room for")
+            raise NotShown(f"accessor {index} has more elements, {accessor['count']}, than its buffer view has room for")
 
     def view(self, index: int) -> memoryview:
         """The bytes of a buffer view."""
         view = self.document["bufferViews"][index]
         if view["buffer"] != 0:
-            raise ValueError("it has a buffer in another file")
+            raise NotShown("it has a buffer in another file")
         begin, size = int(view.get("byteOffset", 0)), int(view["byteLength"])
         if begin < 0 or size < 0 or begin + size > len(self.binary):
-            raise ValueError(f"buffer view {index} is beyond its end")
+            raise NotShown(f"buffer view {index} is beyond its end")
         return self.binary[begin : begin + size]
 
     def floats(self, index: int) -> np.ndarray:
@@ -73,12 +77,12 @@ class Glb:
         accessor = self.document["accessors"][index]
         view = self.document["bufferViews"][accessor["bufferView"]]
         if accessor["componentType"] != _FLOAT or "sparse" in accessor or "byteStride" in view:
-            raise ValueError(f"accessor {index} is not one of tightly packed floats")
+            raise NotShown(f"accessor {index} is not one of tightly packed floats")
         width, count = _COMPONENTS[accessor["type"]], accessor["count"]
         data = self.view(accessor["bufferView"])
         values = np.frombuffer(data, "<f4", count * width, accessor.get("byteOffset", 0)).reshape(count, width)
         if not np.isfinite(values).all():
-            raise ValueError(f"accessor {index} has values that are no numbers")
+            raise NotShown(f"accessor {index} has values that are no numbers")
         return values.astype(float)
 
     def part(self, nodes: list[int], *, with_scale: bool = True) -> bytes:

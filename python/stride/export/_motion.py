@@ -7,7 +7,7 @@ from bisect import bisect_right
 from collections.abc import Sequence
 from typing import Any
 
-from ._glb import Glb
+from ._glb import Glb, NotShown
 from ._times import PICOSECONDS
 
 Value = tuple[float, ...]
@@ -18,9 +18,9 @@ class Track:
 
     def __init__(self, times: Sequence[int], values: Sequence[Value], interpolation: str = "LINEAR") -> None:
         if interpolation not in ("LINEAR", "STEP"):
-            raise ValueError(f"it is interpolated by {interpolation}")
+            raise NotShown(f"it is interpolated by {interpolation}")
         if len(times) != len(values) or not times or list(times) != sorted(times):
-            raise ValueError("keyframes are not in the order of time")
+            raise NotShown("keyframes are not in the order of time")
         self.times = times
         self._values = values
         self._is_step = interpolation == "STEP"
@@ -78,7 +78,7 @@ def tracks(glb: Glb, start: int) -> dict[tuple[int, str], Track]:
             times = [start + round(time * PICOSECONDS) for time in glb.floats(sampler["input"])[:, 0].tolist()]
             values = glb.floats(sampler["output"])
             if values.shape[1] != len(_STILL[target["path"]]):
-                raise ValueError(f"a {target['path']} has {values.shape[1]} numbers")
+                raise NotShown(f"a {target['path']} has {values.shape[1]} numbers")
             found[target["node"], target["path"]] = Track(
                 times, [tuple(value) for value in values.tolist()], sampler.get("interpolation", "LINEAR")
             )
@@ -88,8 +88,8 @@ def tracks(glb: Glb, start: int) -> dict[tuple[int, str], Track]:
 def still(node: dict[str, Any], path: str) -> Track:
     """Of a node that does not move."""
     if "matrix" in node:
-        raise ValueError(f"node '{node.get('name', '')}' has a matrix")
+        raise NotShown(f"node '{node.get('name', '')}' has a matrix")
     value = tuple(float(number) for number in node.get(path, _STILL[path]))
     if len(value) != len(_STILL[path]):
-        raise ValueError(f"a {path} has {len(value)} numbers")
+        raise NotShown(f"a {path} has {len(value)} numbers")
     return Track([0], [value])

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from ._files import is_regular, unit_folders
+from ._glb import NotShown
 from ._output import Channel, Output
 from ._signals import Event
 from ._times import timestamp
@@ -27,13 +28,13 @@ def world_events(folder: Path, output: Output) -> list[Iterator[Event]]:
     for component, file in files:
         try:
             if file.stat().st_size > _MOST_BYTES:
-                raise ValueError(f"it has more than {_MOST_BYTES} bytes")
+                raise NotShown(f"it has more than {_MOST_BYTES} bytes")
             world = World(file.read_bytes(), f"{component}/" if len(files) > 1 else "")
             models = {frame.name: world.glb.part(frame.geoms) for frame in world.with_geoms}
             parts = {geom: world.glb.part([geom], with_scale=False) for geom in world.geoms_of_lamps}
         except DAMAGES as error:
-            reason = f"{error} is missing, or of no known kind" if isinstance(error, KeyError) else error
-            _logger.warning("%s is damaged, and left out: %s", file, reason)
+            reason = error if isinstance(error, NotShown) else f"it is damaged ({type(error).__name__}: {error})"
+            _logger.warning("%s is left out: %s", file, reason)
             continue
         scene = _Scene(component, output)
         found.append(scene.show(world.start, models))

@@ -52,9 +52,13 @@ def signal_events(folder: Path, info: dict[str, Any], output: Output) -> Iterato
 def _rows(file: Path, header: list[str], writers: list[tuple[Channel, ComponentSignals]]) -> Iterator[Event]:
     if not file.is_file():
         raise InputError(f"the signals of this run are gone: there is no {file}")
+    last = None
     for line, row in rows(file, header):
         try:
             time = picoseconds(row[0])
+            if last is not None and time < last:
+                raise ValueError(f"the time goes back to {row[0]}")
+            last = time
             messages = [(channel, signals.encode(row)) for channel, signals in writers]
         except (ValueError, KeyError) as error:
             raise InputError(f"{file}:{line}: a value is wrong: {error}", file=str(file), line=line) from error

@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass, field
 from typing import Any
 
-from ._glb import Z_TO_Y_UP, Glb
+from ._glb import Z_TO_Y_UP, Glb, NotShown
 from ._motion import Track, still, tracks
 from ._times import picoseconds, picoseconds_of
 
@@ -66,7 +66,7 @@ class World:
         (root,) = scene["nodes"]
         turn = self._nodes[root].get("rotation", [0, 0, 0, 1])
         if not all(math.isclose(a, b, abs_tol=1e-6) for a, b in zip(turn, Z_TO_Y_UP)):
-            raise ValueError("its root does not turn z-up to y-up")
+            raise NotShown("its root does not turn z-up to y-up")
         self.root = Frame(self._name(root), "", still({}, "translation"), still({}, "rotation"))
         self._visited.add(root)
         self._add_below(root, self.root)
@@ -121,7 +121,7 @@ class World:
 
     def _visit(self, index: int) -> None:
         if index in self._visited:
-            raise ValueError(f"node {index} has two parents")
+            raise NotShown(f"node {index} has two parents")
         self._visited.add(index)
 
     def _track(self, node: int, path: str) -> Track:

@@ -70,9 +70,16 @@ const std::string kTriangle =
     R"({"asset":{"version":"2.0"},"scenes":[{"nodes":[0]}],"nodes":[{"children":[1]},{"mesh":0}],)"
     R"("meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1}]}],)"
     R"("accessors":[{"bufferView":0,"componentType":5126,"type":"VEC3","count":3},)"
-    R"({"bufferView":1,"componentType":5123,"type":"SCALAR","count":3}],)"
+    R"({"bufferView":1,"componentType":5123,"type":"SCALAR","count":3},)"
+    R"({"bufferView":0,"componentType":5126,"type":"SCALAR","count":9}],)"
     R"("bufferViews":[{"buffer":0,"byteOffset":0,"byteLength":36},)"
     R"({"buffer":0,"byteOffset":36,"byteLength":6}],"buffers":[{"byteLength":42}]})";
+
+/// Before "scenes": further accessors, of 9 numbers, and an animation.
+std::string animated(int input, int output) {
+  return fmt::format(R"("animations":[{{"samplers":[{{"input":{},"output":{}}}]}}],"scenes")",
+                     input, output);
+}
 
 /// The same file in which one part of the text is another one.
 std::string with(const std::string& part, const std::string& other) {
@@ -216,7 +223,7 @@ TEST_CASE("a component's world is a binary glTF 2.0 file, or is left out with th
           "an accessor has 1000000000 elements, more than its 36 bytes can be"},
          {with("5123", "5125"), "an accessor has 3 elements, more than its 6 bytes can be"},
          {with("5123", "1"), "an accessor is of no known type"},
-         {with("POSITION\":0", "POSITION\":2"), "it refers to number 2 of its 2 'accessors'"},
+         {with("POSITION\":0", "POSITION\":3"), "it refers to number 3 of its 3 'accessors'"},
          {with("POSITION\":0", "POSITION\":-1"), "a number is no index of 'accessors'"},
          {with("count\":3}", R"(count":3,"sparse":{"count":4}})"),
           "an accessor has 3 elements, and others for 4"},
@@ -226,6 +233,16 @@ TEST_CASE("a component's world is a binary glTF 2.0 file, or is left out with th
          {with("\"scenes\"", R"("skins":[{"joints":[7]}],"scenes")"),
           "it refers to number 7 of its 2 'nodes'"},
          {with("[{\"nodes\":[0]}]", "[1]"), "an entry of 'scenes' is no object"},
+         {glb(kTriangle, std::string(36, '\0') + std::string("\0\0\1\0\3\0", 6)),
+          "it refers to element 3 of 3"},
+         {with("2.0\"}", "3.0\"}"), "it is no glTF 2.0"},
+         {with("\"scenes\"", R"("extensionsRequired":["KHR_draco_mesh_compression"],"scenes")"),
+          "it needs the extension KHR_draco_mesh_compression, which is not known here"},
+         {with("{\"mesh\":0", "{\"rotation\":[0,0,0],\"mesh\":0"), "'rotation' are not 4 numbers"},
+         {with("{\"mesh\":0", "{\"scale\":null,\"mesh\":0"), "'scale' is no list"},
+         {with("\"scenes\"", animated(0, 1)), "the times of its animation are no float numbers"},
+         {with("\"scenes\"", animated(2, 2)), "the times of its animation do not grow"},
+         {with("\"scenes\"", animated(2, 0)), "a part of its animation has 9 times, but 3 values"},
          {with("mesh\":0", "mesh\":1"), "it refers to number 1 of its 1 'meshes'"},
          {with("mesh\":0", "mesh\":\"a\""), "'mesh' is a string, no index or size"},
          {with("\"buffers\":[{", "\"buffers\":[{\"uri\":\"a.bin\","),

@@ -56,6 +56,7 @@ struct Channel {
   int node;
   const char* path;
   bool is_inverse = false;  ///< of a switch: there where it is off
+  bool is_size = false;     ///< of a switch: its value is the scale
 };
 
 /// What is to be animated, as nodes.
@@ -162,7 +163,7 @@ class Builder {
     node(drawn).mesh = looks_.field_of(site);
     node(drawn).extras = stride_extras("field");
     const auto number = static_cast<std::size_t>(field - fields.begin());
-    nodes_.channels.push_back({animated_.first_field() + number, drawn, "scale"});
+    nodes_.channels.push_back({animated_.first_field() + number, drawn, "scale", false, true});
   }
 
   /// Both look along -z, y upwards.
@@ -297,9 +298,8 @@ class AnimationWriter {
   void finish() { document_.animations.push_back(std::move(animation_)); }
 
  private:
-  /// Of a field its reach.
-  float scale_of(const Channel& channel, float value) const {
-    if (types_[channel.track] != TrackType::Switch) return value;
+  static float scale_of(const Channel& channel, float value) {
+    if (channel.is_size) return value;
     return (value != 0) != channel.is_inverse ? 1.0F : 0.0F;
   }
 
@@ -362,8 +362,6 @@ std::vector<TrackType> Animated::tracks() const {
   for (std::size_t i = 0; i < first_lamp(); ++i) {
     types.push_back(i % 2 == 0 ? TrackType::Point : TrackType::Rotation);
   }
-  types.resize(first_field(), TrackType::Switch);
-  types.resize(first_contact(), TrackType::Point);
   types.resize(first_contact() + 3 * contacts, TrackType::Switch);
   return types;
 }

@@ -39,9 +39,15 @@ Shown shown_by(const World& world) {
   return shown;
 }
 
+/// To three digits: a field that hardly changes needs no keyframe at each pose.
+double rounded(double reach) {
+  const double digit = std::pow(10, std::floor(std::log10(reach)) - 2);
+  return std::round(reach / digit) * digit;
+}
+
 float reach_of(const Display& display, int site) {
   for (const ShownField& field : display.fields) {
-    if (field.site == site) return static_cast<float>(field.reach);
+    if (field.site == site) return static_cast<float>(rounded(field.reach));
   }
   return 0;
 }

@@ -228,6 +228,10 @@ TEST_CASE("a field is as large as it reaches, and is sampled where it comes and 
   filmed.world.set_field(0, 0.3);  // at the next pose
   filmed.advance(0.42);
   filmed.world.set_field(0, 0);
+  filmed.advance(0.6);
+  filmed.world.set_field(0, 0.12345);  // at the instant of a pose
+  filmed.advance(0.7);
+  filmed.world.set_field(0, 0);
   filmed.scene.show_display();
   const Glb glb = filmed.glb();
   const int field = glb.node("field", "coil");
@@ -237,12 +241,16 @@ TEST_CASE("a field is as large as it reaches, and is sampled where it comes and 
     return along.norm();
   };
   for (const auto& [time, expected] : {std::pair(0.0, 0.0),
-                                       {0.1, 0.0},
+                                       {0.122, 0.0},
                                        {0.123, 0.5},
-                                       {0.2, 0.5},
+                                       {0.299, 0.5},
                                        {0.3, 0.3},
-                                       {0.4, 0.3},
-                                       {0.42, 0.0}}) {
+                                       {0.419, 0.3},
+                                       {0.42, 0.0},
+                                       {0.599, 0.0},
+                                       {0.6, 0.123},
+                                       {0.699, 0.123},
+                                       {0.7, 0.0}}) {
     INFO(time);
     CHECK(reach(time) == Approx(expected).margin(1e-5));
   }
