@@ -14,6 +14,7 @@
 #include "master/report/page.h"
 #include "master/report/page_data.h"
 #include "master/report/page_file.h"
+#include "master/report/world_file.h"
 #include "master/util/error.h"
 #include "master/util/message_text.h"
 #include "master/util/untrusted_folder.h"

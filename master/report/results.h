@@ -40,9 +40,6 @@ struct World {
   std::filesystem::path file;  ///< in the results folder
 };
 
-/// A world may have so many bytes.
-inline constexpr std::size_t kLargestWorld = std::size_t{64} << 20;
-
 struct Limits {
   SignalLimits signals{};
   std::size_t messages = 100'000;

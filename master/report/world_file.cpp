@@ -15,8 +15,6 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "master/report/results.h"
-
 namespace stride::report {
 namespace {
 

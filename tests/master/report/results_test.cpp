@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "master/recorders/unit_folders.h"
+#include "master/report/world_file.h"
 #include "tests/master/report/support.h"
 
 using namespace stride;

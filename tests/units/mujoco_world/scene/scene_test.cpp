@@ -214,7 +214,7 @@ TEST_CASE("the world stands upright, and the notes tell of the run") {
     CHECK(notes->Get("interval").GetNumberAsDouble() == 0.03);
     CHECK(notes->Get("tolerance").GetNumberAsDouble() == 1e-6);
     CHECK(notes->Get("resolution").GetNumberAsDouble() == 0);
-    CHECK(notes->Get("samples").GetNumberAsInt() == 7);  // at -0.1, -0.09 … 0.06
+    CHECK(notes->Get("samples").GetNumberAsInt() == 8);  // at -0.1, -0.09 … 0.06, 0.0714
   }
   CHECK(glb.times(0, "translation") ==
         std::vector<float>{0, mujoco_world::scene::time_of_keyframe(0.1714)});
