@@ -7,6 +7,7 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <set>
 #include <stdexcept>
 #include <string_view>
 #include <utility>
@@ -123,6 +124,10 @@ class Content {
     return all;
   }
   const json& objects(const char* name) const { return objects(root_, name); }
+  /// Of a list that was looked at.
+  const json& entry(const char* name, std::uint64_t index) const {
+    return list(root_, name)[index];
+  }
 
   /// An empty one where there is none.
   static const json& member(const json& object, const char* name) {
@@ -234,7 +239,7 @@ class Content {
     require_index(object, "bufferView", "bufferViews");
     const auto view = number(object, "bufferView");
     if (!view || count == 0) return;
-    const json& holder = objects("bufferViews")[*view];
+    const json& holder = entry("bufferViews", *view);
     const std::uint64_t length = number(holder, "byteLength").value_or(0);
     const std::uint64_t stride = number(holder, "byteStride").value_or(size);
     const auto offset = number(object, "byteOffset").value_or(0);
@@ -249,7 +254,7 @@ class Content {
     std::uint64_t begin, stride;
   };
   Place place_of(const json& object, std::uint64_t size) const {
-    const json& holder = objects("bufferViews")[*number(object, "bufferView")];
+    const json& holder = entry("bufferViews", *number(object, "bufferView"));
     return {number(holder, "byteOffset").value_or(0) + number(object, "byteOffset").value_or(0),
             number(holder, "byteStride").value_or(size)};
   }
@@ -295,6 +300,7 @@ class Content {
   }
 
   void check_meshes() const {
+    std::set<std::pair<std::uint64_t, std::uint64_t>> used;  // corners and positions
     for (const json& mesh : objects("meshes")) {
       for (const json& primitive : objects(mesh, "primitives")) {
         require_members(primitive, "attributes", "accessors");
@@ -303,18 +309,16 @@ class Content {
         }
         require_index(primitive, "indices", "accessors");
         require_index(primitive, "material", "materials");
-        check_corners(primitive);
+        const auto corners = number(primitive, "indices");
+        const auto positions = number(member(primitive, "attributes"), "POSITION");
+        if (corners && positions) used.emplace(*corners, *positions);
       }
     }
-  }
-
-  void check_corners(const json& primitive) const {
-    const auto indices = number(primitive, "indices");
-    const auto positions = number(member(primitive, "attributes"), "POSITION");
-    if (!indices || !positions) return;
-    const json& corners = objects("accessors")[*indices];
-    const auto vertices = number(objects("accessors")[*positions], "count").value_or(0);
-    require_below(corners, number(corners, "count").value_or(0), vertices);
+    for (const auto& [indices, positions] : used) {
+      const json& corners = entry("accessors", indices);
+      require_below(corners, number(corners, "count").value_or(0),
+                    number(entry("accessors", positions), "count").value_or(0));
+    }
   }
 
   void check_skins() const {
@@ -325,21 +329,25 @@ class Content {
     }
   }
 
-  /// Each keyframe has its values, and each is later than the one before.
-  void check_sampler(const json& sampler) const {
+  /// Each keyframe has its values. Returns the accessor of the times.
+  std::uint64_t check_sampler(const json& sampler) const {
     require_index(sampler, "input", "accessors");
     require_index(sampler, "output", "accessors");
     const auto input = number(sampler, "input");
     const auto output = number(sampler, "output");
     if (!input || !output) fail("a part of its animation has no times, or no values");
     const auto is_cubic = sampler.value("interpolation", json()) == "CUBICSPLINE";
-    const json& times = objects("accessors")[*input];
+    const json& times = entry("accessors", *input);
     const auto count = number(times, "count").value_or(0);
-    const auto values = number(objects("accessors")[*output], "count").value_or(0);
+    const auto values = number(entry("accessors", *output), "count").value_or(0);
     const std::uint64_t each = is_cubic ? 3 : 1;
     if (count == 0 || values < count * each || values % (count * each) != 0) {
       fail("a part of its animation has {} times, but {} values", count, values);
     }
+    return *input;
+  }
+
+  void require_growth(const json& times) const {
     float last = -std::numeric_limits<float>::infinity();
     for (const float time : floats(times)) {
       if (!(time > last)) fail("the times of its animation do not grow");
@@ -347,7 +355,7 @@ class Content {
     }
   }
 
-  /// Of an accessor that is checked, of numbers; none where it is of another type.
+  /// Of an accessor that was looked at.
   std::vector<float> floats(const json& accessor) const {
     const auto view = number(accessor, "bufferView");
     if (!view || number(accessor, "componentType") != 5126 ||
@@ -364,14 +372,18 @@ class Content {
   }
 
   void check_animations() const {
+    std::set<std::uint64_t> times;  // many samplers share them
     for (const json& animation : objects("animations")) {
       const std::size_t samplers = objects(animation, "samplers").size();
-      for (const json& sampler : objects(animation, "samplers")) check_sampler(sampler);
+      for (const json& sampler : objects(animation, "samplers")) {
+        times.insert(check_sampler(sampler));
+      }
       for (const json& channel : objects(animation, "channels")) {
         if (number(channel, "sampler").value_or(0) >= samplers) fail("a channel has no sampler");
         require_index(member(channel, "target"), "node", "nodes");
       }
     }
+    for (const std::uint64_t accessor : times) require_growth(entry("accessors", accessor));
   }
 
   static void require_numbers(const json& object, const char* name, std::size_t size) {

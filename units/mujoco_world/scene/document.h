@@ -16,8 +16,8 @@ namespace mujoco_world::scene {
 
 /// What of a world can move or be switched, and so has tracks, in this order: a Point and a
 /// Rotation for each body, then camera, then light; a Switch for each lamp and for each field,
-/// whose value is its reach; for each contact its place, its orientation and whether there is one, all
-/// of them Switches.
+/// whose value is its reach; for each contact its place, its orientation and whether there is one,
+/// all of them Switches.
 struct Animated {
   std::vector<int> bodies;   ///< that are not fixed to their parent, in its frame
   std::vector<int> cameras;  ///< that follow something, in the world's frame
