@@ -166,6 +166,7 @@ TEST_CASE("a flag has its value behind '='") {
   CHECK_THAT(input_error_of(workspace.run({"--isolate="})),
              Contains("--isolate=: there is no value behind '='") && Contains("hint: leave"));
   CHECK_THAT(input_error_of(workspace.run({"--film="})), Contains("--film=: there is no value"));
+  CHECK_THAT(input_error_of(workspace.run({"--live="})), Contains("--live=: there is no value"));
   CHECK_THAT(input_error_of(workspace.stride({"check", "--isolate", "first", "test.ssd"})),
              Contains("test.ssd") && Contains("as in --isolate=VALUE"));
   CHECK_FALSE(fs::exists(workspace / "out"));

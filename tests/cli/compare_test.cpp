@@ -159,6 +159,7 @@ TEST_CASE("what is wrong with the input is an error with its place, and the answ
                  Contains("did you mean 'first.y'?"));
   CHECK_THAT(runs.error({"--absolute", "-1"}), Contains("--absolute -1: "));
   CHECK_THAT(runs.error({"--time-tolerance", "soon"}), Contains("--time-tolerance soon: "));
+  CHECK_THAT(runs.error({"--time-tolerance", ""}), Contains("--time-tolerance "));
   CHECK_THAT(runs.error({"--tolerance", "first.y"}), Contains("expected SIGNAL=ABSOLUTE"));
   CHECK_THAT(input_error_of(runs.workspace.stride({"compare", "a", "c"})),
              Contains("c: this is not a folder"));

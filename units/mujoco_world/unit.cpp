@@ -164,8 +164,8 @@ class MujocoWorld : public stride::Unit {
   static stride::Duration interval_of(const char* parameter, double seconds) {
     constexpr double kLeast = 1e-6;
     if (seconds > 0 && seconds < kLeast) {
-      throw std::invalid_argument(std::string(parameter) + ": " + std::to_string(seconds) +
-                                  " s is too short; expected 0 for none, or at least 1e-6 s");
+      throw std::invalid_argument(std::string(parameter) +
+                                  ": too short; expected 0 for none, or at least 1e-6 s");
     }
     return stride::duration_from_seconds(seconds);
   }

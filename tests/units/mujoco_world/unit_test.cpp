@@ -232,6 +232,16 @@ TEST_CASE("a lamp is an input that moves nothing", "[mujoco_world]") {
   }
 }
 
+TEST_CASE("films and scenes whose intervals would never end are errors", "[mujoco_world]") {
+  const char* const parameter = GENERATE("film.interval", "scene.interval");
+  const ScratchFolder scratch;
+  WorldUnit world(worlds::kTumble, scratch / "run");
+  REQUIRE(world->set_real(parameter, 1e-12) == fmi3OK);
+  CHECK(world->start_steps() != fmi3OK);
+  CHECK(world.said(std::string(parameter) + ": ") == 1);
+  CHECK(world.said("expected 0 for none, or at least 1e-6 s") == 1);
+}
+
 TEST_CASE("a scene goes on where a serialised state is restored", "[mujoco_world]") {
   const ScratchFolder scratch;
   const auto start = [](WorldUnit& world) {
