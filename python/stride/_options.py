@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable, Mapping
-from typing import Any, Optional
+from typing import Any, Optional, Union
 
 from ._errors import InputError
+
+PathLike = Union[str, os.PathLike[str]]
 
 _BYTES = (bytes, bytearray, memoryview)
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import logging
-import os
 import shutil
 import signal
 import subprocess
@@ -15,14 +14,13 @@ import numpy as np
 
 from ._errors import Error, InputError, RunError, parse_error
 from ._installed import program
-from ._options import file_word, path_of, refuse_keyword, words
+from ._options import PathLike, file_word, path_of, refuse_keyword, words
 from ._rows import read_table
 from .results import Run, TemporaryFolder
 
 __all__ = ["Campaign", "campaign", "run"]
 
 AnyError = TypeVar("AnyError", bound=Error)
-PathLike = Union[str, os.PathLike[str]]
 
 _ERROR = "stride: error: "
 _WARNING = "stride: warning: "

@@ -27,25 +27,30 @@ def rows(file: Path, header: list[str]) -> Iterator[tuple[int, list[str]]]:
     """
     found = _whole_lines(file)
     _, first = next(found, (0, header))
-    if file.stat().st_size == 0:
-        _log.warning("%s is empty: its run was ended before it was written, or it is damaged", file)
     if first != header:
         text = f"its columns are {', '.join(first)}; expected {', '.join(header)}"
         raise InputError(f"{file}:1: {text}", file=str(file), line=1)
-    for line, row in found:
-        if len(row) != len(header):
-            text = f"there are {len(row)} fields; expected {len(header)}"
+    yield from _of_width(file, found, len(header))
+
+
+def _of_width(file: Path, lines: Iterator[tuple[int, list[str]]], width: int) -> Iterator[tuple[int, list[str]]]:
+    for line, row in lines:
+        if len(row) != width:
+            text = f"there are {len(row)} fields; expected {width}"
             raise InputError(f"{file}:{line}: {text}", file=str(file), line=line)
         yield line, row
 
 
 def read_table(file: Path) -> tuple[list[str], list[list[str]]]:
     """The header, whatever it is, and the rows below it; likewise."""
-    _, header = next(_whole_lines(file), (0, []))
-    return header, [row for _, row in rows(file, header)]
+    found = _whole_lines(file)
+    _, header = next(found, (0, []))
+    return header, [row for _, row in _of_width(file, found, len(header))]
 
 
 def _whole_lines(file: Path) -> Iterator[tuple[int, list[str]]]:
+    if file.stat().st_size == 0:
+        _log.warning("%s is empty: its run was ended before it was written, or it is damaged", file)
     with file.open(newline="", encoding="utf-8", errors="replace") as lines:
         yield from _without_cut_end(file, csv.reader(lines, strict=True))
 

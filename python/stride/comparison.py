@@ -8,8 +8,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Optional, Union
 
-from ._options import file_word, words
-from ._program import PathLike, answer_of
+from ._options import PathLike, file_word, words
+from ._program import answer_of
 from .results import Run
 
 __all__ = ["Comparison", "Difference", "Extreme", "InputDifference", "compare"]

@@ -16,17 +16,16 @@ from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
-from typing import Any, Optional, Union
+from typing import Any, Optional
 
 import numpy as np
 
 from . import _library as c
 from ._errors import InputError, MisuseError, RunError
-from ._options import path_of, refuse_keyword, settings
+from ._options import PathLike, path_of, refuse_keyword, settings
 
 __all__ = ["Message", "Simulation", "Variable", "Verdict"]
 
-PathLike = Union[str, os.PathLike[str]]
 
 _DTYPES = [np.dtype(name) for name in "float32 float64 int8 uint8 int16 uint16 int32 uint32 int64 uint64 bool".split()]
 _STRING, _BINARY, _ENUMERATION, _CLOCK = range(11, 15)

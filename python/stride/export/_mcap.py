@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import csv
 import heapq
-import os
 import sys
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -13,7 +12,7 @@ from pathlib import Path
 from typing import Any, Literal, Union
 
 from .._errors import InputError
-from .._options import path_of
+from .._options import PathLike, path_of
 from ..results import Run
 from ._film import film_events
 from ._log import Log, activity_events, failure_events, message_events, write_end
@@ -24,7 +23,6 @@ from ._times import date_of, picoseconds_of, since_1970
 
 __all__ = ["Epoch", "McapFile", "export_mcap"]
 
-PathLike = Union[str, "os.PathLike[str]"]
 
 #: The date of the simulated 0 s: "run", when the run was made; a date as text of ISO 8601, or as an object.
 Epoch = Union[None, Literal["run"], str, datetime]
