@@ -237,20 +237,14 @@ void check_drive_ripples(const mjModel& model, const fs::path& file) {
   }
 }
 
-std::vector<Lamp> list_lamps(const mjModel& model) {
-  std::vector<Lamp> lamps;
-  for (const std::string& name : words_of_text(model, kLamps)) {
-    lamps.push_back({name, mj_name2id(&model, mjOBJ_GEOM, name.c_str())});
+/// The objects that a text of the model lists, as names and ids.
+template <class Entry>
+std::vector<Entry> list_named(const mjModel& model, const char* text, int type) {
+  std::vector<Entry> list;
+  for (const std::string& name : words_of_text(model, text)) {
+    list.push_back({name, mj_name2id(&model, type, name.c_str())});
   }
-  return lamps;
-}
-
-std::vector<Field> list_fields(const mjModel& model) {
-  std::vector<Field> fields;
-  for (const std::string& name : words_of_text(model, kFields)) {
-    fields.push_back({name, mj_name2id(&model, mjOBJ_SITE, name.c_str())});
-  }
-  return fields;
+  return list;
 }
 
 void switch_off_irreproducible(mjModel& model, const fs::path& file) {
@@ -329,8 +323,12 @@ ModelPointer load_model(const fs::path& file) {
 }
 
 Catalogue list(const mjModel& model) {
-  return {list_actuators(model), list_joints(model), list_sites(model),
-          list_sensors(model),   list_lamps(model),  list_fields(model)};
+  return {list_actuators(model),
+          list_joints(model),
+          list_sites(model),
+          list_sensors(model),
+          list_named<Lamp>(model, kLamps, mjOBJ_GEOM),
+          list_named<Field>(model, kFields, mjOBJ_SITE)};
 }
 
 std::string name_of(const mjModel& model, int type, int id) {

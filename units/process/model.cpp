@@ -168,13 +168,10 @@ Sync Session::read_answer(Time to, bool may_stop) {
 void Session::take_last(std::string_view line) {
   try {
     tag_.parse(line);
-    if (tag_.name() == "log") take_log();
-    if (tag_.name() == "error") fail_by_itself();
+    read_tag(tag_.name());
   } catch (const std::invalid_argument&) {
   }
 }
-
-void Session::fail_by_itself() const { lines_.fail("fails: " + std::string(tag_.text("text"))); }
 
 void Session::read_tag(std::string_view name) {
   if (name == "log") return take_log();
@@ -184,7 +181,7 @@ void Session::read_tag(std::string_view name) {
     unit_ = Duration(picoseconds);
     return;
   }
-  if (name == "error") fail_by_itself();
+  if (name == "error") lines_.fail("fails: " + std::string(tag_.text("text")));
   throw std::invalid_argument("<" + std::string(name) +
                               "> is not known: expected <output>, <message>, <log>, <time-unit>, "
                               "<error> or <sync>");

@@ -80,7 +80,6 @@ class Session {
   Sync read_answer(stride::Time to, bool may_stop);
   void read_tag(std::string_view line);
   void take_last(std::string_view line);
-  [[noreturn]] void fail_by_itself() const;
   void take_output();
   void take_message(stride::Time to);
   void take_log();

@@ -131,11 +131,7 @@ const Picture& Renderer::draw(const mjModel& model, mjData& data, const Display&
   guarded([&] {
     mjv_updateScene(&model, &data, &options_, nullptr, &camera_, mjCAT_ALL, &scene_);
     light_up(model, display.shining);
-    for (const ShownField& field : display.fields) {
-      if (scene_.ngeom < scene_.maxgeom) {
-        scene_.geoms[scene_.ngeom++] = field_geom(model, data, field);
-      }
-    }
+    for (const ShownField& field : display.fields) add(field_geom(model, data, field));
     if (is_unchanged(model)) return;
     screen_->with([&] {
       mjr_render(frame_, &scene_, &context_);
@@ -154,9 +150,13 @@ void Renderer::light_up(const mjModel& model, const std::vector<int>& shining) {
     if (geom->objtype != mjOBJ_GEOM) continue;
     if (std::find(shining.begin(), shining.end(), geom->objid) == shining.end()) continue;
     brighten(*geom);
-    if (scene_.ngeom == scene_.maxgeom) continue;
-    scene_.geoms[scene_.ngeom++] = halo_of(*geom, model.geom_rbound[geom->objid]);
+    add(halo_of(*geom, model.geom_rbound[geom->objid]));
   }
+}
+
+/// As long as there is room.
+void Renderer::add(const mjvGeom& geom) {
+  if (scene_.ngeom < scene_.maxgeom) scene_.geoms[scene_.ngeom++] = geom;
 }
 
 bool Renderer::is_unchanged(const mjModel& model) {

@@ -53,6 +53,7 @@ class Renderer {
 
   void make(const mjModel& model);
   void light_up(const mjModel& model, const std::vector<int>& shining);
+  void add(const mjvGeom& geom);
   bool is_unchanged(const mjModel& model);
   void read_pixels();
 

@@ -6,7 +6,6 @@
 #include <sstream>
 #include <utility>
 
-#include "units/mujoco_world/mjcf.h"
 #include "units/mujoco_world/mujoco_api.h"
 #include "units/mujoco_world/scene/buffer.h"
 #include "units/mujoco_world/scene/looks.h"
@@ -366,7 +365,7 @@ std::vector<TrackType> Animated::tracks() const {
   return types;
 }
 
-Animated animated_of(const mjModel& model, const Shown& shown) {
+Animated animated_of(const mjModel& model, const Catalogue& catalogue) {
   constexpr std::size_t kMostContacts = 64;
   Animated animated;
   for (int i = 1; i < model.nbody; ++i) {
@@ -378,8 +377,8 @@ Animated animated_of(const mjModel& model, const Shown& shown) {
   for (int i = 0; i < model.nlight; ++i) {
     if (model.light_mode[i] != mjCAMLIGHT_FIXED) animated.lights.push_back(i);
   }
-  animated.lamps = shown.lamps;
-  animated.fields = shown.fields;
+  for (const Lamp& lamp : catalogue.lamps) animated.lamps.push_back(lamp.geom);
+  for (const Field& field : catalogue.fields) animated.fields.push_back(field.site);
   animated.contacts = kMostContacts;
   return animated;
 }

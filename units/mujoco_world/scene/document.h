@@ -10,6 +10,7 @@
 
 #include <mujoco/mujoco.h>
 
+#include "units/mujoco_world/mjcf.h"
 #include "units/mujoco_world/scene/track.h"
 
 namespace mujoco_world::scene {
@@ -32,13 +33,7 @@ struct Animated {
   std::size_t first_contact() const { return first_field() + fields.size(); }
 };
 
-/// What of a world devices can show.
-struct Shown {
-  std::vector<int> lamps;   ///< geoms
-  std::vector<int> fields;  ///< sites
-};
-
-Animated animated_of(const mjModel& model, const Shown& shown);
+Animated animated_of(const mjModel& model, const Catalogue& catalogue);
 
 /// A quaternion (w first) whose -z is a direction, as a light's node has it.
 void light_orientation(const double* direction, double* quaternion);

@@ -32,13 +32,6 @@ Duration checked(Duration interval) {
   throw std::invalid_argument("the interval of a scene is not above 0");
 }
 
-Shown shown_by(const World& world) {
-  Shown shown;
-  for (const Lamp& lamp : world.catalogue().lamps) shown.lamps.push_back(lamp.geom);
-  for (const Field& field : world.catalogue().fields) shown.fields.push_back(field.site);
-  return shown;
-}
-
 /// To three digits: a field that hardly changes needs no keyframe at each pose.
 double rounded(double reach) {
   const double digit = std::pow(10, std::floor(std::log10(reach)) - 2);
@@ -118,7 +111,7 @@ Scene::Scene(World& world, Duration interval, const fs::path& file, AnimationLim
     : world_(world),
       interval_(checked(interval)),
       file_(file),
-      document_(world.model(), animated_of(world.model(), shown_by(world))),
+      document_(world.model(), animated_of(world.model(), world.catalogue())),
       animation_(
           document_.animated().tracks(),
           [&] {
