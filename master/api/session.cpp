@@ -17,6 +17,7 @@
 
 #include "master/api/process_use.h"
 #include "master/checkpoint/checkpoint_file.h"
+#include "master/model/item_text.h"
 #include "master/results/checkpoint_states.h"
 #include "master/results/output_paths.h"
 #include "master/results/provenance.h"
@@ -301,11 +302,8 @@ void Session::require_value(core::VariableId id, const core::ValueBlock& value) 
   const auto numbers = variable.items | std::views::values;
   for (const std::int64_t number : value.numbers<std::int64_t>()) {
     if (std::ranges::find(numbers, number) != numbers.end()) continue;
-    const auto items = variable.items | std::views::transform([](const auto& item) {
-                         return fmt::format("{} ({})", item.first, item.second);
-                       });
     core::fail_input(context(id), fmt::format("{} is none of the items of its type: {}", number,
-                                              fmt::join(items, ", ")));
+                                              core::item_text(variable.items)));
   }
 }
 

@@ -5,8 +5,8 @@
 #include <map>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
+#include "master/model/item_text.h"
 #include "master/model/meant_value.h"
 #include "master/model/number_range.h"
 #include "master/util/boolean_text.h"
@@ -249,12 +249,6 @@ class Composer {
          fmt::format("the target {} of the mapping is not an item of the Enumeration of '{}'",
                      target, to.name),
          fmt::format("its items are {}", item_text(to.items)));
-  }
-
-  static std::string item_text(const EnumerationItems& items) {
-    std::vector<std::string> texts;
-    for (const auto& [item, number] : items) texts.push_back(fmt::format("{} ({})", item, number));
-    return fmt::format("{}", fmt::join(texts, ", "));
   }
 
   /// Whatever an enumeration's items, or the numbers of an integer, become must be in the target.

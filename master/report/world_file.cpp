@@ -108,13 +108,22 @@ class Content {
   }
 
  private:
-  /// A list of objects of the root, or of another object.
-  static const json& list(const json& object, const char* name) {
-    static const json none = json::array();
+  /// A member of this type; an empty one where there is none.
+  static const json& part(const json& object, const char* name, const json& none) {
     const auto found = object.find(name);
     if (found == object.end()) return none;
-    if (!found->is_array()) fail("'{}' is no list", name);
+    if (found->type() != none.type()) {
+      fail("'{}' is no {}", name, none.is_array() ? "list" : "object");
+    }
     return *found;
+  }
+  static const json& member(const json& object, const char* name) {
+    static const json none = json::object();
+    return part(object, name, none);
+  }
+  static const json& list(const json& object, const char* name) {
+    static const json none = json::array();
+    return part(object, name, none);
   }
   static const json& objects(const json& object, const char* name) {
     const json& all = list(object, name);
@@ -127,15 +136,6 @@ class Content {
   /// Of a list that was looked at.
   const json& entry(const char* name, std::uint64_t index) const {
     return list(root_, name)[index];
-  }
-
-  /// An empty one where there is none.
-  static const json& member(const json& object, const char* name) {
-    static const json none = json::object();
-    const auto found = object.find(name);
-    if (found == object.end()) return none;
-    if (!found->is_object()) fail("'{}' is no object", name);
-    return *found;
   }
 
   static std::optional<std::uint64_t> number(const json& object, const char* name) {
