@@ -13,6 +13,8 @@
 #include <spdlog/spdlog.h>
 
 #include "master/campaign/campaign_file.h"
+#include "master/campaign/case_folder.h"
+#include "master/campaign/case_table.h"
 #include "master/campaign/plan_check.h"
 #include "master/campaign/plan_folder.h"
 #include "master/cli/output.h"

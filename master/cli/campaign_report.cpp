@@ -10,6 +10,7 @@
 #include "master/campaign/campaign_page.h"
 #include "master/campaign/case_table.h"
 #include "master/campaign/plan_folder.h"
+#include "master/cli/browser.h"
 #include "master/cli/output.h"
 #include "master/results/output_paths.h"
 #include "master/results/report_page.h"

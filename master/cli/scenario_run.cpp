@@ -31,6 +31,7 @@
 #include "master/recorders/provenance.h"
 #include "master/recorders/results_folder.h"
 #include "master/recorders/unit_folders.h"
+#include "master/results/checkpoint_states.h"
 #include "master/results/output_paths.h"
 #include "master/results/provenance.h"
 #include "master/results/report_page.h"

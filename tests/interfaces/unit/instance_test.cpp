@@ -9,6 +9,7 @@
 #include <catch2/catch.hpp>
 
 #include <stride/time.h>
+#include <stride/unit/step.h>
 
 #include "tests/build.h"
 #include "tests/interfaces/unit/importer.h"
