@@ -12,13 +12,14 @@ namespace stride::core {
 class OwnExit {
  public:
   /// To be called right before exit(), or the end of main().
-  static void begin() {
-    ::on_exit([](int, void*) { frame_ = __builtin_frame_address(0); }, nullptr);
-  }
+  static void begin() { ::on_exit(note_frame, nullptr); }
   /// In a function registered with on_exit(), whose __builtin_frame_address(0) this is.
   static bool is_caller_of(const void* frame) { return frame == frame_; }
 
  private:
+  /// No lambda, whose pointer calls its body one frame further down in an unoptimized build.
+  static void note_frame(int, void*) { frame_ = __builtin_frame_address(0); }
+
   static inline const void* frame_ = nullptr;
 };
 
