@@ -7,6 +7,7 @@
 
 #include "master/remote/codec.h"
 #include "master/remote/description_files.h"
+#include "master/remote/greeting.h"
 #include "master/remote/place.h"
 #include "master/remote/serve.h"
 #include "tests/fuzz/core_errors.h"

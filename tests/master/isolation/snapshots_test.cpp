@@ -24,7 +24,6 @@
 
 using namespace stride::isolation;
 using Catch::Contains;
-namespace process = stride::isolation;
 
 namespace {
 
@@ -39,7 +38,7 @@ struct World {
   int most_processes = 0;  ///< that the supervisor had at a time, as far as it saw
 };
 
-using SharedWorld = isolation::Shared<World>;
+using SharedWorld = Shared<World>;
 using Serve = std::function<void(World&, Snapshots&)>;
 
 int count_children() {
@@ -62,7 +61,7 @@ int count_children() {
 /// it.
 std::string run(SharedWorld& world, const Serve& serve, SnapshotOptions options = {}) {
   options.context.unit = "u";
-  const auto outcome = isolation::run_in_child([&] {
+  const auto outcome = run_in_child([&] {
     const pid_t server = ::fork();
     if (server == 0) begin(*world, serve, options);
     pid_t nobody = 0;
@@ -76,7 +75,7 @@ std::string run(SharedWorld& world, const Serve& serve, SnapshotOptions options 
     world->status = status;
     return std::string(world->error.data());
   });
-  REQUIRE(outcome.end == isolation::ChildOutcome::End::Answered);
+  REQUIRE(outcome.end == ChildOutcome::End::Answered);
   return outcome.text;
 }
 
@@ -175,7 +174,7 @@ TEST_CASE("threads and processes of the unit are refused, while there are any") 
     }
     is_over = true;
     thread.join();
-    while (isolation::thread_count() > 1) ::usleep(100);
+    while (thread_count() > 1) ::usleep(100);
     snapshots.save(0);
     w.seen[0] = 1;
   };
@@ -259,7 +258,7 @@ TEST_CASE("what a process taken back has written is not there twice") {
 
 TEST_CASE("nothing stays when the supervisor is killed") {
   SharedWorld world;
-  const auto outcome = isolation::run_in_child(
+  const auto outcome = run_in_child(
       [&] {
         ::prctl(PR_SET_CHILD_SUBREAPER, 1);
         const pid_t supervisor = ::fork();
@@ -271,7 +270,7 @@ TEST_CASE("nothing stays when the supervisor is killed") {
             for (;;) ::pause();
           };
           if (::fork() == 0) {
-            isolation::end_with(::getppid());
+            end_with(::getppid());
             begin(*world, serve, {});
           }
           for (;;) ::pause();
@@ -281,6 +280,6 @@ TEST_CASE("nothing stays when the supervisor is killed") {
         return std::to_string(count);
       },
       {.limit = std::chrono::seconds(60)});
-  CHECK(outcome.end == isolation::ChildOutcome::End::Answered);
+  CHECK(outcome.end == ChildOutcome::End::Answered);
   CHECK(std::stoi(outcome.text) >= 5);
 }

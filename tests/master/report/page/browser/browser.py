@@ -58,6 +58,7 @@ class Browser:
         self.driver.get(address)
         self.wait_for("return document.getElementById('report').getAttribute('aria-busy') === 'false'"
                       " || document.querySelector('[role=alert]') !== null")
+        self.settle()
         return self
 
     def resize(self, width, height):
@@ -79,7 +80,7 @@ class Browser:
             time.sleep(0.02)
 
     def settle(self):
-        """Two pictures later all that was told has been drawn."""
+        """Waits for two frames, after which the page has drawn what changed."""
         self.driver.execute_async_script(
             "const done = arguments[0]; requestAnimationFrame(() => requestAnimationFrame(done));")
 
