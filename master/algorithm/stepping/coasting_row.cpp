@@ -104,18 +104,18 @@ void CoastingRow::step_next(std::size_t stretch, const StepInterval& interval, P
 /// Saves take some nanoseconds only, so what it takes to read the clock is left out.
 void CoastingRow::step_next_measured(std::size_t stretch, const StepInterval& interval,
                                      Progress& progress) {
-  using Clock = WallClock::Source;
+  const auto now = interval_.now();
   SaveInterval::Cost save{}, step{};
   for (; progress.plain < members_.size(); ++progress.plain) {
     const auto& [unit, values] = members_[progress.plain];
-    const auto before = Clock::now();
-    const auto began = Clock::now();
+    const auto before = now();
+    const auto began = now();
     unit->join_row(stretch);
-    const auto saved = Clock::now();
+    const auto saved = now();
     progress.result = unit->step_in_row(interval, values);
     const auto reading = began - before;
     save += saved - began - reading;
-    step += Clock::now() - saved - reading;
+    step += now() - saved - reading;
     if (!progress.result.reached_without_request(interval.to)) return;
   }
   interval_.add_costs(save, step);

@@ -93,9 +93,9 @@ inline StepResult CoastingUnit::make_step(const StepInterval& interval, const St
   const StepInterval step = noted(interval);
   is_in_step_ = true;
   const bool is_measured = std::exchange(is_measured_, false);
-  const auto began = is_measured ? WallClock::Source::now() : WallClock::Source::time_point();
+  const auto began = is_measured ? interval_.now()() : WallClock::Source::time_point();
   const StepResult result = inner().step(step, values);
-  if (is_measured) interval_.add_costs(save_cost_, WallClock::Source::now() - began);
+  if (is_measured) interval_.add_costs(save_cost_, interval_.now()() - began);
   is_in_step_ = false;
   log_step(step, values.outputs, result);
   return result;
@@ -188,11 +188,11 @@ void CoastingUnit::begin_log() {
 
 void CoastingUnit::save_measured() {
   if (!is_measured_) return state_.save_state();
-  using Clock = WallClock::Source;
-  const auto before = Clock::now();
-  const auto began = Clock::now();
+  const auto now = interval_.now();
+  const auto before = now();
+  const auto began = now();
   state_.save_state();
-  save_cost_ = Clock::now() - began - (began - before);  // a reading may take longer than the save
+  save_cost_ = now() - began - (began - before);  // a reading may take longer than the save
 }
 
 /// From the first steps in it follows what it can be: later ones allocate nothing.

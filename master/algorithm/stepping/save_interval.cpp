@@ -22,8 +22,12 @@ void add_to_average(double& average, double value) {
 
 }  // namespace
 
-SaveInterval::SaveInterval(std::size_t most, bool adapts)
-    : most_(most), near_(most), adapts_(adapts && most > 1), chosen_(adapts ? 1 : most) {}
+SaveInterval::SaveInterval(std::size_t most, bool adapts, Now now)
+    : most_(most),
+      near_(most),
+      adapts_(adapts && most > 1),
+      now_(now),
+      chosen_(adapts ? 1 : most) {}
 
 void SaveInterval::choose() {
   if (steps_ > kMemory) {

@@ -6,6 +6,8 @@
 #include <chrono>
 #include <cstddef>
 
+#include "master/util/wall_clock.h"
+
 namespace stride::core {
 
 /// A rollback behind k steps since the last save repeats up to k - 1 of them, on average (k - 1)/2.
@@ -18,6 +20,7 @@ namespace stride::core {
 class SaveInterval {
  public:
   using Cost = std::chrono::nanoseconds;
+  using Now = WallClock::Source::time_point (*)();
   /// What it costs to note what is given in a step [ns]. These are those of one unit by itself.
   struct NoteCosts {
     double near = 50;      ///< where the caches of the processor have room for it
@@ -30,7 +33,8 @@ class SaveInterval {
   };
 
   /// `most`: no interval is longer [steps]. `adapts`: begins with 1; otherwise it is always `most`.
-  SaveInterval(std::size_t most, bool adapts);
+  /// `now`: the clock that saves and steps are measured with.
+  SaveInterval(std::size_t most, bool adapts, Now now = &WallClock::Source::now);
 
   /// A save begins a stretch of at most as many steps as are returned.
   std::size_t begin_stretch() {
@@ -49,6 +53,7 @@ class SaveInterval {
   }
   /// Whether that save, and the first step of the stretch, are to be measured.
   bool is_measured() const { return is_measured_; }
+  Now now() const { return now_; }
   void add_costs(Cost save, Cost step);
 
   /// Whether a save, as far as it was measured, costs less than to note so many steps of units by
@@ -85,6 +90,7 @@ class SaveInterval {
   std::size_t most_;
   std::size_t near_;
   bool adapts_;
+  Now now_;
   bool is_measured_ = false;
   std::size_t chosen_;
   std::size_t stretches_ = 0;
