@@ -169,3 +169,10 @@ function(stride_parallel_tests)
   set_tests_properties(${ARGV} PROPERTIES LABELS parallel)
   add_dependencies(parallel_tests ${ARGV})
 endfunction()
+
+# stride_thorough_tests(NAME...)
+#
+# Tests that install, pack or build something of their own. The label `thorough`: `scripts/test.sh --all` runs them.
+function(stride_thorough_tests)
+  set_tests_properties(${ARGV} PROPERTIES LABELS thorough)
+endfunction()
