@@ -8,8 +8,13 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
+
+#include <fmt/format.h>
 
 #include "master/util/state_archive.h"
+#include "master/util/time_text.h"
+#include "master/util/xml/element.h"
 
 namespace stride::core {
 namespace {
@@ -34,6 +39,36 @@ std::uint64_t power_of_ten(int exponent) {
   std::uint64_t power = 1;
   for (int i = 0; i < exponent; ++i) power *= 10;
   return power;
+}
+
+/// A rounded fraction of less digits may as well be the decimal that it is written as.
+constexpr std::uint64_t kLeastMeantFraction = 100'000'000'000'000;  // of 15 digits
+
+struct Fraction {
+  std::uint64_t numerator, denominator;
+};
+
+/// The first convergent of the continued fraction of this positive number that is the same within
+/// two units of its last place; nothing if it is as complicated as a number that was not rounded
+/// would have by chance.
+std::optional<Fraction> meant_fraction(double value) {
+  constexpr double kMostComplicated = 1e11;  // a chance of 1e-4 or so
+  const double tolerance = 2 * std::numeric_limits<double>::epsilon() * value;
+  Fraction before{0, 1};
+  Fraction last{1, 0};
+  double rest = value;
+  while (rest < kMostComplicated) {
+    const auto digit = static_cast<std::uint64_t>(rest);
+    const Fraction next{digit * last.numerator + before.numerator,
+                        digit * last.denominator + before.denominator};
+    const auto numerator = static_cast<double>(next.numerator);
+    const auto denominator = static_cast<double>(next.denominator);
+    if (numerator * denominator > kMostComplicated) return std::nullopt;
+    if (std::abs(numerator / denominator - value) <= tolerance) return next;
+    before = std::exchange(last, next);
+    rest = 1 / (rest - static_cast<double>(digit));
+  }
+  return std::nullopt;
 }
 
 /// digits * 10^exponent
@@ -87,6 +122,11 @@ Interval Interval::from_seconds(double seconds) {
   if (seconds < 0) throw std::invalid_argument("it is negative");
   if (seconds == 0) return {};
   auto [digits, exponent] = shortest_decimal(std::min(seconds, 2 * kMaxSeconds));
+  if (digits >= kLeastMeantFraction) {
+    if (const auto meant = meant_fraction(seconds)) {
+      return from_fraction(meant->numerator, meant->denominator);
+    }
+  }
   exponent += 12;
   for (; exponent < -kMaxDecimals && digits != 0; ++exponent) digits /= 10;
   if (digits == 0) return {};
@@ -99,6 +139,29 @@ Interval Interval::from_duration(Duration duration) {
   return {static_cast<std::uint64_t>(duration.count()), 1};
 }
 
+Interval Interval::parse(std::string_view seconds) {
+  parse_seconds(seconds);
+  return from_seconds(xml::to_number<double>(xml::split(seconds).front()).value());
+}
+
+std::strong_ordering Interval::operator<=>(const Interval& other) const {
+  const Wide whole = numerator_ / denominator_;
+  const Wide other_whole = other.numerator_ / other.denominator_;
+  if (whole != other_whole) return whole <=> other_whole;
+  return numerator_ % denominator_ * other.denominator_ <=>
+         other.numerator_ % other.denominator_ * denominator_;
+}
+
+bool Interval::is_multiple_of(const Interval& other) const {
+  if (is_zero() || other.is_zero()) return is_zero();
+  return numerator_ % other.numerator_ == 0 && other.denominator_ % denominator_ == 0;
+}
+
+Duration Interval::rounded() const {
+  const auto time = tick_time(Time{}, {}, *this, 1);
+  return time ? time->time_since_epoch() : Duration::max();
+}
+
 void Interval::persist(StateArchive& state) {
   auto low = static_cast<std::uint64_t>(numerator_);
   auto high = static_cast<std::uint64_t>(numerator_ >> 64);
@@ -109,8 +172,20 @@ void Interval::persist(StateArchive& state) {
   if (denominator_ == 0 || denominator_ > kMaxDenominator) state.fail("an interval is no fraction");
 }
 
-double Interval::seconds() const {
-  return static_cast<double>(numerator_) / static_cast<double>(denominator_) / 1e12;
+Interval::Ratio Interval::ratio() const {
+  const Wide divisor = greatest_common_divisor(kPicoseconds, numerator_);
+  return {static_cast<double>(numerator_ / divisor),
+          static_cast<double>(denominator_ * (kPicoseconds / divisor))};
+}
+
+std::optional<Interval> common_multiple(const Interval& a, const Interval& b) {
+  const Wide factor = b.numerator_ / greatest_common_divisor(a.numerator_, b.numerator_);
+  if (factor > ~Wide{0} / a.numerator_) return std::nullopt;
+  return Interval(a.numerator_ * factor, std::gcd(a.denominator_, b.denominator_));
+}
+
+std::string to_text(const Interval& interval) {
+  return interval.is_whole() ? to_text(interval.rounded()) : fmt::format("{}", interval.seconds());
 }
 
 std::optional<Time> tick_time(Time base, const Interval& shift, const Interval& interval,

@@ -1,9 +1,13 @@
-// The interval of a clock, exact however often it is repeated.
+// A length of time, exact however often it is repeated: the interval of a clock, or a step size.
 #ifndef STRIDE_MASTER_MODEL_INTERVAL_H
 #define STRIDE_MASTER_MODEL_INTERVAL_H
 
+#include <chrono>
+#include <compare>
 #include <cstdint>
 #include <optional>
+#include <string>
+#include <string_view>
 
 #include <stride/time.h>
 
@@ -11,8 +15,11 @@ namespace stride::core {
 
 class StateArchive;
 
-/// A length of time as a fraction of picoseconds. A double represents the shortest decimal that
-/// reads back as that double, so 0.1 s is a tenth of a second, and its millionth multiple is exact.
+/// A length of time as a fraction of picoseconds.
+///
+/// A double represents what a person meant by it: the shortest decimal that reads back as that
+/// double, so 0.1 s is a tenth of a second; or, where that has 15 digits or more, the fraction that
+/// was rounded to them, so 0.3333333333333333 s is a third.
 class Interval {
   __extension__ using Wide = unsigned __int128;
 
@@ -26,12 +33,24 @@ class Interval {
   /// Throws std::invalid_argument for what is negative or not a number.
   static Interval from_seconds(double seconds);
   static Interval from_duration(Duration duration);
+  /// Throws std::invalid_argument for a negative one, as from_duration() does.
+  template <class Count, class Period>
+  Interval(std::chrono::duration<Count, Period> duration)  // NOLINT: each duration is an interval
+      : Interval(from_duration(duration)) {}
+  /// A decimal number of seconds, such as "14.2" or "1e-3". Throws as parse_seconds() does.
+  static Interval parse(std::string_view seconds);
 
   bool operator==(const Interval&) const = default;
+  std::strong_ordering operator<=>(const Interval& other) const;
   /// Whether it is none that was read from damaged memory: all others are fractions.
   bool is_fraction() const { return denominator_ != 0; }
   bool is_zero() const { return numerator_ == 0; }
   bool is_below_picosecond() const { return numerator_ < denominator_; }
+  /// Whether it is a whole number of picoseconds.
+  bool is_whole() const { return denominator_ == 1; }
+  bool is_multiple_of(const Interval& other) const;
+  /// The nearest whole number of picoseconds, at most Duration::max().
+  Duration rounded() const;
   void persist(StateArchive& state);
 
   /// The fraction of picoseconds, for a copy elsewhere. One with the denominator 0 is none.
@@ -49,11 +68,17 @@ class Interval {
     return interval;
   }
 
-  /// The nearest double, for display [s].
-  double seconds() const;
+  /// Seconds as a reduced fraction, exact below 2^53.
+  struct Ratio {
+    double numerator, denominator;
+  };
+  Ratio ratio() const;
+  /// The nearest double [s].
+  double seconds() const { return ratio().numerator / ratio().denominator; }
 
  private:
   friend std::optional<Time> tick_time(Time, const Interval&, const Interval&, std::uint64_t);
+  friend std::optional<Interval> common_multiple(const Interval& a, const Interval& b);
 
   Interval(Wide numerator, std::uint64_t denominator);
 
@@ -65,6 +90,13 @@ class Interval {
 /// later than any Time.
 std::optional<Time> tick_time(Time base, const Interval& shift, const Interval& interval,
                               std::uint64_t count);
+
+/// The least interval that is a multiple of both, which are above 0; nothing if it does not fit.
+std::optional<Interval> common_multiple(const Interval& a, const Interval& b);
+
+/// Seconds: the exact decimal of a whole number of picoseconds, or else the shortest one that
+/// represents the interval.
+std::string to_text(const Interval& interval);
 
 }  // namespace stride::core
 

@@ -9,6 +9,7 @@
 using namespace stride;
 using namespace stride::core;
 using Catch::Matchers::Contains;
+using namespace std::chrono_literals;
 
 namespace {
 
@@ -81,4 +82,55 @@ TEST_CASE("below a picosecond") {
   CHECK(Interval::from_seconds(0.9e-12).is_below_picosecond());
   CHECK(Interval{}.is_below_picosecond());
   CHECK_FALSE(Interval::from_seconds(1e-12).is_below_picosecond());
+}
+
+TEST_CASE("a double of fifteen digits or more is the fraction that was rounded to them") {
+  const auto fraction = &Interval::from_fraction;
+  for (const std::uint64_t denominator : {3, 7, 30, 60, 1024, 44'100, 999'983, 14'318'180}) {
+    CAPTURE(denominator);
+    CHECK(Interval::from_seconds(1.0 / static_cast<double>(denominator)) ==
+          fraction(1, denominator));
+  }
+  CHECK(Interval::from_seconds(1001.0 / 30'000) == fraction(1001, 30'000));
+  CHECK(Interval::from_seconds(10.0 / 3) == fraction(10, 3));
+  CHECK(Interval::from_seconds(0.1 + 0.2) == fraction(3, 10));
+  CHECK(Interval::from_seconds(0.333333333333) == Interval(Duration(333'333'333'333)));
+  CHECK(Interval::from_seconds(std::sqrt(0.5)).seconds() == std::sqrt(0.5));
+  CHECK_FALSE(Interval::from_seconds(std::sqrt(0.5)).is_whole());
+}
+
+TEST_CASE("an interval is written as it is read") {
+  for (const char* text :
+       {"0.001", "1", "14.2", "0.3333333333333333", "1e-12", "0.0123456789012"}) {
+    CAPTURE(text);
+    CHECK(Interval::parse(to_text(Interval::parse(text))) == Interval::parse(text));
+  }
+  CHECK(to_text(Interval(1ms)) == "0.001");
+  CHECK(to_text(Interval::from_fraction(1, 3)) == "0.3333333333333333");
+  CHECK(Interval::parse(" 1e-3 ") == Interval(1ms));
+  CHECK(Interval::parse("0.0000000012345") == Interval::from_fraction(12'345, 10'000'000'000'000));
+  CHECK_THROWS_WITH(Interval::parse("-1"), Contains("is negative"));
+  CHECK_THROWS_WITH(Interval::parse("1e7"), Contains("beyond 9.2e6 s"));
+  CHECK_THROWS_WITH(Interval::parse("1/3"), Contains("is not a number"));
+}
+
+TEST_CASE("intervals are in the order of their lengths") {
+  const Interval third = Interval::from_fraction(1, 3);
+  CHECK(third > Interval(Duration(333'333'333'333)));
+  CHECK(third < Interval(Duration(333'333'333'334)));
+  CHECK(third < Interval::from_fraction(1000, 2999));
+  CHECK(third <= Interval::from_fraction(2, 6));
+  CHECK(third.rounded() == Duration(333'333'333'333));
+  CHECK(Interval::from_seconds(kInfinity).rounded() == Duration::max());
+}
+
+TEST_CASE("multiples of intervals are exact") {
+  const Interval third = Interval::from_fraction(1, 3);
+  const Interval half = Interval::from_fraction(1, 2);
+  CHECK(Interval(1s).is_multiple_of(third));
+  CHECK_FALSE(half.is_multiple_of(third));
+  CHECK_FALSE(Interval(Duration(333'333'333'333)).is_multiple_of(third));
+  CHECK(common_multiple(third, half) == Interval(1s));
+  CHECK(common_multiple(Interval(4ms), Interval(6ms)) == Interval(12ms));
+  CHECK(common_multiple(third, Interval::from_fraction(2, 9)) == Interval::from_fraction(2, 3));
 }
