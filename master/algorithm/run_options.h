@@ -15,6 +15,7 @@
 #include <stride/time.h>
 
 #include "master/algorithm/intervention.h"
+#include "master/model/interval.h"
 #include "master/model/variable_id.h"
 
 namespace stride::core {
@@ -66,7 +67,7 @@ inline const char* name(const StepPolicyType* policy) { return policy->name; }
 
 struct StepOptions {
   const StepPolicyType* policy = &kFixedSteps;
-  Duration size{};  ///< of the grid; error-controlled: of the first step
+  Interval size{};  ///< of the grid; error-controlled: of the first step
   /// No step is longer. Nothing: as long as the units allow; error-controlled: a tenth of the run.
   std::optional<Duration> maximum{};
   /// No shorter one is tried after a rejection.

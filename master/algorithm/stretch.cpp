@@ -8,7 +8,7 @@ Stretch::Stretch(RunContext& context, const Parts& parts, bool is_possible)
     : context_(context),
       parts_(parts),
       is_possible_(is_possible && context.options.steps_in_stretches),
-      size_(context.options.step.size),
+      size_(context.options.step.size.rounded()),
       interrupted_(context.options.interrupted) {}
 
 /// The steps end before that.
@@ -22,17 +22,23 @@ std::uint64_t Stretch::steps_from(Time now) const {
   const std::uint64_t unmeasured = parts_.sampling.unmeasured_steps();
   if (unmeasured == 0) return 0;
   const Time end = free_until();
-  if (end <= now || end - now <= size_ || parts_.policy.regular_size(now) != size_) return 0;
-  const Duration rest = end - now - Duration(1);
-  return std::min(unmeasured, static_cast<std::uint64_t>(rest / size_));
+  if (end <= now || end - now <= size_) return 0;
+  const Grid* const grid = parts_.policy.regular_grid(now);
+  if (grid == nullptr) return 0;
+  const Time last = std::min(end, context_.options.stop - grid->negligible()) - Duration(1);
+  if (last <= now) return 0;
+  return std::min(unmeasured, grid->index_at(last) - grid->index_at(now));
 }
 
 std::optional<Time> Stretch::make(Time& time, std::uint64_t steps) {
-  const double size_seconds = to_seconds(size_);
-  double seconds = to_seconds(time);
+  const Grid& grid = *parts_.policy.regular_grid(time);
+  const double size_seconds = grid.seconds(size_);
+  Grid::Walk next(grid, time);
+  double seconds = next.seconds();
   for (std::uint64_t made = 0; made < steps && !is_interrupted(); ++made) {
     parts_.sampling.pass_step();
-    const StepInterval interval(time, seconds, time + size_, size_seconds);
+    next.advance();
+    const StepInterval interval(time, seconds, next.time(), next.seconds(), size_seconds);
     const Time reached = parts_.stepper.advance_regularly(interval);
     if (reached != interval.to || parts_.stepper.has_requests()) [[unlikely]]
       return reached;

@@ -15,6 +15,7 @@
 #include "master/algorithm/step_policies/step_policy.h"
 #include "master/algorithm/stepping/stepper.h"
 #include "master/algorithm/time_sampling.h"
+#include "master/model/grid.h"
 
 namespace stride::core {
 
@@ -54,7 +55,7 @@ class Stretch {
   RunContext& context_;
   const Parts parts_;
   const bool is_possible_;
-  const Duration size_;
+  const Duration size_;  ///< of a step, to the picosecond
   const volatile std::sig_atomic_t* interrupted_;
 };
 

@@ -19,8 +19,8 @@ namespace stride::core {
 
 /// A communication step; its ends and its size also in seconds, as they are passed to units.
 ///
-/// Each is converted from integer time by itself, so a regular step has the same size everywhere,
-/// and units that compare it with their own period accept it. The end is then the sum of beginning
+/// Each is converted from exact time by itself, so a regular step has the same size everywhere, and
+/// units that compare it with their own period accept it. The end is then the sum of beginning
 /// and size but for the rounding of that sum. Where the rounding of the ends is more than a
 /// millionth of the step, its size is their difference.
 struct StepInterval {
@@ -28,14 +28,16 @@ struct StepInterval {
       : StepInterval(step_from, to_seconds(step_from), step_to) {}
   /// For a beginning whose value in seconds is known.
   StepInterval(Time step_from, double from_seconds, Time step_to)
-      : StepInterval(step_from, from_seconds, step_to, to_seconds(step_to - step_from)) {}
-  /// Likewise, and for a size.
-  StepInterval(Time step_from, double from_seconds, Time step_to, double regular_seconds)
+      : StepInterval(step_from, from_seconds, step_to, to_seconds(step_to),
+                     to_seconds(step_to - step_from)) {}
+  /// With all of them in seconds.
+  StepInterval(Time step_from, double from_seconds, Time step_to, double until_seconds,
+               double in_seconds)
       : from(step_from),
         to(step_to),
         begin_seconds(from_seconds),
-        end_seconds(to_seconds(step_to)),
-        size_seconds(regular_seconds) {
+        end_seconds(until_seconds),
+        size_seconds(in_seconds) {
     const double difference = end_seconds - begin_seconds;
     if (std::abs(size_seconds - difference) > 1e-6 * size_seconds) size_seconds = difference;
   }

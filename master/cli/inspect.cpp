@@ -58,7 +58,7 @@ std::string capabilities(const core::UnitDescription& unit) {
       fmt::format("output derivatives up to order {}", unit.max_output_derivative_order));
   add(unit.fixed_internal_step.has_value(),
       fmt::format("internal step {} s",
-                  core::to_text(unit.fixed_internal_step.value_or(Duration{}))));
+                  core::to_text(unit.fixed_internal_step.value_or(core::Interval{}))));
   add(unit.promises_idle, "promises to be idle");
   add(unit.single_instance, "one instance per process");
   add(unit.needs_execution_tool, "needs its own tool");

@@ -219,7 +219,7 @@ class PromiseCheck : public core::Observer {
   explicit PromiseCheck(const scenario::LoadedScenario& loaded)
       : system_(loaded.system()), idle_(loaded.options().idle) {
     for (const scenario::IdleTwin& twin : loaded.idle_twins()) {
-      add(twin, loaded.options().step.size);
+      add(twin, loaded.options().step.size.rounded());
     }
   }
 

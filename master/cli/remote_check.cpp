@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "master/cli/table.h"
+#include "master/model/grid.h"
 #include "master/remote/remote_unit.h"
 
 namespace stride::cli {
@@ -22,7 +23,7 @@ std::string cost_text(const core::RunOptions& options, std::chrono::nanoseconds 
     return fmt::format("Each communication step waits for a round trip of {:.3g} ms.\n",
                        milliseconds(round_trip));
   }
-  const auto steps = (options.stop - options.start) / options.step.size;
+  const auto steps = core::Grid(options.start, options.step.size).index_at(options.stop);
   return fmt::format(
       "{} communication steps wait for a round trip of {:.3g} ms each: {:.3g} s at least, and more "
       "for events, steps that are redone and units that wait for each other.\n",

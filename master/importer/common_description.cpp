@@ -1,7 +1,6 @@
 #include "master/importer/common_description.h"
 
 #include <cmath>
-#include <stdexcept>
 #include <vector>
 
 #include <fmt/format.h>
@@ -12,16 +11,9 @@
 namespace stride::importer {
 namespace {
 
-/// Nothing if there is no such attribute.
-std::optional<Duration> read_seconds(const xml::Element& element, const char* attribute) {
-  const auto seconds = element.number<double>(attribute);
-  if (!seconds) return std::nullopt;
-  try {
-    return duration_from_seconds(*seconds);
-  } catch (const std::out_of_range& error) {
-    element.fail(fmt::format("{}=\"{}\" of {}: {}", attribute, *element.attribute(attribute),
-                             element.tag(), error.what()));
-  }
+bool is_step(double seconds) {
+  return seconds > 0 && seconds <= kMaxSeconds &&
+         !core::Interval::from_seconds(seconds).is_below_picosecond();
 }
 
 /// Reads <DefaultExperiment>, which is a proposal: what cannot be used of it is ignored.
@@ -48,10 +40,9 @@ class Experiment {
     return value ? std::optional(duration_from_seconds(*value)) : std::nullopt;
   }
 
-  std::optional<Duration> step_size() {
-    const auto value = number("stepSize", "a positive number of seconds within 9.2e6",
-                              [](double v) { return v >= 0.5e-12 && v <= kMaxSeconds; });
-    return value ? std::optional(duration_from_seconds(*value)) : std::nullopt;
+  std::optional<core::Interval> step_size() {
+    const auto value = number("stepSize", "a positive number of seconds within 9.2e6", &is_step);
+    return value ? std::optional(core::Interval::from_seconds(*value)) : std::nullopt;
   }
 
   /// One beyond the time that can be simulated cannot be reached, but is no mistake.
@@ -112,13 +103,14 @@ void read_capabilities(const xml::Element& co_simulation, core::UnitDescription&
       co_simulation.number<unsigned>("maxOutputDerivativeOrder").value_or(0);
 }
 
-std::optional<Duration> read_step_size(const xml::Element& element, const char* attribute) {
-  const auto size = read_seconds(element, attribute);
-  if (!size || *size > Duration{}) return size;
-  element.fail(
-      fmt::format("{}=\"{}\" of {}: expected a positive number of seconds, at least the "
-                  "picosecond that times are counted in",
-                  attribute, *element.attribute(attribute), element.tag()));
+std::optional<core::Interval> read_step_size(const xml::Element& element, const char* attribute) {
+  const auto seconds = element.number<double>(attribute);
+  if (!seconds) return std::nullopt;
+  if (is_step(*seconds)) return core::Interval::from_seconds(*seconds);
+  element.fail(fmt::format(
+      "{}=\"{}\" of {}: expected a positive number of seconds within 9.2e6, at least the "
+      "picosecond that times are counted in",
+      attribute, *element.attribute(attribute), element.tag()));
 }
 
 void read_units(const xml::Element& root, core::UnitDescription& unit) {

@@ -23,7 +23,7 @@ std::string read_model_identifier(const xml::Element& owner);
 /// The attributes of <CoSimulation> that have one name in FMI 2.0 and 3.0.
 void read_capabilities(const xml::Element& co_simulation, core::UnitDescription& unit);
 /// Nothing if there is no such attribute; it must be positive.
-std::optional<Duration> read_step_size(const xml::Element& element, const char* attribute);
+std::optional<core::Interval> read_step_size(const xml::Element& element, const char* attribute);
 /// <UnitDefinitions>, and <DefaultExperiment>, of which attributes that cannot be used are ignored,
 /// with a warning for each.
 void read_units(const xml::Element& root, core::UnitDescription& unit);

@@ -14,6 +14,7 @@
 #include <unistd.h>
 
 #include "master/importer/state_hint.h"
+#include "master/model/grid.h"
 #include "master/model/own_step.h"
 #include "master/util/readable_text.h"
 #include "master/util/time_text.h"
@@ -411,16 +412,20 @@ double FmuInstance::set_stop(Time start, std::optional<Time> stop) {
   stop_seconds_ = std::numeric_limits<double>::infinity();
   if (!stop) return 0;
   stop_seconds_ = to_seconds(*stop);
-  const Duration step = options_.step.value_or(Duration{});
-  if (step > Duration{} && *stop > start && (*stop - start) % step == Duration{}) {
-    stop_seconds_ = std::max(stop_seconds_, to_seconds(*stop - step) + to_seconds(step));
+  if (options_.step && *stop > start) {
+    const core::Grid grid(start, *options_.step);
+    const Time last = grid.last_point(*stop - Duration(1));
+    if (grid.is_regular(*stop - last)) {
+      stop_seconds_ = std::max(stop_seconds_, grid.seconds(last) + grid.seconds(*stop - last));
+    }
   }
   return stop_seconds_;
 }
 
 std::string FmuInstance::short_step_hint() const {
   const Duration size = present_step_.to - present_step_.from;
-  if (!options_.step || size >= *options_.step || present_step_.to != stop_) return "";
+  if (!options_.step || present_step_.to != stop_) return "";
+  if (!core::Grid(start_.value_or(Time{}), *options_.step).is_shorter(size)) return "";
   return fmt::format(
       "this step is one of {} s, since the run ends there, and the others are of {} s: if the unit "
       "makes whole steps only, stop at a multiple of its step (--stop {})",

@@ -45,7 +45,7 @@ struct InstanceOptions {
   bool may_go_back = false;
   bool debug_logging = false;  ///< everything that the unit can log, not only warnings and errors
   /// The size of the regular steps, if it is known.
-  std::optional<Duration> step{};
+  std::optional<core::Interval> step{};
   /// What is set to another value than 0 to end the wait for an asynchronous step; null = nothing.
   const volatile std::sig_atomic_t* interrupted = nullptr;
   /// A warning is logged when an asynchronous step (FMI 2.0, fmi2Pending) takes longer.

@@ -184,9 +184,9 @@ struct UnitDescription {
   /// the String output that explains it.
   std::optional<std::size_t> verdict;
   std::optional<std::size_t> verdict_text;
-  std::optional<Duration> fixed_internal_step;
+  std::optional<Interval> fixed_internal_step;
   std::optional<Duration> maximum_step;  ///< no step may be longer
-  std::optional<Duration> default_step;  ///< DefaultExperiment
+  std::optional<Interval> default_step;  ///< DefaultExperiment
   std::optional<Time> default_stop;
   std::optional<double> default_tolerance;  ///< relative, of the unit's own solver
   std::vector<std::string> warnings;        ///< of what is odd in the description, but no mistake

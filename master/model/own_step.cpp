@@ -4,15 +4,13 @@
 
 #include <fmt/format.h>
 
-#include "master/util/time_text.h"
-
 namespace stride::core {
 
-std::string own_step_hint(const UnitDescription& unit, Duration size) {
-  const std::optional<Duration> own =
+std::string own_step_hint(const UnitDescription& unit, const Interval& size) {
+  const std::optional<Interval>& own =
       unit.default_step ? unit.default_step : unit.fixed_internal_step;
   const bool is_whole = !unit.default_step && unit.can_vary_step;
-  if (!own || *own == size || (is_whole && size % *own == Duration{})) return "";
+  if (!own || *own == size || (is_whole && size.is_multiple_of(*own))) return "";
   return fmt::format(
       "the unit was made for steps of {0} s ({1}){2}, and this one is of {3} s: use --step {0}, or "
       "<stride:Step size=\"{0}\"/>",

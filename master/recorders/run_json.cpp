@@ -72,7 +72,7 @@ void add(Json& entry, const core::UnitStatistics& unit) {
 
 Json step_entry(const core::RunOptions& options) {
   Json entry = {{"policy", name(options.step.policy)},
-                {"size", to_seconds(options.step.size)},
+                {"size", options.step.size.seconds()},
                 {"minimum", to_seconds(options.step.minimum)}};
   if (options.step.maximum) entry["maximum"] = to_seconds(*options.step.maximum);
   if (options.step.policy->controls_error) {

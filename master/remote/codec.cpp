@@ -215,8 +215,7 @@ void put_interval(wire::Step::Builder to, const core::StepInterval& interval) {
 
 core::StepInterval take_interval(wire::Step::Reader from) {
   core::StepInterval interval(to_time(from.getFrom()), from.getBeginSeconds(),
-                              to_time(from.getTo()), from.getSizeSeconds());
-  interval.end_seconds = from.getEndSeconds();
+                              to_time(from.getTo()), from.getEndSeconds(), from.getSizeSeconds());
   interval.size_seconds = from.getSizeSeconds();
   interval.may_go_back_before = from.getMayGoBackBefore();
   return interval;

@@ -113,7 +113,7 @@ struct Instantiate {
   intermediateUpdate @6 :Bool;
   mayGoBack @7 :Bool;
   debugLogging @8 :Bool;
-  step @9 :OptionalTime;   # of regular steps
+  step @9 :OptionalTime;   # of regular steps, rounded
   sizes @10 :List(Size);   # of arrays, given by structural parameters
   canSaveState @11 :Bool;  # whether its own functions for its state may be used
   canSerializeState @12 :Bool;
@@ -121,6 +121,7 @@ struct Instantiate {
   memoryLimit @14 :UInt64; # [byte]; 0 = none
   isSandboxed @15 :Bool;
   takesSnapshots @16 :Bool;
+  stepSeconds @17 :Float64;  # the step, not rounded: core::Interval::from_seconds(); 0 from older peers
 
   struct Size { parameter @0 :UInt32; elements @1 :UInt64; }
 }

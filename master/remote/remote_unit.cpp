@@ -85,7 +85,10 @@ void RemoteUnit::fill(wire::Instantiate::Builder to) const {
   to.setIntermediateUpdate(options_.intermediate_update);
   to.setMayGoBack(options_.may_go_back);
   to.setDebugLogging(options_.debug_logging);
-  if (options_.step) put_time(to.initStep(), Time(*options_.step));
+  if (options_.step) {
+    put_time(to.initStep(), Time(options_.step->rounded()));
+    to.setStepSeconds(options_.step->seconds());
+  }
   std::map<core::ValueReference, std::size_t> sizes;
   for (const core::Variable& variable : description_->variables) {
     for (const core::Dimension& dimension : variable.dimensions) {

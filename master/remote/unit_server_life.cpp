@@ -1,5 +1,6 @@
 // A unit for a master elsewhere: what it is, its beginning and its end.
 #include <algorithm>
+#include <cmath>
 #include <new>
 #include <utility>
 
@@ -36,6 +37,17 @@ isolation::HostOptions host_options(wire::Instantiate::Reader from, const ServeO
   host.is_sandboxed = from.getIsSandboxed() || !options.may_leave_sandbox;
   host.takes_snapshots = from.getTakesSnapshots();
   return host;
+}
+
+std::optional<core::Interval> take_step(wire::Instantiate::Reader from) {
+  if (!from.getStep().getIsThere()) return std::nullopt;
+  const Duration rounded(from.getStep().getTime());
+  const double seconds = from.getStepSeconds();
+  const bool is_exact = std::isfinite(seconds) && seconds > 0;
+  if (rounded <= Duration{}) throw BadMessage("a step has no such size");
+  const auto step = is_exact ? core::Interval::from_seconds(seconds) : core::Interval(rounded);
+  if (step.rounded() != rounded) throw BadMessage("a step has two sizes");
+  return step;
 }
 
 /// Who offers some units only tells nothing of where they are.
@@ -107,7 +119,7 @@ void UnitServer::instantiate(wire::Instantiate::Reader from) {
   options.intermediate_update = from.getIntermediateUpdate();
   options.may_go_back = from.getMayGoBack();
   options.debug_logging = from.getDebugLogging();
-  if (from.getStep().getIsThere()) options.step = Duration(from.getStep().getTime());
+  options.step = take_step(from);
   options.interrupted = &channel_.is_over();
   options.log = [this](const std::string&, importer::Status status, const std::string& category,
                        const std::string& text) {

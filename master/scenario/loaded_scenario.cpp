@@ -330,7 +330,7 @@ void LoadedScenario::choose_times(const ScenarioRequest& request) {
 }
 
 void LoadedScenario::choose_steps(const StepSettings& request) {
-  std::optional<Duration> unit_step;
+  std::optional<core::Interval> unit_step;
   for (const auto& fmu : fmus_) {
     const core::UnitDescription& unit = *fmu->description();
     const auto& step = unit.default_step ? unit.default_step : unit.fixed_internal_step;
@@ -446,6 +446,8 @@ void LoadedScenario::choose_idle_skips(const ScenarioRequest& request) {
   for (const IdleTwin& pair : idle_twins_) options_.idle.max_skip[pair.twin].reset();
 }
 
+core::Grid LoadedScenario::grid() const { return {options_.start, options_.step.size}; }
+
 /// A unit that takes steps of one size only cannot have one that ends in between.
 void LoadedScenario::check_instants(std::span<const core::Intervention> interventions) const {
   const auto rigid = std::ranges::find_if(
@@ -455,7 +457,7 @@ void LoadedScenario::check_instants(std::span<const core::Intervention> interven
       scenario_.system.components[static_cast<std::size_t>(rigid - fmus_.begin())];
   for (const core::Intervention& intervention : interventions) {
     for (const Time time : {intervention.from, intervention.until.value_or(intervention.from)}) {
-      if ((time - options_.start) % options_.step.size == Duration{}) continue;
+      if (grid().has(time)) continue;
       core::fail_input(
           {component.where, component.name, {}, {}},
           fmt::format("the unit takes steps of one size only, and none of {} s ends at "
@@ -531,8 +533,7 @@ void LoadedScenario::choose_signals(const ScenarioRequest& request) {
 
 /// A run with units that take steps of one size only ends with the last whole one.
 void LoadedScenario::end_with_whole_steps() {
-  const Duration rest = (options_.stop - options_.start) % options_.step.size;
-  if (rest == Duration{}) return;
+  if (grid().ends_at(options_.stop)) return;
   const auto rigid = std::ranges::find_if(
       fmus_, [](const auto& fmu) { return !fmu->description()->can_vary_step; });
   if (rigid == fmus_.end()) return;
@@ -543,12 +544,13 @@ void LoadedScenario::end_with_whole_steps() {
       "the unit takes steps of one size only, and the run to {} s is not a whole number of steps "
       "of {} s",
       core::to_text(options_.stop), core::to_text(options_.step.size));
-  if (options_.stop - rest == options_.start) {
+  const Time last = grid().last_point(options_.stop);
+  if (last == options_.start) {
     core::fail_input(context, reason,
                      fmt::format("stop at a multiple of them, at {} s or later",
-                                 core::to_text(options_.start + options_.step.size)));
+                                 core::to_text(grid().point(1))));
   }
-  options_.stop -= rest;
+  options_.stop = last;
   spdlog::warn("{}", core::message_text(core::to_text(context) + reason +
                                         fmt::format(": the run ends at {} s, with the last whole "
                                                     "one",
@@ -574,9 +576,7 @@ void LoadedScenario::warn_of_other_steps() const {
 void LoadedScenario::warn_of_internal_steps() const {
   for (std::size_t i = 0; i < fmus_.size(); ++i) {
     const auto& internal = fmus_[i]->description()->fixed_internal_step;
-    if (!internal || *internal <= Duration{} || options_.step.size % *internal == Duration{}) {
-      continue;
-    }
+    if (!internal || options_.step.size.is_multiple_of(*internal)) continue;
     log_->write(scenario_.system.components[i].name, importer::Status::Warning, "stride",
                 fmt::format("its internal step of {} s is not part of the communication step of "
                             "{} s, so it is not always where the others are",

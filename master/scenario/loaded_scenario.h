@@ -17,6 +17,7 @@
 #include "master/coverage/definition.h"
 #include "master/coverage/demand.h"
 #include "master/importer/fmu.h"
+#include "master/model/grid.h"
 #include "master/model/system.h"
 #include "master/scenario/branches.h"
 #include "master/scenario/coverage_selection.h"
@@ -141,6 +142,7 @@ class LoadedScenario {
   void check_steps();
   void choose_idle_skips(const ScenarioRequest& request);
   void choose_interventions(const ScenarioRequest& request);
+  core::Grid grid() const;
   void check_instants(std::span<const core::Intervention> interventions) const;
   void choose_signals(const ScenarioRequest& request);
   void end_with_whole_steps();

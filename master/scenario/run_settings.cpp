@@ -28,11 +28,15 @@ typename Choices::value_type parse_word(std::string_view text, const Choices& ch
       fmt::format("unknown value '{}'; {}", text, core::suggestion(std::string(text), words)));
 }
 
-Duration parse_above_zero(std::string_view text, const char* what) {
-  const Duration duration = core::parse_seconds(text);
-  if (duration > Duration::zero()) return duration;
+[[noreturn]] void fail_below_resolution(const char* what) {
   throw std::invalid_argument(
       fmt::format("{} must be above 0 s, at least the picosecond that times are counted in", what));
+}
+
+Duration parse_above_zero(std::string_view text, const char* what) {
+  const Duration duration = core::parse_seconds(text);
+  if (duration <= Duration::zero()) fail_below_resolution(what);
+  return duration;
 }
 
 Duration parse_step(std::string_view text) { return parse_above_zero(text, "a step"); }
@@ -46,7 +50,7 @@ void take(T& mine, const std::optional<U>& other) {
 constexpr std::uint64_t kMebibyte = 1024 * 1024;
 
 void check(const IdleRule& rule, const core::StepOptions& step) {
-  if (!rule.max_skip || !step.policy->has_grid || *rule.max_skip >= step.size) {
+  if (!rule.max_skip || !step.policy->has_grid || core::Interval(*rule.max_skip) >= step.size) {
     return;
   }
   core::fail_input({rule.where, {}, {}, {}},
@@ -81,7 +85,10 @@ std::vector<std::optional<Duration>> max_skips(const std::vector<IdleRule>& rule
 void StepSettings::set_policy(std::string_view text) {
   policy = parse_word(text, core::kStepPolicies);
 }
-void StepSettings::set_size(std::string_view text) { size = parse_step(text); }
+void StepSettings::set_size(std::string_view text) {
+  size = core::Interval::parse(text);
+  if (size->is_below_picosecond()) fail_below_resolution("a step");
+}
 void StepSettings::set_maximum(std::string_view text) { maximum = parse_step(text); }
 void StepSettings::set_minimum(std::string_view text) { minimum = parse_step(text); }
 void StepSettings::set_relative_tolerance(std::string_view text) {
@@ -148,7 +155,7 @@ std::uint64_t parse_memory_limit(std::string_view text) {
 core::IdleOptions IdleSettings::options(const core::System& system,
                                         const core::StepOptions& step) const {
   core::IdleOptions options;
-  options.least = step.policy->has_grid ? step.size : Duration{1};
+  options.least = step.policy->has_grid ? step.size.rounded() : Duration{1};
   options.max_skip = max_skips(rules, system, step);
   const auto is_input = [](const core::UnitDescription& unit, const core::Variable& variable) {
     return unit.promises_idle && variable.causality == core::Causality::Input &&

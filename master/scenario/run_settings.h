@@ -24,7 +24,7 @@ namespace stride::scenario {
 /// What is set of the stepping; nothing where it is not set.
 struct StepSettings {
   std::optional<const core::StepPolicyType*> policy;
-  std::optional<Duration> size;
+  std::optional<core::Interval> size;
   std::optional<Duration> maximum;
   std::optional<Duration> minimum;
   std::optional<double> relative_tolerance;

@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <stdexcept>
+#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
@@ -16,26 +17,31 @@
 namespace stride::scenario {
 namespace {
 
-std::optional<Time> read_instant(const xml::Element& element, const char* attribute) {
+template <class T>
+std::optional<T> read_seconds(const xml::Element& element, const char* attribute,
+                              T (*parse)(std::string_view)) {
   const auto text = element.attribute(attribute);
   if (!text) return std::nullopt;
   try {
-    return Time(core::parse_seconds(*text));
+    return parse(*text);
   } catch (const std::invalid_argument& mistake) {
     element.fail(fmt::format("{}={}", attribute, mistake.what()));
   }
 }
 
+std::optional<Time> read_instant(const xml::Element& element, const char* attribute) {
+  const auto seconds = read_seconds(element, attribute, &core::parse_seconds);
+  return seconds ? std::optional(Time(*seconds)) : std::nullopt;
+}
+
 /// Which the element of this name has in FMI, and not in SSP.
 void read_fmi_attributes(const xml::Element& experiment, Scenario& scenario) {
-  const auto step = read_instant(experiment, "stepSize");
-  if (step && *step <= Time{}) {
-    experiment.fail(fmt::format("stepSize=\"{}\" of {}: expected a number of seconds above 0",
-                                experiment.required("stepSize"), experiment.tag()));
-  }
-  if (step) {
-    scenario.vendor_step = {step->time_since_epoch(), "stepSize of " + experiment.tag(),
-                            experiment.where()};
+  if (const auto step = read_seconds(experiment, "stepSize", &core::Interval::parse)) {
+    if (step->is_below_picosecond()) {
+      experiment.fail(fmt::format("stepSize=\"{}\" of {}: expected a number of seconds above 0",
+                                  experiment.required("stepSize"), experiment.tag()));
+    }
+    scenario.vendor_step = {*step, "stepSize of " + experiment.tag(), experiment.where()};
   }
   if (!experiment.attribute("tolerance")) return;
   scenario.warnings.push_back(

@@ -3,8 +3,6 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "master/util/time_text.h"
-
 namespace stride::scenario {
 namespace {
 
@@ -21,8 +19,8 @@ std::optional<VendorStep> step_of(const xml::Element& element) {
     const auto text = element.attribute(known.attribute);
     if (!text || element.local_name() != known.local_name) continue;
     try {
-      const Duration size = core::parse_seconds(*text);
-      if (size > Duration::zero()) return VendorStep{size, element.tag(), element.where()};
+      const core::Interval size = core::Interval::parse(*text);
+      if (!size.is_below_picosecond()) return VendorStep{size, element.tag(), element.where()};
     } catch (const std::invalid_argument&) {  // it is another tool's, which may take it
     }
   }

@@ -5,15 +5,14 @@
 #include <optional>
 #include <string>
 
-#include <stride/time.h>
-
+#include "master/model/interval.h"
 #include "master/util/error.h"
 #include "master/util/xml/element.h"
 
 namespace stride::scenario {
 
 struct VendorStep {
-  Duration size{};
+  core::Interval size{};
   std::string tag;  ///< of the element that gives it
   core::Location where;
 };

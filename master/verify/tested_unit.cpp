@@ -90,7 +90,7 @@ void TestedUnit::choose_observed() {
 
 void TestedUnit::choose_times() {
   const core::UnitDescription& unit = description();
-  step_ = unit.default_step.value_or(unit.fixed_internal_step.value_or(kDefaultStep));
+  step_ = unit.default_step.value_or(unit.fixed_internal_step.value_or(kDefaultStep)).rounded();
   if (unit.maximum_step) step_ = std::min(step_, *unit.maximum_step);
   if (request_.step) step_ = *request_.step;
   std::int64_t steps = kDefaultSteps;

@@ -78,7 +78,7 @@ Outcome run(std::size_t units, std::int64_t rounds, core::ThreadOptions threads,
   const core::System system(declaration);
   core::RunOptions options;
   options.step.size = std::chrono::milliseconds(1);
-  options.stop = Time(options.step.size * steps);
+  options.stop = Time(std::chrono::milliseconds(1) * steps);
   options.threads = std::move(threads);
   options.measure_time = false;
   core::Simulation simulation(system, std::move(instances), options);

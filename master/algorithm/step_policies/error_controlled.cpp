@@ -19,7 +19,8 @@ class ErrorControlledSteps : public StepPolicy {
       : system_(system),
         limits_(system, options, std::max((options.stop - options.start) / 10, Duration(1))),
         minimum_(options.step.minimum),
-        controller_(options.step.size, 1.0 + static_cast<double>(options.extrapolation)) {}
+        controller_(options.step.size.rounded(), 1.0 + static_cast<double>(options.extrapolation)) {
+  }
 
   Time next(Time now) override {
     return limits_.end_of_step(now, std::min(controller_.size(), *limits_.maximum()));
@@ -32,7 +33,7 @@ class ErrorControlledSteps : public StepPolicy {
       controller_.accept(used, error.ratio, {minimum_, *limits_.maximum()});
       return true;
     }
-    const Duration least = std::max(minimum_, limits_.quantum());
+    const Duration least = std::max(minimum_, limits_.quantum().rounded());
     if (used <= least) fail_tolerance(from, used, error);
     controller_.reject(used, error.ratio, least);
     return false;
@@ -43,7 +44,7 @@ class ErrorControlledSteps : public StepPolicy {
  private:
   [[noreturn]] void fail_tolerance(Time from, Duration used,
                                    const ExtrapolationError& error) const {
-    const bool is_grid = limits_.quantum() > minimum_;
+    const bool is_grid = limits_.quantum() > Interval(minimum_);
     fail_run(
         {{},
          system_.components()[error.output.component].name,

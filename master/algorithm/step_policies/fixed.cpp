@@ -5,7 +5,7 @@
 
 #include "master/algorithm/step_policies/step_limits.h"
 #include "master/algorithm/step_policies/step_policy.h"
-#include "master/util/time_text.h"
+#include "master/model/grid.h"
 
 namespace stride::core {
 namespace {
@@ -13,14 +13,15 @@ namespace {
 class FixedSteps : public StepPolicy {
  public:
   FixedSteps(const System& system, const RunOptions& options)
-      : limits_(system, options), size_(options.step.size), grid_point_(options.start) {}
+      : limits_(system, options),
+        grid_(options.start, options.step.size),
+        last_(std::max(options.start, limits_.stop() - grid_.negligible())),
+        is_limited_(limits_.maximum() && *limits_.maximum() < grid_.step().rounded()),
+        point_(options.start) {}
 
   Time next(Time now) override {
-    Time target = limits_.stop();
-    const Duration since = now == grid_point_ ? Duration{} : (now - limits_.start()) % size_;
-    if (limits_.stop() - now > size_ - since) target = now + (size_ - since);
-    grid_point_ = target;
-    return limits_.limited(now, target);
+    move_to((now == point_ ? index_ : grid_.index_at(now)) + 1);
+    return is_limited_ ? limits_.limited(now, point_) : point_;
   }
 
   Time next_while_idle(Time now, Time quiet_until) override {
@@ -28,19 +29,28 @@ class FixedSteps : public StepPolicy {
     const Time farthest = limits_.limited(now, std::min(quiet_until, limits_.stop()));
     if (farthest <= regular) return regular;
     if (farthest == limits_.stop()) return farthest;
-    grid_point_ = farthest - (farthest - limits_.start()) % size_;
-    return grid_point_;
+    move_to(grid_.index_at(std::min(farthest, last_ - Duration(1))));
+    return point_;
   }
 
-  Duration regular_size(Time now) const override {
-    const bool is_on_grid = now == grid_point_ || (now - limits_.start()) % size_ == Duration{};
-    return is_on_grid && size_ <= limits_.maximum().value_or(size_) ? size_ : Duration{};
+  const Grid* regular_grid(Time now) const override {
+    return !is_limited_ && (now == point_ || grid_.has(now)) ? &grid_ : nullptr;
   }
 
  private:
+  /// The last step takes in what remains of the run, if that is negligible.
+  void move_to(std::uint64_t index) {
+    index_ = index;
+    point_ = grid_.point(index);
+    if (point_ >= last_) point_ = limits_.stop();
+  }
+
   StepLimits limits_;
-  Duration size_;
-  Time grid_point_;  ///< the last target on the grid
+  Grid grid_;
+  Time last_;  ///< a point from here on is the end of the run
+  bool is_limited_;
+  std::uint64_t index_ = 0;
+  Time point_;  ///< the last target on the grid
 };
 
 }  // namespace

@@ -1,7 +1,7 @@
 #include "master/algorithm/step_policies/step_limits.h"
 
 #include <algorithm>
-#include <numeric>
+#include <cstdint>
 
 namespace stride::core {
 
@@ -9,7 +9,8 @@ StepLimits::StepLimits(const System& system, const RunOptions& options,
                        std::optional<Duration> default_maximum)
     : start_(options.start),
       stop_(options.stop),
-      maximum_(options.step.maximum ? options.step.maximum : default_maximum) {
+      maximum_(options.step.maximum ? options.step.maximum : default_maximum),
+      quantum_(start_, Duration(1)) {
   for (const Component& component : system.components()) {
     const UnitDescription& unit = *component.description;
     if (unit.maximum_step)
@@ -19,20 +20,18 @@ StepLimits::StepLimits(const System& system, const RunOptions& options,
 }
 
 /// Where no multiple of all internal steps lies within the run, those that came first count.
-void StepLimits::refine_quantum(Duration internal) {
-  if (internal <= Duration{}) return;
-  const std::int64_t factor = internal.count() / std::gcd(quantum_.count(), internal.count());
-  std::int64_t multiple = 0;
-  if (__builtin_mul_overflow(quantum_.count(), factor, &multiple)) return;
-  if (Duration(multiple) <= stop_ - start_) quantum_ = Duration(multiple);
+void StepLimits::refine_quantum(const Interval& internal) {
+  const bool is_first = quantum() == Interval(Duration(1));
+  const auto multiple = is_first ? internal : common_multiple(quantum(), internal);
+  if (multiple && multiple->rounded() <= stop_ - start_) quantum_ = Grid(start_, *multiple);
 }
 
 Time StepLimits::end_of_step(Time now, Duration size) const {
   if (stop_ - now <= size) return stop_;
   const Time time = now + size;
-  const Time before = time - (time - start_) % quantum_;
-  if (before > now) return before;
-  const Time after = std::min(stop_, before + quantum_);
+  const std::uint64_t index = quantum_.index_at(time);
+  if (const Time before = quantum_.point(index); before > now) return before;
+  const Time after = std::min(stop_, quantum_.point(index + 1));
   return maximum_ && after - now > *maximum_ ? time : after;
 }
 

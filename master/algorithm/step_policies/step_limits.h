@@ -7,6 +7,7 @@
 #include <stride/time.h>
 
 #include "master/algorithm/run_options.h"
+#include "master/model/grid.h"
 #include "master/model/system.h"
 
 namespace stride::core {
@@ -24,7 +25,7 @@ class StepLimits {
   /// Nothing: neither the user nor a unit limits the steps.
   std::optional<Duration> maximum() const { return maximum_; }
   /// A common multiple of all fixed internal steps; 1 ps where there are none.
-  Duration quantum() const { return quantum_; }
+  const Interval& quantum() const { return quantum_.step(); }
 
   /// The target, or the end of the longest step where that is nearer.
   Time limited(Time now, Time target) const {
@@ -36,12 +37,12 @@ class StepLimits {
   Time end_of_step(Time now, Duration size) const;
 
  private:
-  void refine_quantum(Duration internal);
+  void refine_quantum(const Interval& internal);
 
   Time start_;
   Time stop_;
   std::optional<Duration> maximum_;
-  Duration quantum_{1};
+  Grid quantum_;
 };
 
 }  // namespace stride::core

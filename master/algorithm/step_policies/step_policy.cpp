@@ -14,13 +14,13 @@ namespace {
 bool varies_steps(const System& system, const RunOptions& options) {
   const StepLimits limits(system, options);
   return !options.step.policy->has_grid ||
-         (limits.maximum() && *limits.maximum() < options.step.size);
+         (limits.maximum() && *limits.maximum() < options.step.size.rounded());
 }
 
 }  // namespace
 
 void check_step_policy(const System& system, const RunOptions& options) {
-  if (options.step.size <= Duration{})
+  if (options.step.size.is_below_picosecond())
     throw std::invalid_argument("the step size must be positive");
   const StepPolicyType& policy = *options.step.policy;
   std::vector<std::string> rigid;

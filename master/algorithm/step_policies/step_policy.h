@@ -12,6 +12,7 @@
 namespace stride::core {
 
 struct ExtrapolationError;
+class Grid;
 class StateArchive;
 
 /// Chooses the communication points of one run. No step is longer than a unit allows
@@ -29,9 +30,9 @@ class StepPolicy {
   /// the last point of the grid that is not later than that.
   virtual Time next_while_idle(Time now, Time /*quiet_until*/) { return next(now); }
 
-  /// The size of the next steps, where all of them have the same up to the stop time, or else 0:
-  /// those from a point of the grid on.
-  virtual Duration regular_size(Time /*now*/) const { return {}; }
+  /// Where the next steps end, if nothing but the stop time cuts one of them short: the points of a
+  /// grid that `now` is one of. Or else null.
+  virtual const Grid* regular_grid(Time /*now*/) const { return nullptr; }
 
   /// Whether the step is accepted. If not, it is undone, and next() chooses a nearer point. Called
   /// where StepPolicyType::controls_error only. Throws Error (Run) where no shorter step is

@@ -20,7 +20,7 @@ bool changes_without_event(const System& system, VariableId id) {
 bool has_unlimited_steps(const System& system, const RunOptions& options) {
   if (options.step.policy->controls_error || StepLimits(system, options).maximum()) return false;
   const Duration run = options.stop - options.start;
-  return run > Duration{} && (!options.step.policy->has_grid || options.step.size >= run);
+  return run > Duration{} && (!options.step.policy->has_grid || options.step.size >= Interval(run));
 }
 
 std::vector<std::string> connections_without_events(const System& system) {

@@ -46,8 +46,8 @@ Stepper::Stepper(RunContext& context, const std::vector<StepOrderEntry>& order,
       step_clock_(context.clock),
       inputs_(inputs),
       idle_(idle),
-      regular_(context.options.step.size),
       has_grid_(context.options.step.policy->has_grid),
+      grid_(context.options.start, has_grid_ ? context.options.step.size : Interval(Duration(1))),
       stop_(context.options.stop),
       minimum_(context.options.step.minimum),
       order_(order),
@@ -119,7 +119,7 @@ Time Stepper::advance(Time from, Time target) {
   ++communication_step_;
   early_stop_ = {};
   has_requests_ = false;
-  is_short_end_ = target == stop_ && has_grid_ && target - from < regular_;
+  is_short_end_ = target == stop_ && has_grid_ && grid_.is_shorter(target - from);
   step_clock_.measure(clock_.measures() || balancer_.is_measuring());
   if (balancer_.is_deciding()) return make_timed_passes(from, target);
   const Time reached = make_passes(from, target);
@@ -165,9 +165,9 @@ void Stepper::undo(Time from) {
 
 Time Stepper::make_passes(Time from, Time target) {
   was_parallel_ = balancer_.is_parallel();
-  if (from != last_end_) last_end_seconds_ = to_seconds(from);
-  const StepInterval interval(from, last_end_seconds_, target);
-  return make_further_passes(interval, make_pass(interval, true));
+  if (from != last_end_) last_end_seconds_ = grid_.seconds(from);
+  const StepInterval whole = interval(from, last_end_seconds_, target);
+  return make_further_passes(whole, make_pass(whole, true));
 }
 
 /// Behind the first one, with which the units have `reached` a time, until all are at the same.
@@ -177,10 +177,10 @@ Time Stepper::make_further_passes(const StepInterval& first, Time reached) {
   last_end_ = first.to;
   last_end_seconds_ = first.end_seconds;
   while (reached != last_end_) {
-    const StepInterval interval(first.from, first.begin_seconds, reached);
-    last_end_ = interval.to;
-    last_end_seconds_ = interval.end_seconds;
-    reached = make_pass(interval, false);
+    const StepInterval nearer = interval(first.from, first.begin_seconds, reached);
+    last_end_ = nearer.to;
+    last_end_seconds_ = nearer.end_seconds;
+    reached = make_pass(nearer, false);
   }
   return reached;
 }
@@ -374,7 +374,7 @@ inline Stepper::Outcome Stepper::prepare(UnitStep& unit_step, const StepInterval
     roll_back(unit_step, interval);
   }
   if (unit_step.result.reached == interval.to) return Outcome::Idle;
-  if (!unit_step.can_vary_step && interval.to - interval.from != regular_)
+  if (!unit_step.can_vary_step && !grid_.is_regular(interval.to - interval.from))
     fail_size(unit_step, interval);
   if (inputs_ != nullptr) inputs_->before_step(unit_step.component, interval);
   return Outcome::Pending;
@@ -493,11 +493,12 @@ void Stepper::check_minimum(const StepInterval& interval, Time reached) const {
                        "{} s, would be shorter than the minimum of {} s{}",
                        to_text(interval.to), times(early_stop_.by->rejections), to_text(reached),
                        to_text(minimum_), reason(early_stop_)),
-           is_short_end_ ? fmt::format("the last step is shorter than the others, {} s, since the "
-                                       "run ends at {} s: if the unit makes whole steps only, stop "
-                                       "at a multiple of its step (--stop {})",
-                                       to_text(regular_), to_text(stop_), to_text(interval.from))
-                         : "look at what the unit received before this instant");
+           is_short_end_
+               ? fmt::format("the last step is shorter than the others, {} s, since the "
+                             "run ends at {} s: if the unit makes whole steps only, stop "
+                             "at a multiple of its step (--stop {})",
+                             to_text(grid_.step()), to_text(stop_), to_text(interval.from))
+               : "look at what the unit received before this instant");
 }
 
 /// The unit's reason for the rejection.
@@ -513,12 +514,12 @@ void Stepper::fail_size(const UnitStep& unit_step, const StepInterval& interval)
       "early";
   if (early_stop_.by == &unit_step) {
     const std::string other_step =
-        own_step_hint(*system_.components()[unit_step.component].description, regular_);
+        own_step_hint(*system_.components()[unit_step.component].description, grid_.step());
     fail_run(
         {{}, name(unit_step), {}, interval.from},
         fmt::format("the unit rejected its step, and takes steps of one size only, {} s, so "
                     "no shorter one can be tried{}",
-                    to_text(regular_), reason(early_stop_)),
+                    to_text(grid_.step()), reason(early_stop_)),
         other_step.empty() ? "look at what the unit received before this instant" : other_step);
   }
   const std::string cause =
@@ -528,7 +529,7 @@ void Stepper::fail_size(const UnitStep& unit_step, const StepInterval& interval)
                         early_stop_.is_rejection ? "rejected its step" : "stopped early");
   fail_run({{}, name(unit_step), {}, interval.from},
            fmt::format("the unit takes steps of one size only, {} s, but {} requires one of {} s{}",
-                       to_text(regular_), cause, to_text(interval.to - interval.from),
+                       to_text(grid_.step()), cause, to_text(interval.to - interval.from),
                        reason(early_stop_)),
            hint);
 }

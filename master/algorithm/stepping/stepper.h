@@ -20,6 +20,7 @@
 #include "master/algorithm/stepping/coasting_unit.h"
 #include "master/algorithm/stepping/input_extrapolator.h"
 #include "master/algorithm/stepping/step_order.h"
+#include "master/model/grid.h"
 #include "master/util/thread_pool.h"
 
 namespace stride::core {
@@ -198,6 +199,9 @@ class Stepper {
   std::string hint_for_final(const UnitStep& stopped) const;
   [[noreturn]] void fail_final(const UnitStep& ahead) const;
   void form_stages();
+  StepInterval interval(Time from, double from_seconds, Time to) const {
+    return {from, from_seconds, to, grid_.seconds(to), grid_.seconds(to - from)};
+  }
   static std::vector<ThreadShare> batches(std::span<const UnitStep> units, std::size_t first);
   LoadBalancer::Plan plan(const RunOptions& options);
   ThreadPool& pool();
@@ -211,8 +215,8 @@ class Stepper {
   WallClock step_clock_;  ///< measures while the load balancer decides, too
   InputExtrapolator* inputs_;
   IdleScheduler* idle_;
-  Duration regular_;  ///< the step size of units that cannot vary theirs
-  bool has_grid_;     ///< whether other units' regular steps have it, too
+  bool has_grid_;     ///< whether regular steps end on a grid
+  Grid grid_;         ///< that one, to which units are bound that take steps of one size only
   Time stop_;         ///< of the run
   Duration minimum_;  ///< no shorter step is tried after a rejection
   const std::vector<StepOrderEntry>& order_;

@@ -46,9 +46,10 @@ bool has_deadbands(const core::UnitDescription& unit) {
 VerifyRequest in_short_steps(const TestedUnit& tested) {
   constexpr std::int64_t kShorter = 16;
   VerifyRequest request = tested.request();
-  const std::optional<Duration>& internal = tested.description().fixed_internal_step;
+  const std::optional<core::Interval>& internal = tested.description().fixed_internal_step;
   request.step = tested.step() / kShorter;
-  if (*request.step == Duration{} || (internal && *request.step % *internal != Duration{})) {
+  if (*request.step == Duration{} ||
+      (internal && !core::Interval(*request.step).is_multiple_of(*internal))) {
     request.step = tested.step();
   }
   request.stop = *request.step * static_cast<std::int64_t>(tested.steps());

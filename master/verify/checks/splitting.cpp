@@ -7,14 +7,13 @@
 namespace stride::verify {
 namespace {
 
-bool is_multiple(Duration size, Duration of) { return size % of == Duration{}; }
-
 /// Why halves of a step have to give what the whole gives; empty if there is no reason.
 std::string reason_for_equality(const TestedUnit& tested) {
   const core::UnitDescription& unit = tested.description();
   if (unit.split_invariant) return "though it declares that steps may be split (splitInvariant)";
-  const bool is_on_grid = unit.fixed_internal_step && tested.step() % 2 == Duration{} &&
-                          is_multiple(tested.step() / 2, *unit.fixed_internal_step);
+  const bool is_on_grid =
+      unit.fixed_internal_step && tested.step() % 2 == Duration{} &&
+      core::Interval(tested.step() / 2).is_multiple_of(*unit.fixed_internal_step);
   if (!is_on_grid) return "";
   return fmt::format("though both are multiples of its fixedInternalStepSize, {} s",
                      core::to_text(*unit.fixed_internal_step));

@@ -36,7 +36,7 @@ struct ScriptedSystem {
             const std::string& to_connector) {
     declaration.connections.push_back({from, from_connector, to, to_connector, false, {}});
   }
-  Simulation& build(double stop, Duration step, std::vector<VariableId> recorded = {}) {
+  Simulation& build(double stop, const Interval& step, std::vector<VariableId> recorded = {}) {
     system = std::make_unique<System>(declaration);
     options.stop = time_from_seconds(stop);
     options.step.size = step;
@@ -64,7 +64,7 @@ struct Points : Observer {
 };
 
 /// Those of a run of the system.
-inline std::vector<Time> points(ScriptedSystem& system, double stop, Duration step) {
+inline std::vector<Time> points(ScriptedSystem& system, double stop, const Interval& step) {
   Points points;
   system.build(stop, step).add_observer(points);
   system.simulation->run();

@@ -115,7 +115,7 @@ class Describe {
   Describe& may_return_early() { return description_->may_return_early = true, *this; }
   Describe& fixed_step() { return description_->can_vary_step = false, *this; }
   Describe& maximum_step(Duration step) { return description_->maximum_step = step, *this; }
-  Describe& fixed_internal_step(Duration step) {
+  Describe& fixed_internal_step(const Interval& step) {
     return description_->fixed_internal_step = step, *this;
   }
   Describe& promises_idle() { return description_->promises_idle = true, *this; }
@@ -170,6 +170,7 @@ class ScriptedUnit : public Unit,
     result.reached = to;
     return result;
   };
+  std::function<void(const StepInterval&)> on_interval = [](const StepInterval&) {};
   /// Called when an input clock is set.
   std::function<void(ScriptedUnit&)> on_set_clock = [](ScriptedUnit&) {};
   std::function<EventResult(ScriptedUnit&)> on_event = [](ScriptedUnit&) { return EventResult{}; };
@@ -231,6 +232,7 @@ class ScriptedUnit : public Unit,
     if (values.type() == ValueType::Clock) on_set_clock(*this);
   }
   StepResult step(const StepInterval& interval) override {
+    on_interval(interval);
     return on_step(*this, interval.from, interval.to);
   }
   void begin_step(const StepInterval& interval, const StepValues& values,

@@ -102,7 +102,7 @@ TEST_CASE("only variables that there are can be named, with the sizes that they 
 
 TEST_CASE("a step keeps each bit of its interval") {
   core::StepInterval interval(Time(Duration(100)), 1.0000000000000002e-10, Time(Duration(350)),
-                              2.5e-10);
+                              3.5e-10, 2.5e-10);
   interval.may_go_back_before = true;
   Sent<wire::Step> sent([&](wire::Step::Builder to) { put_interval(to, interval); });
   const core::StepInterval taken = take_interval(sent.root());

@@ -88,6 +88,38 @@ TEST_CASE("no step is longer than a unit's maximum step") {
   }
 }
 
+TEST_CASE("steps of a third of a second meet the whole seconds") {
+  ScriptedSystem f;
+  std::vector<StepInterval> steps;
+  f.options.steps_in_stretches = GENERATE(true, false);
+  Describe a("a");
+  if (GENERATE(true, false)) a.fixed_step();
+  f.add("a", a.done()).on_interval = [&](const auto& interval) { steps.push_back(interval); };
+  f.build(100, Interval::from_fraction(1, 3)).run();
+  REQUIRE(steps.size() == 300);
+  for (std::size_t k = 0; k < steps.size(); ++k) {
+    REQUIRE(steps[k].begin_seconds == static_cast<double>(k) / 3);
+    REQUIRE(steps[k].size_seconds == 1.0 / 3);
+  }
+}
+
+TEST_CASE("what remains of a run is part of its last step if it is negligible") {
+  ScriptedSystem f;
+  f.add("a", Describe("a").maximum_step(Duration(333'333'333'333)).done());
+  CHECK(points(f, 1, Duration(333'333'333'333)) ==
+        std::vector<Time>{Time(), Time(Duration(333'333'333'333)), Time(Duration(666'666'666'666)),
+                          Time(1s)});
+}
+
+TEST_CASE("internal steps of a third of a second meet the whole seconds") {
+  ScriptedSystem f;
+  f.add("a", Describe("a").fixed_internal_step(Interval::from_fraction(1, 3)).done());
+  f.options.step.policy = &kEventDrivenSteps;
+  f.options.step.maximum = 900ms;
+  CHECK(points(f, 2, 1ms) == std::vector<Time>{Time(), Time(Duration(666'666'666'667)),
+                                               Time(Duration(1'333'333'333'333)), Time(2s)});
+}
+
 TEST_CASE("steps that are not on a grid end on the units' internal steps") {
   ScriptedSystem f;
   announce(f.add("a", Describe("a").event_mode().done()), {Time(25ms)});
