@@ -184,6 +184,7 @@ class Writer {
     write_variability(row);
     if (row.type == Type::Enumeration) xml_.attribute("declaredType", type_name(row));
     if (!row.unit.empty()) xml_.attribute("unit", row.unit);
+    if (row.is_relative) xml_.attribute("relativeQuantity", true);
     if (row.min) xml_.attribute("min", bound_text(row.type, *row.min));
     if (row.max) xml_.attribute("max", bound_text(row.type, *row.max));
     if (!row.mime_type.empty()) xml_.attribute("mimeType", row.mime_type);

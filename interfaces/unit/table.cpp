@@ -200,6 +200,9 @@ void Table::check(const Variable& row) const {
   if (!row.unit.empty() && row.type != Type::Float64 && row.type != Type::Float32) {
     reject(row, "only Float32 and Float64 variables have a unit in FMI 3.0");
   }
+  if (row.is_relative && row.unit.empty()) {
+    reject(row, "relative() is for variables with a unit of measure, whose offset it leaves out");
+  }
   if (row.derivative != nullptr &&
       (row.type != Type::Float64 || row.causality != Causality::Output)) {
     reject(row, "only a Float64 output has an output derivative");

@@ -84,7 +84,7 @@ std::optional<std::size_t> VariableNames::add(const std::string& name, const xml
 
 bool are_declared_alike(const core::Variable& a, const core::Variable& b) {
   return a.type == b.type && a.causality == b.causality && a.variability == b.variability &&
-         a.unit == b.unit;
+         a.unit == b.unit && a.is_relative == b.is_relative;
 }
 
 void TypeDefinitions::add(const xml::Element& definition, const xml::Element& type) {
@@ -139,6 +139,14 @@ Initial read_initial(const xml::Element& element, const core::Variable& variable
 std::string inherited(const xml::Element& element, const std::optional<xml::Element>& type,
                       const char* attribute) {
   return element.attribute_or(attribute, type ? type->attribute_or(attribute) : "");
+}
+
+void read_unit(const xml::Element& element, const std::optional<xml::Element>& declared,
+               core::Variable& variable, std::vector<std::string>& warnings) {
+  const char* const relative = "relativeQuantity";
+  variable.unit = inherited(element, declared, "unit");
+  const bool is_own = element.attribute(relative) || !declared;
+  variable.is_relative = (is_own ? element : *declared).lenient_flag(relative, warnings);
 }
 
 double read_nominal(const xml::Element& element, ValueType type,

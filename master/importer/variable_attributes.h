@@ -87,6 +87,10 @@ core::Initial read_initial(const xml::Element& element, const core::Variable& va
 /// An attribute of the variable, or else of its declared type.
 std::string inherited(const xml::Element& element, const std::optional<xml::Element>& type,
                       const char* attribute);
+/// The unit of measure, and whether the variable is a difference (FMI 3.0, 2.4.7.3; FMI 2.0, 2.2.3;
+/// FMI 1.0, 2.3).
+void read_unit(const xml::Element& element, const std::optional<xml::Element>& declared,
+               core::Variable& variable, std::vector<std::string>& warnings);
 /// Likewise the magnitude of a floating-point number; 0 if it is absent.
 double read_nominal(const xml::Element& element, core::ValueType type,
                     const std::optional<xml::Element>& declared);

@@ -40,6 +40,8 @@ std::optional<std::int64_t> number_of(const EnumerationItems& items, const std::
   return std::nullopt;
 }
 
+bool is_relative(const PathConnector& connector) { return connector.is_relative.value_or(false); }
+
 /// Composes the segments of a path, one after the other.
 class Composer {
  public:
@@ -48,7 +50,8 @@ class Composer {
       : path_(completed(path)),
         segments_(segments),
         context_(context),
-        is_text_(!path.front().type) {}
+        is_text_(!path.front().type),
+        is_difference_(std::ranges::any_of(path, &is_relative)) {}
 
   LinearConversion linear() const {
     LinearConversion linear;
@@ -66,7 +69,7 @@ class Composer {
     }
     if (!is_real(type(segments_.size()))) return {};
     // by way of another unit, it would be rounded more than once
-    const auto direct = convert(first_unit(), path_.back().unit);
+    const auto direct = unit_conversion(first_unit(), path_.back().unit);
     return is_plain && direct ? *direct : linear;
   }
 
@@ -192,11 +195,18 @@ class Composer {
         context_.where.file.empty() ? "the system" : context_.where.file, connector.name);
   }
 
+  std::optional<LinearConversion> unit_conversion(const UnitOfMeasure& from,
+                                                  const UnitOfMeasure& to) const {
+    auto conversion = convert(from, to);
+    if (conversion && is_difference_) conversion->offset = 0;
+    return conversion;
+  }
+
   LinearConversion unit_conversion(std::size_t segment) const {
     if (segments_[segment].suppress_unit_conversion) return {};
     const PathConnector& from = path_[segment];
     const PathConnector& to = path_[segment + 1];
-    if (const auto conversion = convert(from.unit, to.unit)) return *conversion;
+    if (const auto conversion = unit_conversion(from.unit, to.unit)) return *conversion;
     fail(fmt::format("cannot connect {}: '{}' is in '{}', '{}' in '{}', and one cannot be "
                      "converted into the other{}{}",
                      wire(segment), from.name, from.unit.name, to.name, to.unit.name,
@@ -326,6 +336,7 @@ class Composer {
   std::span<const PathSegment> segments_;
   const Context& context_;
   bool is_text_;  ///< which becomes a value of the type of the second connector
+  bool is_difference_;
 };
 
 }  // namespace
@@ -383,6 +394,12 @@ std::vector<PathConnector> completed(std::vector<PathConnector> path) {
     if (!path[i].type) inherit(path[i], path[i + 1]);
   }
   return path;
+}
+
+bool mixes_differences(const std::vector<PathConnector>& path) {
+  const std::optional<bool> from = path.front().is_relative;
+  const std::optional<bool> to = path.back().is_relative;
+  return from && to && *from != *to;
 }
 
 Conversion compose(const std::vector<PathConnector>& path, std::span<const PathSegment> segments,

@@ -48,13 +48,19 @@ struct PathConnector {
   EnumerationItems items{};
   /// Undeclared attributes are those of the next connector, else of the previous one.
   bool takes_after_next = false;
+  /// Of a unit's variable: whether it is a difference (relativeQuantity).
+  std::optional<bool> is_relative{};
 };
 
 /// The path with inherited attributes filled in. The type of the first or the last connector must
 /// be known.
 std::vector<PathConnector> completed(std::vector<PathConnector> path);
 
-/// Composes the segments between the connectors of a path, of which there is one more. Throws Error
+/// Whether one end of a path is declared as a difference, and the other one as none.
+bool mixes_differences(const std::vector<PathConnector>& path);
+
+/// Composes the segments between the connectors of a path, of which there is one more. Where one of
+/// them is a difference, all are, and the offsets of their units are left out. Throws Error
 /// (Input) at `context`, or at the transformation that is wrong, for units that cannot be converted
 /// into each other, types that cannot or could lose something, and transformations that do not fit
 /// the types. A Boolean becomes a number, 1 or 0, and a whole number at the end of the path a

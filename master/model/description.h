@@ -106,6 +106,7 @@ struct Variable {
   std::vector<Dimension> dimensions;  ///< empty for a scalar
   std::size_t size = 1;               ///< the number of elements
   std::string unit;
+  bool is_relative = false;  ///< a difference: its unit is converted without the offset
   std::string description;
   std::string start;  ///< as in the description; elements separated by blanks
   std::string min;    ///< likewise, empty if there is none

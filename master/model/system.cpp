@@ -257,7 +257,7 @@ PathConnector System::path_connector(const ElementRange& element) const {
   return {range_name(element), end.type,
           is_declared ? declared->second
                       : known_unit({end.unit}, *components_[element.id.component].description),
-          end.items, false};
+          end.items, false, end.is_relative};
 }
 
 /// Element by element where one end consists of scalars.
@@ -283,10 +283,12 @@ std::vector<Connection> System::connect(const ConnectionDeclaration& wanted, con
   return made;
 }
 
-/// With a warning for each change of type that the standards do not define.
+/// With a warning for each change of type that the standards do not define, and where the offset of
+/// a unit of measure is left out on the word of one end alone.
 Conversion System::converted_on(const std::vector<PathConnector>& path,
                                 const std::vector<PathSegment>& segments, const Location& where) {
   Conversion conversion = compose(path, segments, {where, {}, {}, {}});
+  if (mixes_differences(path)) note_difference(path, segments, conversion.linear, where);
   const bool has_boolean = std::ranges::any_of(
       path, [](const PathConnector& connector) { return connector.type == ValueType::Boolean; });
   if (!has_boolean) return conversion;
@@ -301,6 +303,24 @@ Conversion System::converted_on(const std::vector<PathConnector>& path,
                     core::name(*whole[i + 1].type), becomes));
   }
   return conversion;
+}
+
+void System::note_difference(const std::vector<PathConnector>& path,
+                             const std::vector<PathSegment>& segments,
+                             const LinearConversion& linear, const Location& where) {
+  std::vector<PathConnector> absolute = path;
+  for (PathConnector& connector : absolute) connector.is_relative = false;
+  if (compose(absolute, segments, {where, {}, {}, {}}).linear == linear) return;
+  const bool from_difference = *path.front().is_relative;
+  const PathConnector& difference = from_difference ? path.front() : path.back();
+  const PathConnector& other = from_difference ? path.back() : path.front();
+  warnings_.push_back(
+      to_text({.where = where}) +
+      fmt::format("'{}' is declared as a difference (relativeQuantity=\"true\"), and '{}' is not: "
+                  "the values are converted from '{}' to '{}' as differences, without an offset\n"
+                  "  hint: if they are absolute, set suppressUnitConversion=\"true\" and convert "
+                  "them by an <ssc:LinearTransformation>",
+                  difference.name, other.name, path.front().unit.name, path.back().unit.name));
 }
 
 void System::add_outputs(const SystemDeclaration& declaration, Diagnostics& diagnostics) {

@@ -195,6 +195,9 @@ class System {
   void check_shapes(const ConnectionDeclaration& declaration, const Ends& ends) const;
   Conversion converted_on(const std::vector<PathConnector>& path,
                           const std::vector<PathSegment>& segments, const Location& where);
+  void note_difference(const std::vector<PathConnector>& path,
+                       const std::vector<PathSegment>& segments, const LinearConversion& linear,
+                       const Location& where);
   void check_ends(const ConnectionDeclaration& declaration, const ElementRange& from,
                   const ElementRange& to) const;
   PathConnector path_connector(const ElementRange& element) const;

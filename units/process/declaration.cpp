@@ -87,19 +87,21 @@ class Reader {
     if (name == "program") return read_program(child);
     if (name == "argument") return read_argument(child);
     if (name == "file") return child.allow_only_leaf({"file"});
-    if (name == "parameter") return read_variable(child, Role::Parameter, {"min", "max", "unit"});
+    if (name == "parameter") {
+      return read_variable(child, Role::Parameter, {"min", "max", "unit", "relative"});
+    }
     if (name == "input") {
-      return read_variable(child, Role::Input, {"min", "max", "unit", "variability"});
+      return read_variable(child, Role::Input, {"min", "max", "unit", "relative", "variability"});
     }
     if (name == "output") {
       return read_variable(child, Role::Output,
-                           {"min", "max", "unit", "variability", "depends-on"});
+                           {"min", "max", "unit", "relative", "variability", "depends-on"});
     }
     if (name == "message-input") {
-      return read_variable(child, Role::MessageInput, {"clock", "mime-type", "unit"});
+      return read_variable(child, Role::MessageInput, {"clock", "mime-type", "unit", "relative"});
     }
     if (name == "message-output") {
-      return read_variable(child, Role::MessageOutput, {"clock", "mime-type", "unit"});
+      return read_variable(child, Role::MessageOutput, {"clock", "mime-type", "unit", "relative"});
     }
     child.fail(
         "not known here: expected <program>, <argument>, <file>, <parameter>, <input>, <output>, "
@@ -145,6 +147,7 @@ class Reader {
     variable.role = role;
     variable.description = text_or_nothing(child, "description");
     variable.unit = text_or_nothing(child, "unit");
+    variable.is_relative = flag(child, "relative");
     variable.mime_type = text_or_nothing(child, "mime-type");
     claim(child, variable.name);
     read_type(child, variable);
@@ -171,6 +174,10 @@ class Reader {
       variable.start = value_of_type(child.text("type"), variable.dimensions);
       if (child.has("start")) parse(child.text("start"), variable.start);
     });
+    const bool is_float = type_of(variable.start) <= stride::Type::Float64;
+    if (!is_float && child.has("relative")) {
+      child.fail("relative: expected of Float32 and Float64 only");
+    }
     const bool is_number = type_of(variable.start) < stride::Type::Boolean;
     for (const char* attribute : {"unit", "min", "max"}) {
       if (!is_number && child.has(attribute)) {

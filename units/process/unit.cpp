@@ -153,6 +153,7 @@ class ProcessUnit : public stride::Unit {
     auto row = std::visit([&](auto& member) { return add(variable, member); }, values_[i]);
     row.description(variable.description);
     if (!variable.unit.empty()) row.unit(variable.unit);
+    if (variable.is_relative) row.relative();
     if (!variable.mime_type.empty()) row.mime_type(variable.mime_type);
     if (variable.min) row.min(*variable.min);
     if (variable.max) row.max(*variable.max);

@@ -48,6 +48,7 @@ struct Variable {
   std::vector<std::size_t> dimensions;  ///< empty for a scalar
   std::string description;
   std::string unit;
+  bool is_relative = false;
   std::string mime_type;
   std::string clock;  ///< the name of the clock of a message
   bool is_discrete = false;

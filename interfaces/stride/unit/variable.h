@@ -33,6 +33,7 @@ struct Variable {
 
   std::string description;
   std::string unit;
+  bool is_relative = false;  ///< a difference: its unit is converted without the offset
   std::string mime_type;  ///< of a Binary variable
   std::optional<double> min;
   std::optional<double> max;
@@ -59,6 +60,8 @@ class VariableBuilder {
     return row_.description = std::move(text), *this;
   }
   VariableBuilder& unit(std::string symbol) { return row_.unit = std::move(symbol), *this; }
+  /// A difference of two values, such as a temperature rise: 10 degC are 10 K, not 283.15 K.
+  VariableBuilder& relative() { return row_.is_relative = true, *this; }
   VariableBuilder& mime_type(std::string type) { return row_.mime_type = std::move(type), *this; }
   /// Bounds, for numbers and enumerations; the type must be able to hold them.
   VariableBuilder& range(double min, double max) { return row_.min = min, row_.max = max, *this; }

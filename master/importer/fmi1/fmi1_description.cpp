@@ -127,7 +127,7 @@ class Fmi1Variables {
     check_start(typed, variable, unit_.warnings);
     variable.initial = initial_of(typed, variable);
     const auto declared = types_.declared(typed);
-    variable.unit = inherited(typed, declared, "unit");
+    read_unit(typed, declared, variable, unit_.warnings);
     variable.min = inherited(typed, declared, "min");
     variable.max = inherited(typed, declared, "max");
     check_limits(typed, variable, unit_.warnings);

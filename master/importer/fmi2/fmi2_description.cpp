@@ -107,7 +107,7 @@ class Variables {
     variable.start = typed.attribute_or("start");
     check_start(typed, variable, unit_.warnings);
     const auto declared = declared_type(typed);
-    variable.unit = inherited(typed, declared, "unit");
+    read_unit(typed, declared, variable, unit_.warnings);
     variable.min = inherited(typed, declared, "min");
     variable.max = inherited(typed, declared, "max");
     check_limits(typed, variable, unit_.warnings);

@@ -70,7 +70,7 @@ core::Variable read_variable(const xml::Element& element, ValueType type,
   const bool continuous = variable.variability == Variability::Continuous;
   if (variable.is_clocked() && continuous) variable.variability = Variability::Discrete;
   const auto declared = declared_type(element, types);
-  variable.unit = inherited(element, declared, "unit");
+  read_unit(element, declared, variable, warnings);
   variable.min = inherited(element, declared, "min");
   variable.max = inherited(element, declared, "max");
   variable.nominal = read_nominal(element, type, declared);

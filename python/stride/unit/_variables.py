@@ -25,6 +25,7 @@ class Variable:
         shape: Of a numpy array: a number, or one for each dimension.
         name: In the FMU, where it is another one than that of the attribute, such as "receive.frame".
         unit: Of measure, as Modelica writes it: "m", "rad/s", "degC".
+        relative: A difference, whose unit is converted without its offset: 10 degC are 10 K, not 283.15 K.
         min, max: Bounds of its values. Start values are compared with them, also those that a scenario gives; what is
             assigned later is not.
     """
@@ -40,6 +41,7 @@ class Variable:
         name: str = "",
         description: str = "",
         unit: str = "",
+        relative: bool = False,
         min: Optional[float] = None,
         max: Optional[float] = None,
     ) -> None:
@@ -47,6 +49,7 @@ class Variable:
         self.name = name
         self.description = description
         self.unit = unit
+        self.relative = relative
         self.min = min
         self.max = max
         try:
@@ -91,6 +94,8 @@ class Variable:
             value = getattr(self, key)
             if value not in (None, ""):
                 found[key] = str(value)
+        if self.relative:
+            found["relative"] = "true"
         return found
 
     def require_bounds(self) -> None:
