@@ -34,6 +34,7 @@
 #include <stride/unit/clock.h>
 #include <stride/unit/state.h>
 #include <stride/unit/step.h>
+#include <stride/unit/unit_of_measure_definition.h>
 #include <stride/unit/variable.h>
 
 namespace stride {
@@ -123,6 +124,7 @@ class Unit {
 
   const UnitInfo& info() const { return info_; }
   const std::deque<Variable>& variables() const { return variables_; }
+  const std::vector<UnitOfMeasureDefinition>& units_of_measure() const { return units_of_measure_; }
   bool lists_state() const { return lists_state_; }
   const std::vector<StateItem>& state_items() const { return state_items_; }
 
@@ -171,6 +173,15 @@ class Unit {
   template <class T>
   VariableBuilder local(std::string name, T& member) {
     return add(std::move(name), Causality::Local, Initial::Calculated, member);
+  }
+
+  /// Defines a unit of measure for .unit(), which the kit does not know
+  /// (<stride/unit_of_measure.h>) or knows as something else: a value of it is factor * value +
+  /// offset in the unit `in`.
+  ///
+  ///   unit_of_measure("furlong", 201.168, "m");
+  void unit_of_measure(std::string name, double factor, std::string in, double offset = 0) {
+    units_of_measure_.push_back({std::move(name), factor, std::move(in), offset});
   }
 
   /// Declares that the variables and the members listed here are the whole state, so that the unit
@@ -233,6 +244,7 @@ class Unit {
 
   UnitInfo info_;
   std::deque<Variable> variables_;
+  std::vector<UnitOfMeasureDefinition> units_of_measure_;
   bool lists_state_ = false;
   std::vector<StateItem> state_items_;
   Logger logger_;

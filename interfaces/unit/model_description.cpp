@@ -9,7 +9,7 @@
 #include "interfaces/unit/hash.h"
 #include "interfaces/unit/idle_manifest.h"
 #include "interfaces/unit/log_categories.h"
-#include "interfaces/unit/si_units.h"
+#include "interfaces/unit/units_of_measure.h"
 #include "interfaces/unit/xml_writer.h"
 
 namespace stride::kit {
@@ -126,22 +126,20 @@ class Writer {
     xml_.open("UnitDefinitions");
     for (const std::string& symbol : symbols) {
       xml_.open("Unit").attribute("name", symbol);
-      if (const auto unit = base_unit_of_measure(symbol)) write_base_unit(*unit);
+      if (const auto unit = base_unit_of_measure(unit_, symbol)) write_base_unit(*unit);
       xml_.close();
     }
     xml_.close();
   }
 
   void write_base_unit(const BaseUnitOfMeasure& unit) {
-    const std::pair<const char*, int> exponents[] = {
-        {"kg", unit.kg}, {"m", unit.m},     {"s", unit.s},   {"A", unit.A},
-        {"K", unit.K},   {"mol", unit.mol}, {"cd", unit.cd}, {"rad", unit.rad}};
     xml_.open("BaseUnit");
-    for (const auto& [quantity, exponent] : exponents) {
-      if (exponent != 0) xml_.attribute(quantity, std::int64_t{exponent});
+    for (std::size_t i = 0; i < unit.exponents.size(); ++i) {
+      const int exponent = unit.exponents[i];
+      if (exponent != 0) xml_.attribute(kUnitOfMeasureBases[i], std::int64_t{exponent});
     }
-    if (unit.factor != 1) xml_.attribute("factor", unit.factor);
-    if (unit.offset != 0) xml_.attribute("offset", unit.offset);
+    if (unit.factor != 1) xml_.attribute("factor", static_cast<double>(unit.factor));
+    if (unit.offset != 0) xml_.attribute("offset", static_cast<double>(unit.offset));
     xml_.close();
   }
 

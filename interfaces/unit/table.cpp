@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "interfaces/unit/legal_calls.h"
+#include "interfaces/unit/units_of_measure.h"
 #include "interfaces/unit/variable_name.h"
 #include "interfaces/unit/xml_writer.h"
 
@@ -168,6 +169,7 @@ Table::Table(const Unit& unit, double& time) {
   rows_.push_back(&time_);
   for (const Variable& row : unit.variables()) rows_.push_back(&row);
   index_rows();
+  check_units_of_measure(unit);
   for (const Variable* row : rows_) {
     check(*row);
     check_idle(*row, unit.info().promises_idle);

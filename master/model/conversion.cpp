@@ -189,10 +189,13 @@ class Composer {
 
   /// What keeps the unit of a connector from being converted.
   std::string undefined(const PathConnector& connector) const {
-    if (connector.unit.meaning) return "";
+    if (meaning_of(connector.unit)) return "";
     return fmt::format(
-        "; the unit '{}' has no definition in {}, nor where '{}' is declared", connector.unit.name,
-        context_.where.file.empty() ? "the system" : context_.where.file, connector.name);
+        "; no <BaseUnit> says what '{}' is, neither in {} nor where '{}' is declared, and it is "
+        "not "
+        "known by name",
+        connector.unit.name, context_.where.file.empty() ? "the system" : context_.where.file,
+        connector.name);
   }
 
   std::optional<LinearConversion> unit_conversion(const UnitOfMeasure& from,
@@ -345,13 +348,6 @@ std::int64_t mapped(const NumberMap& map, std::int64_t value) {
   const auto found = std::lower_bound(map.begin(), map.end(), value,
                                       [](const auto& entry, auto v) { return entry.first < v; });
   return found != map.end() && found->first == value ? found->second : value;
-}
-
-UnitOfMeasure known_unit(UnitOfMeasure unit, const UnitDescription& description) {
-  if (unit.meaning) return unit;
-  const auto found = description.units_of_measure.find(unit.name);
-  if (found != description.units_of_measure.end()) unit.meaning = found->second;
-  return unit;
 }
 
 bool converts_without_loss(ValueType from, ValueType to, const EnumerationItems& items) {

@@ -31,9 +31,6 @@ struct Conversion {
 /// The mapped number.
 std::int64_t mapped(const NumberMap& map, std::int64_t value);
 
-/// The unit of measure; if it has no meaning of its own, with that of the description.
-UnitOfMeasure known_unit(UnitOfMeasure unit, const UnitDescription& description);
-
 /// Between two connectors of a path: an ssd:Connection or an ssm:MappingEntry.
 struct PathSegment {
   bool suppress_unit_conversion = false;

@@ -116,7 +116,7 @@ void System::add_components(const SystemDeclaration& declaration) {
     }
     check_clocks(component);
     components_.push_back({component.name, component.description, component.early_return_allowed,
-                           component.has_snapshots});
+                           component.has_snapshots, component.units_of_measure});
   }
 }
 
@@ -127,6 +127,39 @@ void System::check_connectors(const SystemDeclaration& declaration, Diagnostics&
       diagnostics.attempt([&] { check_connector(declaration, i, connector); });
     }
   }
+  adopt_units();
+}
+
+/// A variable without a unit of measure is shown in the one that its connector declares.
+void System::adopt_units() {
+  std::map<std::size_t, std::shared_ptr<UnitDescription>> changed;
+  for (const auto& [element, unit] : connector_units_) {
+    if (!is_whole(element)) continue;
+    auto& description = changed[element.id.component];
+    if (!description) {
+      description =
+          std::make_shared<UnitDescription>(*components_[element.id.component].description);
+    }
+    description->variables[element.id.variable].unit = unit.name;
+  }
+  for (auto& [component, description] : changed) {
+    components_[component].description = std::move(description);
+  }
+}
+
+/// With the meaning that the unit's description gives to its name, or else the scenario.
+UnitOfMeasure System::known_unit(UnitOfMeasure unit, std::size_t component) const {
+  if (unit.meaning) return unit;
+  const auto find_in = [&](const UnitsOfMeasure& units) {
+    const auto found = units.find(unit.name);
+    if (found != units.end()) unit.meaning = found->second;
+    return found != units.end();
+  };
+  const Component& owner = components_[component];
+  if (!find_in(owner.description->units_of_measure) && owner.units_of_measure) {
+    find_in(*owner.units_of_measure);
+  }
+  return unit;
 }
 
 void System::check_connector(const SystemDeclaration& declaration, std::size_t component,
@@ -179,7 +212,6 @@ void System::check_way(const std::vector<ViaDeclaration>& via, const ConnectorEl
 void System::check_element(const Context& context, const ConnectorDeclaration& connector,
                            const ElementRange& element) {
   const Variable& variable = this->variable(element.id);
-  const UnitDescription& description = *components_[element.id.component].description;
   if (connector.causality && *connector.causality != variable.causality) {
     fail_input(context,
                fmt::format("the connector has {}, the unit has {}",
@@ -191,12 +223,13 @@ void System::check_element(const Context& context, const ConnectorDeclaration& c
   }
   note_other_kin(context, connector, variable);
   if (connector.unit.name.empty()) return;
-  const UnitOfMeasure unit = known_unit(connector.unit, description);
-  if (!convert(unit, known_unit({variable.unit}, description))) {
+  const std::size_t component = element.id.component;
+  const UnitOfMeasure unit = known_unit(connector.unit, component);
+  if (!convert(unit, known_unit({variable.unit}, component))) {
     fail_input(context, fmt::format("the connector is in '{}', the unit's variable in '{}'",
                                     unit.name, variable.unit));
   }
-  connector_units_[element] = unit;
+  if (variable.unit.empty() && is_real(variable.type)) connector_units_[element] = unit;
 }
 
 /// A warning only: the type of a connector of SSP 1.0 does not change what is exchanged.
@@ -253,11 +286,13 @@ PathConnector System::path_connector(const ElementRange& element) const {
   const Variable& end = variable(element.id);
   auto declared = connector_units_.find(element);
   if (declared == connector_units_.end()) declared = connector_units_.find(whole(element.id));
-  const bool is_declared = end.unit.empty() && declared != connector_units_.end();
-  return {range_name(element), end.type,
-          is_declared ? declared->second
-                      : known_unit({end.unit}, *components_[element.id.component].description),
-          end.items, false, end.is_relative};
+  return {range_name(element),
+          end.type,
+          declared != connector_units_.end() ? declared->second
+                                             : known_unit({end.unit}, element.id.component),
+          end.items,
+          false,
+          end.is_relative};
 }
 
 /// Element by element where one end consists of scalars.

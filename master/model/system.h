@@ -30,6 +30,8 @@ struct Component {
   bool early_return_allowed = true;
   /// Whether its process can be saved, instead of a state that the unit does not have.
   bool has_snapshots = false;
+  /// Those that the scenario defines; may be null.
+  std::shared_ptr<const UnitsOfMeasure> units_of_measure{};
 
   bool may_return_early() const { return early_return_allowed && description->may_return_early; }
   bool can_save_state() const { return description->can_save_state || has_snapshots; }
@@ -200,6 +202,8 @@ class System {
                        const Location& where);
   void check_ends(const ConnectionDeclaration& declaration, const ElementRange& from,
                   const ElementRange& to) const;
+  void adopt_units();
+  UnitOfMeasure known_unit(UnitOfMeasure unit, std::size_t component) const;
   PathConnector path_connector(const ElementRange& element) const;
   ElementRange whole(VariableId id) const { return {id, 0, variable(id).size}; }
   void note_missing(const StartDeclaration& declaration);
@@ -215,7 +219,7 @@ class System {
   std::vector<SystemOutput> outputs_;
   std::vector<StartValue> structural_values_;
   std::vector<std::string> warnings_;
-  std::map<ElementRange, UnitOfMeasure> connector_units_;  ///< those that connectors declare
+  std::map<ElementRange, UnitOfMeasure> connector_units_;  ///< of variables that have none
   std::set<VariableId> message_clocks_;  ///< time-based clocks that are connected to triggered ones
   std::size_t unknown_variables_ = 0;    ///< reported so far
   std::set<std::string> misfits_;        ///< connectors of systems that were reported

@@ -39,6 +39,8 @@ struct ComponentDeclaration {
   Location where{};
   bool early_return_allowed = true;
   bool has_snapshots = false;
+  /// For names that the description does not define; may be null.
+  std::shared_ptr<const UnitsOfMeasure> units_of_measure{};
 };
 /// A connector of an enclosing or nested system on a connection, and the conversion before it.
 struct ViaDeclaration {

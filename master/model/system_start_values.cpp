@@ -175,9 +175,8 @@ ValueBlock System::start_value(const StartDeclaration& wanted, const ElementRang
   std::optional<Variable> element;
   if (!is_whole(part)) element = element_of(variable(part.id));
   const Variable& target = element ? *element : variable(part.id);
-  const UnitDescription& description = *components_[part.id.component].description;
   const Context context{wanted.where, wanted.component, wanted.variable, {}};
-  const UnitOfMeasure unit = known_unit(wanted.unit, description);
+  const UnitOfMeasure unit = known_unit(wanted.unit, part.id.component);
   const PathConnector end = path_connector(part);
   if (wanted.via.empty() && !wanted.suppress_unit_conversion && !convert(unit, end.unit)) {
     fail_input(context,

@@ -2,9 +2,11 @@
 #ifndef STRIDE_MASTER_MODEL_UNIT_OF_MEASURE_H
 #define STRIDE_MASTER_MODEL_UNIT_OF_MEASURE_H
 
-#include <array>
+#include <map>
 #include <optional>
 #include <string>
+
+#include <stride/unit_of_measure.h>
 
 namespace stride::xml {
 class Element;
@@ -12,22 +14,14 @@ class Element;
 
 namespace stride::core {
 
-/// value in SI base units = factor * value + offset. exponents of kg, m, s, A, K, mol, cd, rad.
-struct BaseUnitOfMeasure {
-  std::array<int, 8> exponents{};
-  double factor = 1;
-  double offset = 0;
-};
-
-/// The attributes of a <BaseUnit> of FMI and SSP, in the order of BaseUnitOfMeasure::exponents.
-inline constexpr std::array<const char*, 8> kBaseUnits{"kg", "m",   "s",  "A",
-                                                       "K",  "mol", "cd", "rad"};
+using stride::BaseUnitOfMeasure;
+using UnitsOfMeasure = std::map<std::string, BaseUnitOfMeasure>;
 
 /// Reads a <BaseUnit>. Throws Error (Input) for what is no finite number, and for the factor 0.
 BaseUnitOfMeasure read_base_unit(const xml::Element& element);
 
-/// A unit of measure by its name; an empty name: none is declared. Without a meaning it equals
-/// those of the same name only, which may be in brackets.
+/// A unit of measure by its name; an empty name: none is declared. Without a meaning of its own it
+/// is what find_unit_of_measure() knows by that name.
 struct UnitOfMeasure {
   std::string name{};
   std::optional<BaseUnitOfMeasure> meaning{};
@@ -41,8 +35,12 @@ struct LinearConversion {
   bool operator==(const LinearConversion&) const = default;
 };
 
-/// How values in one unit become values in another. Where one side has none they are taken as they
-/// are; nothing if they cannot be converted into each other.
+/// The meaning of its own, or else the one that is known by the name.
+std::optional<BaseUnitOfMeasure> meaning_of(const UnitOfMeasure& unit);
+
+/// How values in one unit become values in another. Where one side has none, or both have one name
+/// and one of them no meaning of its own, they are taken as they are; nothing if they cannot be
+/// converted into each other.
 std::optional<LinearConversion> convert(const UnitOfMeasure& from, const UnitOfMeasure& to);
 
 }  // namespace stride::core

@@ -23,7 +23,9 @@ namespace {
 using core::ValueType;
 
 bool is_same(const core::BaseUnitOfMeasure& a, const core::BaseUnitOfMeasure& b) {
-  return a.exponents == b.exponents && a.factor == b.factor && a.offset == b.offset;
+  const auto number = [](long double value) { return static_cast<double>(value); };
+  return a.exponents == b.exponents && number(a.factor) == number(b.factor) &&
+         number(a.offset) == number(b.offset);
 }
 
 /// The namespace prefix, ready to be put before a name: "ssc:" or nothing.
@@ -214,12 +216,14 @@ class Completion {
 
   std::string unit_definition(const std::string& unit, const core::BaseUnitOfMeasure& base) {
     std::string attributes;
-    for (std::size_t i = 0; i < core::kBaseUnits.size(); ++i) {
+    for (std::size_t i = 0; i < stride::kUnitOfMeasureBases.size(); ++i) {
       if (base.exponents[i] == 0) continue;
-      attributes += fmt::format(" {}=\"{}\"", core::kBaseUnits[i], base.exponents[i]);
+      attributes += fmt::format(" {}=\"{}\"", stride::kUnitOfMeasureBases[i], base.exponents[i]);
     }
-    if (base.factor != 1) attributes += fmt::format(" factor=\"{}\"", base.factor);
-    if (base.offset != 0) attributes += fmt::format(" offset=\"{}\"", base.offset);
+    if (base.factor != 1)
+      attributes += fmt::format(" factor=\"{}\"", static_cast<double>(base.factor));
+    if (base.offset != 0)
+      attributes += fmt::format(" offset=\"{}\"", static_cast<double>(base.offset));
     return fmt::format("<{0}Unit name=\"{1}\"><{0}BaseUnit{2}/></{0}Unit>", ssc(),
                        xml_escaped(unit), attributes);
   }

@@ -12,7 +12,7 @@
 namespace stride::ssp {
 
 struct Definitions {
-  std::map<std::string, core::BaseUnitOfMeasure> units_of_measure;
+  core::UnitsOfMeasure units_of_measure;
   std::map<std::string, core::EnumerationItems> enumerations;
 
   /// The unit of this name, with its meaning if it is defined.

@@ -54,6 +54,7 @@ class Flattener {
     for (const Connector& connector : component.node->connectors) {
       declared.connectors.push_back(connector.declared);
     }
+    declared.units_of_measure = component.node->units_of_measure;
     flat_.sources.push_back(component.node->source);
   }
 

@@ -63,6 +63,8 @@ class SystemReader {
         path_(path),
         folders_(source_folders(path)),
         file_{read_version(root, reading.warnings), read_definitions(root, kSsd, reading.warnings)},
+        units_of_measure_(
+            std::make_shared<const core::UnitsOfMeasure>(file_.definitions.units_of_measure)),
         reading_(reading) {}
 
   SystemNode read() {
@@ -182,6 +184,7 @@ class SystemReader {
     node.source = source_path(element, folders_, reading_.warnings);
     check_package(element, node.source);
     node.parameters = read_bindings(element, node.source);
+    node.units_of_measure = units_of_measure_;
     return node;
   }
 
@@ -336,6 +339,7 @@ class SystemReader {
   std::filesystem::path path_;
   std::vector<std::filesystem::path> folders_;  ///< of sources
   SspFile file_;
+  std::shared_ptr<const core::UnitsOfMeasure> units_of_measure_;
   Reading& reading_;
   bool has_later_indices_ = false;
   std::map<std::string, xml::Element> own_systems_;  ///< by id, when one of them was referred to

@@ -54,7 +54,8 @@ struct ElementNode {
   core::Location where;
   std::vector<Connector> connectors;  ///< as declared here; of a system, those of `system` hold
   std::filesystem::path source;       ///< of an FMU
-  std::vector<ParameterValue> parameters;  ///< of an FMU
+  std::vector<ParameterValue> parameters;                        ///< of an FMU
+  std::shared_ptr<const core::UnitsOfMeasure> units_of_measure;  ///< of its file, of an FMU
   std::unique_ptr<SystemNode> system;
   std::string dictionary;
 };

@@ -87,6 +87,50 @@ def test_a_unit_with_inputs_outputs_and_parameters(units):
     assert last(stride.run("u.fmu", stop=0.5), "u.power") == 10
 
 
+MEASURES = """
+    class Plant(su.Unit, units_of_measure={"furlong": (201.168, "m"), "oven": (10, "degC", 50)}):
+        speed = su.Output(20.0, unit="m/s")
+        torque = su.Output(2.0, unit="kN.m")
+        way = su.Output(3.0, unit="furlong")
+        heat = su.Output(25.0, unit="oven")
+        rise = su.Output(10.0, unit="degC", relative=True)
+
+        def step(self, now, end):
+            pass
+
+    class Gauge(su.Unit):
+        speed = su.Input(0.0, unit="km/h")
+        torque = su.Input(0.0, unit="Nm")
+        way = su.Input(0.0, unit="ft")
+        heat = su.Input(0.0, unit="degF")
+        rise = su.Input(0.0, unit="degF", relative=True)
+        bare = su.Input(5.0)
+
+        def step(self, now, end):
+            pass
+"""
+
+
+def test_units_of_measure_that_people_use_and_that_a_unit_defines(units):
+    assert units.pack(MEASURES, "--class", "Plant", name="plant") == ""
+    assert units.pack(MEASURES, "--class", "Gauge", name="gauge") == ""
+    names = ("speed", "torque", "way", "heat", "rise")
+    text = scenario("plant=plant gauge=gauge", " ".join(f"plant.{name}>gauge.{name}" for name in names))
+    connector = '<ssd:Connector name="bare" kind="input"><ssc:Real unit="psi"/></ssd:Connector>'
+    text = text.replace(
+        'source="gauge.fmu"/>', f'source="gauge.fmu"><ssd:Connectors>{connector}</ssd:Connectors></ssd:Component>'
+    )
+    (units.path / "s.ssd").write_text(text, encoding="utf-8")
+    run = stride.run("s.ssd", stop=0.25, step=0.125, signals=["*"])
+    values = {name: last(run, f"gauge.{name}") for name in names}
+    assert values["speed"] == 72
+    assert values["torque"] == 2000
+    assert values["way"] == 3 * 660
+    assert values["heat"] == pytest.approx(572)
+    assert values["rise"] == 18
+    assert run.units["gauge.bare"] == "psi"
+
+
 def test_it_needs_no_package_and_no_numpy(units, monkeypatch):
     source = (
         THERMOSTAT
@@ -475,6 +519,8 @@ STEP = "def step(self, now, end): pass"
         ("a = su.Output(bool, discrete=True)\n        y = su.Output(bool, name='no name')", "'no name'"),
         ("y = su.Output(float, name='process.program')", "'process.program'"),
         ("1/0", "ZeroDivisionError: division by zero (u.py:4, in U)"),
+        ("y = su.Output(1, unit='K', relative=True)", "U.y: relative: expected of Float32 and Float64 only"),
+        ("y = su.Output(1.0, relative=True)", "relative() is for variables with a unit of measure"),
         ("y = su.Output(1.0, min=2)", "U.y: start: 1.0 is beyond min=2; give another start, or another min"),
         ("y = su.Input(float, shape=2, start=[0, 9.5], max=9)", "U.y: start: [0, 9.5] is beyond max=9"),
         ("y = su.Output('float32')", "there is no type 'float32'; expected Float32, or for the text 'float32' (str, start="),

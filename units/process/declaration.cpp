@@ -87,6 +87,7 @@ class Reader {
     if (name == "program") return read_program(child);
     if (name == "argument") return read_argument(child);
     if (name == "file") return child.allow_only_leaf({"file"});
+    if (name == "unit-of-measure") return read_unit_of_measure(child);
     if (name == "parameter") {
       return read_variable(child, Role::Parameter, {"min", "max", "unit", "relative"});
     }
@@ -104,8 +105,8 @@ class Reader {
       return read_variable(child, Role::MessageOutput, {"clock", "mime-type", "unit", "relative"});
     }
     child.fail(
-        "not known here: expected <program>, <argument>, <file>, <parameter>, <input>, <output>, "
-        "<message-input> or <message-output>");
+        "not known here: expected <program>, <argument>, <file>, <unit-of-measure>, <parameter>, "
+        "<input>, <output>, <message-input> or <message-output>");
   }
 
   // ---- The command ----
@@ -135,6 +136,12 @@ class Reader {
     const fs::path file = child.text("file");
     if (flag(child, "outside")) return {Word::Kind::Outside, file.string()};
     return {Word::Kind::Resource, file.filename().string()};
+  }
+
+  void read_unit_of_measure(const Element& child) {
+    child.allow_only_leaf({"name", "factor", "unit", "offset"});
+    result_.units_of_measure.push_back({child.text("name"), child.number("factor", 1),
+                                        child.text("unit"), child.number("offset", 0)});
   }
 
   // ---- Variables ----

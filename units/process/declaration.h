@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <stride/time.h>
+#include <stride/unit/unit_of_measure_definition.h>
 
 #include "units/process/variable.h"
 
@@ -28,6 +29,7 @@ struct Declaration {
   std::string description;
   std::vector<Word> command;  ///< the program, then its arguments
   std::vector<Variable> variables;
+  std::vector<stride::UnitOfMeasureDefinition> units_of_measure;
   bool may_stop = false;         ///< a step may end early
   bool split_invariant = false;  ///< as UnitInfo has it
   bool has_trace = false;        ///< it can write one

@@ -48,6 +48,9 @@ class ProcessUnit : public stride::Unit {
     info.early_return = declaration_.may_stop;
     info.split_invariant = declaration_.split_invariant;
     info.maximum_step = declaration_.maximum_step;
+    for (const auto& [name, factor, in, offset] : declaration_.units_of_measure) {
+      unit_of_measure(name, factor, in, offset);
+    }
     for (std::size_t i = 0; i < values_.size(); ++i) list(i);
     list_own_parameters();
   }

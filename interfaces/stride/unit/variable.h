@@ -34,7 +34,7 @@ struct Variable {
   std::string description;
   std::string unit;
   bool is_relative = false;  ///< a difference: its unit is converted without the offset
-  std::string mime_type;  ///< of a Binary variable
+  std::string mime_type;     ///< of a Binary variable
   std::optional<double> min;
   std::optional<double> max;
   std::vector<std::pair<std::string, std::int64_t>> items;  ///< of an Enumeration
@@ -50,8 +50,9 @@ struct Variable {
   bool is_verdict_text = false;     ///< of a String output: it explains the verdict
 };
 
-/// What input(), output(), parameter() and local() return, to add more to the row. Units are
-/// written in the Modelica notation: "m", "rad/s", "N.m", "degC".
+/// What input(), output(), parameter() and local() return, to add more to the row. Units of
+/// measure are written as Modelica does: "m", "km/h", "N.m", "W/(m2.K)", "degC"; see
+/// <stride/unit_of_measure.h> and Unit::unit_of_measure().
 class VariableBuilder {
  public:
   explicit VariableBuilder(Variable& row) : row_(row) {}

@@ -55,9 +55,10 @@ class Examination {
               name(variable.causality));
     }
     if (!variable.unit.empty() && !unit_.units_of_measure.contains(variable.unit) &&
-        said_units_.insert(variable.unit).second) {
+        !find_unit_of_measure(variable.unit) && said_units_.insert(variable.unit).second) {
       notes_.push_back(fmt::format(
-          "the unit '{}' of '{}' is not defined by a BaseUnit, so it cannot be converted",
+          "the unit '{}' of '{}' is neither defined by a BaseUnit nor known by name, so it cannot "
+          "be converted",
           variable.unit, variable.name));
     }
     examine_range(variable);

@@ -76,6 +76,8 @@ def declaration(cls: type[Unit], command: list[tuple[str, dict[str, str]]]) -> s
         root.set("trace", "true")
     for tag, attributes in command:
         ElementTree.SubElement(root, tag, attributes)
+    for definition in cls._units_of_measure.values():
+        ElementTree.SubElement(root, "unit-of-measure", definition)
     for variable in cls._variables.values():
         attributes = variable.attributes()
         if isinstance(variable, Output) and (names := _depends_on(cls, variable)) is not None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from ._errors import UnitError
 from ._time import SECOND, Time
 from ._values import MISTAKES, printable
-from ._variables import MessageOutput, Variable, collect
+from ._variables import MessageOutput, Variable, collect, definitions
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -70,6 +70,8 @@ class Unit(metaclass=UnitType):
     - early_return: a step may end before its end;
     - split_invariant: while inputs are held, it does not matter how time is divided into steps; `stride verify` tests it;
     - maximum_step: no step is longer [s];
+    - units_of_measure: those that stride does not know, as `(factor, unit)` or `(factor, unit, offset)`, where a value is
+      factor * value + offset in the unit: `{"furlong": (201.168, "m")}`;
     - time_unit: of the times in the lines, which are shorter so: "ps", "ns", "us", "ms", "s".
 
     The calls: `start`, then `step` and `event` in turn, `finish`. Inputs and parameters are in their attributes before
@@ -77,6 +79,7 @@ class Unit(metaclass=UnitType):
     """
 
     _options: dict[str, object] = {}
+    _units_of_measure: dict[str, dict[str, str]] = {}
 
     now: Time = Time.from_ps(0)
     """The present instant: the start, or where the last step ended."""
@@ -100,6 +103,7 @@ class Unit(metaclass=UnitType):
         split_invariant: Optional[bool] = None,
         maximum_step: Optional[float] = None,
         time_unit: Optional[str] = None,
+        units_of_measure: Optional[dict[str, tuple[Any, ...]]] = None,
     ) -> None:
         given = {
             "may-stop": early_return,
@@ -107,6 +111,7 @@ class Unit(metaclass=UnitType):
             "maximum-step": maximum_step,
             "time-unit": time_unit,
         }
+        cls._units_of_measure = {**cls._units_of_measure, **definitions(cls.__name__, units_of_measure or {})}
         cls._options = {**cls._options, **{key: value for key, value in given.items() if value is not None}}
 
     def __new__(cls: type[U], *arguments: Any, **words: Any) -> U:

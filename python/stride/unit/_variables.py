@@ -24,7 +24,8 @@ class Variable:
         start: The start value; zero, False or empty where it is not given.
         shape: Of a numpy array: a number, or one for each dimension.
         name: In the FMU, where it is another one than that of the attribute, such as "receive.frame".
-        unit: Of measure, as Modelica writes it: "m", "rad/s", "degC".
+        unit: Of measure, as Modelica writes it: "m", "km/h", "W/(m2.K)", "degC"; others are in `units_of_measure` of the
+            class.
         relative: A difference, whose unit is converted without its offset: 10 degC are 10 K, not 283.15 K.
         min, max: Bounds of its values. Start values are compared with them, also those that a scenario gives; what is
             assigned later is not.
@@ -201,6 +202,23 @@ class MessageOutput(Message):
     """Messages that the unit sends: `self.NAME.send(value)`."""
 
     tag = "message-output"
+
+
+def definitions(cls: str, units: dict[str, tuple[Any, ...]]) -> dict[str, dict[str, str]]:
+    """The elements of docs/process-protocol.md that define units of measure, by their names."""
+    found = {}
+    for name, given in units.items():
+        try:
+            factor, unit, offset = (*given, 0.0) if len(given) == 2 else given
+            found[name] = {"name": name, "factor": repr(float(factor)), "unit": unit, "offset": repr(float(offset))}
+        except (TypeError, ValueError):
+            raise UnitError(
+                f"{cls}: units_of_measure: '{name}' is {given!r:.80}; expected (factor, unit) or (factor, unit, offset),"
+                " such as (201.168, 'm')"
+            ) from None
+        if not isinstance(unit, str):
+            raise UnitError(f"{cls}: units_of_measure: '{name}': the unit is {unit!r:.80}, expected text such as 'm'")
+    return found
 
 
 def collect(cls: type, base: type) -> dict[str, Variable]:

@@ -104,3 +104,45 @@ TEST_CASE("the step that a unit prefers is in its default experiment") {
   CHECK(at < xml.find("<ModelVariables"));
   CHECK_THAT(describe(Sample()), !Contains("DefaultExperiment"));
 }
+
+namespace {
+
+class Measured : public Unit {
+ public:
+  explicit Measured(const std::string& in = "m", double factor = 201.168) {
+    unit_of_measure("furlong", factor, in);
+    unit_of_measure("oven", 10, "degC", 50);
+    input("speed", speed_).unit("km/h");
+    input("length", length_).unit("furlong");
+    input("heat", heat_).unit("oven");
+    input("rise", rise_).unit("degF").relative();
+    input("score", score_).unit("points");
+  }
+  void step(Step&) override {}
+
+ private:
+  double speed_ = 0, length_ = 0, heat_ = 0, rise_ = 0, score_ = 0;
+};
+
+}  // namespace
+
+TEST_CASE("units of measure are defined if they are known, or by the unit") {
+  const std::string xml = describe(Measured());
+  CHECK_THAT(xml, Contains(R"(<BaseUnit m="1" s="-1" factor="0.2777777777777778"/>)"));
+  CHECK_THAT(xml, Contains(R"(<BaseUnit m="1" factor="201.168"/>)"));
+  CHECK_THAT(xml, Contains(R"(<BaseUnit K="1" factor="10" offset="323.15"/>)"));
+  CHECK_THAT(xml, Contains(R"(factor="0.5555555555555556" offset="255.37222222222223")"));
+  CHECK_THAT(xml, Contains(R"(<Unit name="points"/>)"));
+}
+
+TEST_CASE("a difference is declared as one") {
+  const std::string xml = describe(Measured());
+  CHECK_THAT(xml, Contains(R"(unit="degF" relativeQuantity="true")"));
+  CHECK(xml.find("relativeQuantity") == xml.rfind("relativeQuantity"));
+}
+
+TEST_CASE("definitions of units of measure that mean nothing are refused") {
+  CHECK_THROWS_WITH(describe(Measured("ell")),
+                    Contains("'furlong': 'ell', by which it is defined"));
+  CHECK_THROWS_WITH(describe(Measured("m", 0)), Contains("expected a finite factor other than 0"));
+}

@@ -164,9 +164,31 @@ TEST_CASE("units of measurement whose meaning is given") {
   const auto unit = importer::parse_model_description(kComplete, "unit.xml");
   REQUIRE(unit.units_of_measure.size() == 2);
   CHECK(unit.units_of_measure.at("degC").exponents == std::array<int, 8>{0, 0, 0, 0, 1, 0, 0, 0});
-  CHECK(unit.units_of_measure.at("degC").offset == 273.15);
+  CHECK(unit.units_of_measure.at("degC").offset == 273.15L);
   CHECK(unit.units_of_measure.at("mm/s").exponents == std::array<int, 8>{0, 1, -1, 0, 0, 0, 0, 0});
-  CHECK(unit.units_of_measure.at("mm/s").factor == 0.001);
+  CHECK(unit.units_of_measure.at("mm/s").factor == 0.001L);
+}
+
+TEST_CASE("a difference is one by its own word, or that of its type") {
+  const auto unit = importer::parse_model_description(
+      R"(<fmiModelDescription fmiVersion="3.0" modelName="m" instantiationToken="x">
+  <CoSimulation modelIdentifier="m"/>
+  <TypeDefinitions>
+    <Float64Type name="Rise" unit="degC" relativeQuantity="true"/>
+  </TypeDefinitions>
+  <ModelVariables>
+    <Float64 name="own" valueReference="1" unit="degC" relativeQuantity="1"/>
+    <Float32 name="plain" valueReference="2" unit="degC"/>
+    <Float64 name="typed" valueReference="3" declaredType="Rise"/>
+    <Float64 name="absolute" valueReference="4" declaredType="Rise" relativeQuantity="false"/>
+  </ModelVariables>
+  <ModelStructure/>
+</fmiModelDescription>)",
+      "unit.xml");
+  CHECK(variable(unit, "own").is_relative);
+  CHECK_FALSE(variable(unit, "plain").is_relative);
+  CHECK(variable(unit, "typed").is_relative);
+  CHECK_FALSE(variable(unit, "absolute").is_relative);
 }
 
 TEST_CASE("variables keep their order, and their defaults are those of the standard") {

@@ -74,9 +74,10 @@ TEST_CASE("a unit that keeps another from being converted is named if it has no 
   const UnitOfMeasure unknown{"furlong", std::nullopt};
   CHECK_THAT(
       reason({point("a.y", ValueType::Float64, unknown), u}, {{}}),
-      Contains("the unit 'furlong' has no definition in x.ssd, nor where 'a.y' is declared"));
+      Contains(
+          "no <BaseUnit> says what 'furlong' is, neither in x.ssd nor where 'a.y' is declared"));
   CHECK_THAT(reason({point("a.y", ValueType::Float64, kSecond), u}, {{}}),
-             Contains("cannot be converted") && !Contains("has no definition"));
+             Contains("cannot be converted") && !Contains("no <BaseUnit>"));
 }
 
 TEST_CASE("passages are made one after the other") {

@@ -823,3 +823,91 @@ TEST_CASE("an input of the system leads to what is there, and a wrong end is rep
   CHECK_THAT(reason(system), StartsWith("s.ssd:9: unit 'a', variable 'w': its model 'arrays' has "
                                         "no such variable\n"));
 }
+
+// ---- Units of measure ----
+
+namespace {
+
+const BaseUnitOfMeasure kKelvin{{0, 0, 0, 0, 1, 0, 0, 0}, 1, 0};
+const BaseUnitOfMeasure kCelsius{{0, 0, 0, 0, 1, 0, 0, 0}, 1, 273.15L};
+
+/// With the outputs `t` and `rise`, the inputs `k` and `step`; `rise` and `step` are differences.
+std::shared_ptr<const UnitDescription> thermal() {
+  auto unit = std::make_shared<UnitDescription>(*Describe("thermal")
+                                                     .unit("K", kKelvin)
+                                                     .unit("degC", kCelsius)
+                                                     .output("t", "degC")
+                                                     .output("rise", "degC")
+                                                     .input("k", "K")
+                                                     .input("step", "K")
+                                                     .input("bare")
+                                                     .input("odd", "league")
+                                                     .done());
+  unit->variables[1].is_relative = unit->variables[3].is_relative = true;
+  return unit;
+}
+
+SystemDeclaration thermal_system(std::vector<ConnectionDeclaration> connections) {
+  SystemDeclaration system;
+  system.name = "thermal";
+  system.components = {{"a", thermal(), {}, {"s.ssd", 3}}, {"b", thermal(), {}, {"s.ssd", 4}}};
+  system.connections = std::move(connections);
+  return system;
+}
+
+LinearConversion only_conversion(const System& system) {
+  REQUIRE(system.connections().size() == 1);
+  return system.connections()[0].conversion.linear;
+}
+
+}  // namespace
+
+TEST_CASE("a difference is converted without the offset of its unit") {
+  const System difference(thermal_system({from_to("a.rise", "b.step")}));
+  CHECK(only_conversion(difference).is_identity());
+  CHECK(difference.warnings().empty());
+  const System absolute(thermal_system({from_to("a.t", "b.k")}));
+  CHECK(only_conversion(absolute) == LinearConversion{1, 273.15});
+}
+
+TEST_CASE("where one end alone is a difference, the value is one, with a warning") {
+  const auto [from, to] =
+      GENERATE(table<const char*, const char*>({{"a.rise", "b.k"}, {"a.t", "b.step"}}));
+  const System system(thermal_system({from_to(from, to)}));
+  CHECK(only_conversion(system).is_identity());
+  REQUIRE(system.warnings().size() == 1);
+  CHECK_THAT(system.warnings()[0], Contains("s.ssd:9: ") && Contains("relativeQuantity") &&
+                                       Contains("from 'degC' to 'K'"));
+  ConnectionDeclaration wanted = from_to(from, to);
+  wanted.suppress_unit_conversion = true;
+  CHECK(System(thermal_system({wanted})).warnings().empty());
+}
+
+TEST_CASE("a start value of a difference is one") {
+  SystemDeclaration declared = thermal_system({});
+  declared.start_values = {{"b", "step", "10", {"degC", kCelsius}, {"s.ssd", 12}},
+                           {"b", "k", "10", {"degC", kCelsius}, {"s.ssd", 13}}};
+  const System system(declared);
+  REQUIRE(system.start_values().size() == 2);
+  CHECK(system.start_values()[0].value.numbers<double>()[0] == 283.15);
+  CHECK(system.start_values()[1].value.numbers<double>()[0] == 10);
+}
+
+TEST_CASE("an unnamed unit is the connector's, an undefined one the scenario's") {
+  SystemDeclaration declared = thermal_system({});
+  declared.components[0].connectors = {
+      {"bare", ValueType::Float64, Causality::Input, {"degC", {}}, {"s.ssd", 5}},
+      {"odd", ValueType::Float64, Causality::Input, {"km", {}}, {"s.ssd", 6}}};
+  CHECK_THAT(reason(declared),
+             Contains("the connector is in 'km', the unit's variable in 'league'"));
+  declared.components[0].units_of_measure = std::make_shared<const UnitsOfMeasure>(
+      UnitsOfMeasure{{"league", {{0, 1, 0, 0, 0, 0, 0, 0}, 4828.032L, 0}}});
+  const System system(declared);
+  const auto unit_of = [&](std::size_t component, const char* name) {
+    const UnitDescription& unit = *system.components()[component].description;
+    return unit.variables[unit.find(name).value()].unit;
+  };
+  CHECK(unit_of(0, "bare") == "degC");
+  CHECK(unit_of(1, "bare").empty());
+  CHECK(unit_of(0, "odd") == "league");
+}

@@ -31,6 +31,24 @@ TEST_CASE(
 TEST_CASE("a name in brackets is that of the same unit") {
   CHECK(convert({"[m]"}, {"m"}));
   CHECK(convert({"kg/m3"}, {"[kg/m3]"}));
-  CHECK_FALSE(convert({"[m]"}, {"mm"}));
+  CHECK_FALSE(convert({"[furlong]"}, {"m"}));
   CHECK_FALSE(convert({"[m"}, {"m"}));
+}
+
+TEST_CASE("a unit without a definition is what is known by its name") {
+  CHECK(convert({"km/h"}, {"m/s"})->factor == 1 / 3.6);
+  CHECK(convert({"m/s"}, {"km/h"})->factor == 3.6);
+  CHECK(convert({"mm"}, {"um"})->factor == 1000);
+  CHECK(convert({"degF"}, {"degC"})->factor == 5 / 9.0);
+  CHECK(convert({"degF"}, {"degC"})->offset == -160 / 9.0);
+  CHECK_FALSE(convert({"1/min"}, {"rad/s"}));
+  CHECK_FALSE(convert({"bar"}, {"N"}));
+}
+
+TEST_CASE("a definition goes before what is known, and one name is one unit if it has only one") {
+  const BaseUnitOfMeasure own{{0, 0, -1, 0, 0, 0, 0, 0}, 1 / 60.0L, 0};
+  CHECK(convert({"rpm", own}, {"Hz"})->factor == 1 / 60.0);
+  CHECK_FALSE(convert({"rpm", own}, {"rad/s"}));
+  CHECK(convert({"rpm", own}, {"rpm"})->is_identity());
+  CHECK(convert({"\u00B5m"}, {"um"})->is_identity());
 }

@@ -35,9 +35,9 @@ TEST_CASE("units and enumerations are known by their names") {
   const auto celsius = definitions.unit("degC").meaning.value();
   CHECK(celsius.exponents == std::array<int, 8>{0, 0, 0, 0, 1, 0, 0, 0});
   CHECK(celsius.factor == 1);
-  CHECK(celsius.offset == 273.15);
+  CHECK(celsius.offset == 273.15L);
   CHECK(definitions.unit("1/min").meaning->exponents[2] == -1);
-  CHECK(definitions.unit("1/min").meaning->factor == 0.1);
+  CHECK(definitions.unit("1/min").meaning->factor == 0.1L);
   CHECK(definitions.unit("rpm").name == "rpm");
   CHECK_FALSE(definitions.unit("rpm").meaning);
   CHECK(definitions.enumerations.at("Mode") ==

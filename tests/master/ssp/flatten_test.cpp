@@ -139,7 +139,7 @@ TEST_CASE("what is done to a value on its way stays with the way") {
   CHECK(connection.via[0].segment.suppress_unit_conversion);
   CHECK(connection.via[0].segment.transformation.linear.offset == 2);
   CHECK(connection.via[0].connector.unit.name == "cm");
-  CHECK(connection.via[0].connector.unit.meaning->factor == 0.01);
+  CHECK(connection.via[0].connector.unit.meaning->factor == 0.01L);
   CHECK(connection.via[0].connector.type == core::ValueType::Float64);
   CHECK(connection.via[0].connector.takes_after_next);
 }

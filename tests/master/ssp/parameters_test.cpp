@@ -252,7 +252,7 @@ TEST_CASE("The units of a set are those that it defines, or the scenario's if it
         .at(0)
         .unit.meaning->factor;
   };
-  CHECK(of("") == 0.0254);
+  CHECK(of("") == 0.0254L);
   CHECK(of(unit("ssv", "2")) == 2);
 }
 

@@ -64,6 +64,20 @@ TEST_CASE("arrays have dimensions") {
   CHECK(d.variables[1].is_discrete);
 }
 
+TEST_CASE("units of measure and differences are declared") {
+  const Declaration d =
+      declared(with("<unit-of-measure name=\"oven\" factor=\"10\" unit=\"degC\" offset=\"50\"/>"
+                    "<unit-of-measure name=\"same\" unit=\"m\"/>"
+                    "<input name=\"rise\" type=\"Float64\" unit=\"oven\" relative=\"true\"/>"));
+  REQUIRE(d.units_of_measure.size() == 2);
+  CHECK(d.units_of_measure[0].name == "oven");
+  CHECK(d.units_of_measure[0].factor == 10);
+  CHECK(d.units_of_measure[0].in == "degC");
+  CHECK(d.units_of_measure[0].offset == 50);
+  CHECK(d.units_of_measure[1].factor == 1);
+  CHECK(d.variables[0].is_relative);
+}
+
 TEST_CASE("mistakes in a declaration are reported with file and line") {
   const auto [line, expected] = GENERATE(table<std::string, std::string>({
       {"<knob/>", "process.xml:3: <knob>: not known here: expected <program>"},
@@ -89,6 +103,9 @@ TEST_CASE("mistakes in a declaration are reported with file and line") {
        "dimensions: expected of numbers and Booleans only"},
       {"<input name=\"\" type=\"Int8\"/>", "expected a name"},
       {"<input name=\"u\" type=\"String\" unit=\"m\"/>", "unit: expected of numbers only"},
+      {"<input name=\"u\" type=\"Int8\" relative=\"true\"/>",
+       "relative: expected of Float32 and Float64 only"},
+      {"<unit-of-measure name=\"x\"/>", "expected the attribute 'unit'"},
       {"<output name=\"y\" type=\"Int8\" depends-on=\"x\"/>", "there is no <input name=\"x\"/>"},
       {"<message-output name=\"y\" type=\"String\"/>",
        "expected the attribute 'clock', or a name such as"},

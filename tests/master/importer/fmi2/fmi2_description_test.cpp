@@ -30,7 +30,7 @@ constexpr const char* kTank = R"(<?xml version="1.0" encoding="UTF-8"?>
     <Unit name="mm/s"><BaseUnit m="1" s="-1" factor="0.001"/></Unit>
   </UnitDefinitions>
   <TypeDefinitions>
-    <SimpleType name="Temperature"><Real unit="degC" min="-273.15" max="1000" nominal="-300"/></SimpleType>
+    <SimpleType name="Temperature"><Real unit="degC" relativeQuantity="true" min="-273.15" max="1000" nominal="-300"/></SimpleType>
     <SimpleType name="Mode"><Enumeration><Item name="off" value="1"/><Item name="on" value="7"/></Enumeration></SimpleType>
     <SimpleType name="Switch"><Boolean/></SimpleType>
   </TypeDefinitions>
@@ -47,7 +47,7 @@ constexpr const char* kTank = R"(<?xml version="1.0" encoding="UTF-8"?>
       <Enumeration declaredType="Mode" start="7"/></ScalarVariable>
     <ScalarVariable name="count" valueReference="0" causality="output"><Integer/></ScalarVariable>
     <ScalarVariable name="T" valueReference="2" causality="output">
-      <Real declaredType="Temperature" max="99"/></ScalarVariable>
+      <Real declaredType="Temperature" relativeQuantity="false" max="99"/></ScalarVariable>
     <ScalarVariable name="T2" valueReference="2" causality="local" initial="approx">
       <Real declaredType="Temperature" start="20"/></ScalarVariable>
     <ScalarVariable name="label" valueReference="0" causality="parameter"><String start=" a b "/></ScalarVariable>
@@ -103,7 +103,7 @@ TEST_CASE("an FMI 2.0 unit's attributes and capabilities") {
   CHECK(unit.max_output_derivative_order == 3);
   CHECK(unit.default_step == 10ms);
   CHECK(unit.default_stop == Time(12'500ms));
-  CHECK(unit.units_of_measure.at("degC").offset == 273.15);
+  CHECK(unit.units_of_measure.at("degC").offset == 273.15L);
   CHECK(unit.units_of_measure.at("mm/s").exponents == std::array<int, 8>{0, 1, -1, 0, 0, 0, 0, 0});
   REQUIRE(unit.fmi2);
   CHECK(unit.fmi2->can_run_asynchronously);
@@ -113,6 +113,16 @@ TEST_CASE("an FMI 2.0 unit's attributes and capabilities") {
       "unit.xml");
   CHECK_FALSE((plain.can_save_state || plain.can_vary_step || plain.single_instance));
   CHECK_FALSE((plain.provides_intermediate_update || plain.fmi2->can_run_asynchronously));
+}
+
+TEST_CASE("a difference is one by its own word, or that of its type") {
+  const auto unit = fmi2_tank();
+  const auto is_relative = [&](const char* name) {
+    return unit.variables[unit.find(name).value()].is_relative;
+  };
+  CHECK(is_relative("T2"));
+  CHECK_FALSE(is_relative("T"));
+  CHECK_FALSE(is_relative("inflow[1]"));
 }
 
 TEST_CASE("core's references are places; the unit's are kept beside them") {
