@@ -48,7 +48,7 @@ CONTENTS = {
         "Many runs": "docs/campaigns, docs/search, docs/distil",
         "Python and C": "docs/python, docs/site/python-api, docs/python-peers, docs/library, docs/site/c-api",
         "Units": "docs/unit-guide, docs/python-units, docs/wrap-systemc, docs/wrap-core, docs/bring-your-robot, docs/process-protocol,"
-        " docs/units-of-measure, docs/units-of-others, docs/verify, units/*/README, tests/test_units/README",
+        " docs/units-of-measure, docs/units-of-others, docs/attributes, docs/verify, units/*/README, tests/test_units/README",
         "How it works": "docs/architecture, docs/stepping, docs/idle, docs/performance, docs/paper, docs/variations,"
         " docs/decisions/README",
         "The project": "CHANGELOG, CONTRIBUTING",

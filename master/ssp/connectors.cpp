@@ -58,8 +58,20 @@ std::optional<ValueType> type_of(const xml::Element& type, const std::string& ss
             core::suggestion(std::string(name), known));
 }
 
+/// The interval of a unit's clock is not changed by a connector.
+void note_interval(const xml::Element& type, std::vector<std::string>& warnings) {
+  for (const char* attribute :
+       {"intervalDecimal", "intervalCounter", "shiftDecimal", "shiftCounter", "resolution"}) {
+    if (!type.attribute(attribute)) continue;
+    warnings.push_back(core::to_text({.where = type.where()}) +
+                       fmt::format("{}=\"{}\" of {} is ignored: the unit's own clock holds",
+                                   attribute, *type.attribute(attribute), type.tag()));
+  }
+}
+
 void read_child(const xml::Element& child, const SspFile& file,
-                core::ConnectorDeclaration& connector, bool& has_type) {
+                core::ConnectorDeclaration& connector, bool& has_type,
+                std::vector<std::string>& warnings) {
   const xml::Name name = child.name();
   if (name == xml::Name{kSsc, "Dimension"}) {
     return read_dimension(child, connector);
@@ -70,7 +82,7 @@ void read_child(const xml::Element& child, const SspFile& file,
       name == xml::Name{kSsc, "Signature"}) {
     return;
   }
-  if (!read_type(child, file, connector)) {
+  if (!read_type(child, file, connector, warnings)) {
     child.fail(fmt::format("{} is not known in a connector", child.tag()),
                fmt::format("types are in the namespace '{}': <ssc:Float64/>", kSsc));
   }
@@ -92,7 +104,7 @@ Connector read_connector(const xml::Element& element, const SspFile& file,
   read_kind(element, connector, warnings);
   bool has_type = false;
   for (const xml::Element& child : element.children()) {
-    read_child(child, file, connector.declared, has_type);
+    read_child(child, file, connector.declared, has_type, warnings);
   }
   return connector;
 }
@@ -110,10 +122,11 @@ void read_dimension(const xml::Element& dimension, core::ConnectorDeclaration& c
 }
 
 bool read_type(const xml::Element& child, const SspFile& file,
-               core::ConnectorDeclaration& connector) {
+               core::ConnectorDeclaration& connector, std::vector<std::string>& warnings) {
   if (child.name().name_space != kSsc) return false;
   connector.type = type_of(child, file.version);
   if (!connector.type) connector.kin = kin_of(child.name().local);
+  if (connector.type == ValueType::Clock) note_interval(child, warnings);
   connector.unit = file.definitions.unit(child.attribute_or("unit"));
   if (connector.type == ValueType::Enumeration) {
     const auto& enumerations = file.definitions.enumerations;

@@ -30,7 +30,7 @@ void read_dimension(const xml::Element& dimension, core::ConnectorDeclaration& c
 /// Reads the type of a connector or dictionary entry from one of its children; false if the child
 /// is something else. Throws core::Error (Input).
 bool read_type(const xml::Element& child, const SspFile& file,
-               core::ConnectorDeclaration& connector);
+               core::ConnectorDeclaration& connector, std::vector<std::string>& warnings);
 
 }  // namespace stride::ssp
 

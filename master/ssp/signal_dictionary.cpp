@@ -14,7 +14,8 @@ namespace {
 
 constexpr const char* kDictionaryType = "application/x-ssp-signal-dictionary";
 
-core::ConnectorDeclaration read_entry(const xml::Element& element, const SspFile& file) {
+core::ConnectorDeclaration read_entry(const xml::Element& element, const SspFile& file,
+                                      std::vector<std::string>& warnings) {
   element.allow_attributes({"name"});
   core::ConnectorDeclaration entry;
   entry.name = element.required("name");
@@ -26,7 +27,7 @@ core::ConnectorDeclaration read_entry(const xml::Element& element, const SspFile
       read_dimension(child, entry);
       continue;
     }
-    if (read_type(child, file, entry)) continue;
+    if (read_type(child, file, entry, warnings)) continue;
     child.fail(fmt::format("{} is not known in {}", child.tag(), element.tag()));
   }
   return entry;
@@ -59,7 +60,7 @@ SignalDictionary read_entries(const xml::Element& root, const DictionaryContext&
                      read_definitions(root, kSsb, context.warnings)};
   SignalDictionary dictionary;
   for (const xml::Element& element : root.children({kSsb, "DictionaryEntry"})) {
-    core::ConnectorDeclaration entry = read_entry(element, file);
+    core::ConnectorDeclaration entry = read_entry(element, file, context.warnings);
     take_unit(entry, context);
     const std::string name = entry.name;
     if (dictionary.entries.emplace(name, std::move(entry)).second) continue;

@@ -144,6 +144,25 @@ TEST_CASE("what is done to a value on its way stays with the way") {
   CHECK(connection.via[0].connector.takes_after_next);
 }
 
+TEST_CASE("components have the units of measure of their file") {
+  const Scenario scenario = read(ssd(
+      system("root", "", component("a"), "") +
+      "<ssd:Units><ssc:Unit name='cm'><ssc:BaseUnit m='1' factor='0.01'/></ssc:Unit></ssd:Units>"));
+  const auto& units = scenario.system.components.at(0).units_of_measure;
+  REQUIRE(units);
+  CHECK(units->at("cm").factor == 0.01L);
+}
+
+TEST_CASE("a connector does not set the interval of a clock, and a warning says so") {
+  const std::string a =
+      "<ssd:Component name='a' source='a.fmu'><ssd:Connectors>" +
+      connector("tick", "input", "<ssc:Clock intervalVariability='fixed' intervalDecimal='0.5'/>") +
+      "</ssd:Connectors></ssd:Component>\n";
+  const auto warnings = read(ssd(system("root", "", a, ""))).warnings;
+  REQUIRE(warnings.size() == 1);
+  CHECK_THAT(warnings[0], Contains("intervalDecimal=\"0.5\" of <ssc:Clock> is ignored"));
+}
+
 TEST_CASE(
     "values are for what has their name, those of outer systems replace those of inner ones") {
   const std::string inner =
