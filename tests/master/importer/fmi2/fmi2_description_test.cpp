@@ -115,7 +115,7 @@ TEST_CASE("an FMI 2.0 unit's attributes and capabilities") {
   CHECK_FALSE((plain.provides_intermediate_update || plain.fmi2->can_run_asynchronously));
 }
 
-TEST_CASE("a difference is one by its own word, or that of its type") {
+TEST_CASE("a difference of FMI 2.0 is one by its own word, or that of its type") {
   const auto unit = fmi2_tank();
   const auto is_relative = [&](const char* name) {
     return unit.variables[unit.find(name).value()].is_relative;
