@@ -1,5 +1,6 @@
 #include "master/importer/common_description.h"
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -45,13 +46,18 @@ class Experiment {
     return value ? std::optional(core::Interval::from_seconds(*value)) : std::nullopt;
   }
 
+  std::optional<Time> start() {
+    const auto value = seconds("startTime");
+    return value ? std::optional(Time(*value)) : std::nullopt;
+  }
+
   /// One beyond the time that can be simulated cannot be reached, but is no mistake.
-  std::optional<Time> stop() {
-    const Duration start = seconds("startTime").value_or(Duration{});
+  std::optional<Time> stop(Time start) {
     const auto value = number("stopTime", "a number of seconds", [](double) { return true; });
-    if (!value || std::abs(*value) > kMaxSeconds) return std::nullopt;
-    const Duration stop = duration_from_seconds(*value);
-    if (stop > start) return Time(stop);
+    if (!value) return std::nullopt;
+    if (*value > kMaxSeconds) return Time::max();
+    const Time stop = time_from_seconds(std::max(*value, -kMaxSeconds));
+    if (stop > start) return stop;
     ignore("stopTime", fmt::format("a time after the start, {} s", core::to_text(start)));
     return std::nullopt;
   }
@@ -151,7 +157,8 @@ void read_default_experiment(const xml::Element& root, core::UnitDescription& un
   unit.default_step = experiment.step_size();
   unit.default_tolerance =
       experiment.number("tolerance", "a positive number", [](double v) { return v > 0; });
-  unit.default_stop = experiment.stop();
+  unit.default_start = experiment.start();
+  unit.default_stop = experiment.stop(unit.default_start.value_or(Time{}));
 }
 
 }  // namespace stride::importer

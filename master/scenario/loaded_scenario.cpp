@@ -19,6 +19,7 @@
 #include "master/recorders/unit_folders.h"
 #include "master/scenario/check_selection.h"
 #include "master/scenario/component_selection.h"
+#include "master/scenario/default_step.h"
 #include "master/scenario/recordings.h"
 #include "master/scenario/remote_units.h"
 #include "master/scenario/signal_selection.h"
@@ -31,8 +32,6 @@
 namespace stride::scenario {
 namespace {
 
-constexpr Duration kDefaultStep = std::chrono::milliseconds(1);
-
 Duration parse_option(const std::string& option, const std::string& text,
                       Duration (*parse)(std::string_view) = &core::parse_seconds) {
   try {
@@ -40,6 +39,15 @@ Duration parse_option(const std::string& option, const std::string& text,
   } catch (const std::invalid_argument& mistake) {
     core::fail_input({}, fmt::format("{} {}: {}", option, text, mistake.what()));
   }
+}
+
+[[noreturn]] void fail_early_start(const core::ComponentDeclaration& component, Time start) {
+  core::fail_input({component.where, component.name, {}, {}},
+                   fmt::format("the start time {} s of its DefaultExperiment is before 0 s, where "
+                               "simulated time begins",
+                               core::to_text(start)),
+                   "choose another one by --start SECONDS, or <ssd:DefaultExperiment "
+                   "startTime=\"…\"/>");
 }
 
 /// The parameters, and the values of --set, which have precedence.
@@ -296,37 +304,83 @@ std::vector<bool> LoadedScenario::permissions(std::span<const PermissionRule> ru
 }
 
 void LoadedScenario::choose_times(const ScenarioRequest& request) {
-  std::optional<Time> unit_stop;
-  for (const auto& fmu : fmus_) {
-    if (const auto& stop = fmu->description()->default_stop) {
-      unit_stop = std::max(unit_stop.value_or(*stop), *stop);
-    }
-  }
-  options_.start = scenario_.start.value_or(Time{});
-  if (!request.stop.empty()) {
-    options_.stop = Time(parse_option("--stop", request.stop));
-  } else if (scenario_.stop) {
-    options_.stop = *scenario_.stop;
-  } else if (unit_stop) {
-    options_.stop = *unit_stop;
-  } else {
-    core::fail_input(of_file(), "there is no stop time, neither of the system nor of a unit",
-                     "use --stop SECONDS; a system has it in "
-                     "<ssd:DefaultExperiment stopTime=\"…\"/>");
-  }
+  options_.start = chosen_start(request);
+  options_.stop = chosen_stop(request);
   if (options_.stop == options_.start) {
     spdlog::warn("the run ends where it starts, at {} s, so it has initial values only",
                  core::to_text(options_.start));
   }
   if (options_.stop >= options_.start) return;
-  const bool is_of_units = request.stop.empty() && !scenario_.stop;
-  core::fail_input(
-      of_file(),
-      fmt::format("the stop time {} s{} is before the start time {} s",
-                  core::to_text(options_.stop),
-                  is_of_units ? ", which is that of the units' DefaultExperiment," : "",
-                  core::to_text(options_.start)),
-      "give a later one by --stop SECONDS or <ssd:DefaultExperiment stopTime=\"…\"/>");
+  const char* const of_units = ", which is that of the units' DefaultExperiment,";
+  core::fail_input(of_file(),
+                   fmt::format("the stop time {} s{} is before the start time {} s{}",
+                               core::to_text(options_.stop),
+                               request.stop.empty() && !scenario_.stop ? of_units : "",
+                               core::to_text(options_.start),
+                               request.start.empty() && !scenario_.start ? of_units : ""),
+                   "give a later stop time by --stop SECONDS or <ssd:DefaultExperiment "
+                   "stopTime=\"…\"/>, or an earlier start time by --start or startTime");
+}
+
+Time LoadedScenario::chosen_start(const ScenarioRequest& request) const {
+  if (!request.start.empty()) return Time(parse_option("--start", request.start));
+  return scenario_.start ? *scenario_.start : earliest_start_of_units();
+}
+
+/// Those of different units need not be the same.
+Time LoadedScenario::earliest_start_of_units() const {
+  const auto& components = scenario_.system.components;
+  std::vector<std::pair<Time, std::size_t>> starts;
+  for (std::size_t i = 0; i < fmus_.size(); ++i) {
+    if (const auto& start = fmus_[i]->description()->default_start) starts.emplace_back(*start, i);
+  }
+  if (starts.empty()) return {};
+  const auto [first, last] = std::ranges::minmax(starts);
+  const core::ComponentDeclaration& earliest = components[first.second];
+  if (first.first < Time{}) fail_early_start(earliest, first.first);
+  if (first.first != last.first) {
+    spdlog::warn(
+        "the run begins at {} s, the start time of '{}'; that of '{}' is {} s; --start "
+        "chooses another one",
+        core::to_text(first.first), earliest.name, components[last.second].name,
+        core::to_text(last.first));
+  }
+  return first.first;
+}
+
+Time LoadedScenario::chosen_stop(const ScenarioRequest& request) const {
+  if (!request.stop.empty()) return Time(parse_option("--stop", request.stop));
+  const std::optional<Time> stop = declared_stop();
+  const std::string hint =
+      "use --stop SECONDS; a system has it in <ssd:DefaultExperiment stopTime=\"…\"/>";
+  if (!stop) {
+    core::fail_input(of_file(), "there is no stop time, neither of the system nor of a unit", hint);
+  }
+  if (*stop == Time::max()) {
+    core::fail_input(of_file(),
+                     "the stop time of a unit's DefaultExperiment is beyond 9.2e6 s, the largest "
+                     "time",
+                     hint);
+  }
+  return *stop;
+}
+
+/// That of the scenario, or else the latest of the units.
+std::optional<Time> LoadedScenario::declared_stop() const {
+  std::optional<Time> latest = scenario_.stop;
+  if (latest) return latest;
+  for (const auto& fmu : fmus_) {
+    const auto& stop = fmu->description()->default_stop;
+    if (stop) latest = std::max(latest.value_or(*stop), *stop);
+  }
+  return latest;
+}
+
+/// 0 if no stop time is declared. It does not depend on --stop: a run that ends earlier, or is
+/// resumed to end later, makes the same steps.
+Duration LoadedScenario::declared_length() const {
+  const Time stop = declared_stop().value_or(Time::max());
+  return stop == Time::max() ? Duration{} : stop - options_.start;
 }
 
 void LoadedScenario::choose_steps(const StepSettings& request) {
@@ -336,7 +390,7 @@ void LoadedScenario::choose_steps(const StepSettings& request) {
     const auto& step = unit.default_step ? unit.default_step : unit.fixed_internal_step;
     if (step) unit_step = std::min(unit_step.value_or(*step), *step);
   }
-  options_.step.size = unit_step.value_or(kDefaultStep);
+  options_.step.size = unit_step.value_or(default_step(declared_length()));
   const auto& vendor = scenario_.vendor_step;
   const bool has_own_step = scenario_.annotation.step.size || request.size;
   if (vendor && !has_own_step) {
@@ -423,6 +477,7 @@ void LoadedScenario::check_steps() {
   core::check_step_policy(*system_, options_);
   if (core::has_unlimited_steps(*system_, options_)) warn_of_unlimited_steps();
   if (!options_.step.policy->has_grid) return;
+  warn_of_many_steps();
   end_with_whole_steps();
   warn_of_other_steps();
   warn_of_internal_steps();
@@ -529,6 +584,16 @@ void LoadedScenario::choose_signals(const ScenarioRequest& request) {
   check_column_count(*system_, options_.recorded);
   plots_ = patterns.empty() ? select_plots(*system_, options_.recorded, chosen.plots)
                             : remaining_plots(*system_, options_.recorded, chosen.plots);
+}
+
+void LoadedScenario::warn_of_many_steps() const {
+  constexpr std::uint64_t kMany = 10'000'000;
+  const std::uint64_t steps = grid().index_at(options_.stop);
+  if (steps <= kMany) return;
+  spdlog::warn(
+      "up to {} steps of {} s are made, with a row of the results each; a longer step, "
+      "--step SECONDS or <stride:Step size=\"…\"/>, makes fewer",
+      steps, core::to_text(options_.step.size));
 }
 
 /// A run with units that take steps of one size only ends with the last whole one.

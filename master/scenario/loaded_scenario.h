@@ -50,7 +50,8 @@ struct ScenarioRequest {
   std::vector<InterventionDeclaration> interventions;  ///< further ones
   std::vector<BranchReference> branches;               ///< whose interventions are added
   std::vector<std::string> signals;                    ///< globs that replace the scenario's
-  std::string stop;                                    ///< seconds; empty = the scenario's
+  std::string start;                                   ///< seconds; empty = the scenario's
+  std::string stop;                                    ///< likewise
   StepSettings step;                                   ///< overrides the scenario
   bool no_idle_skip = false;
   std::string max_skip;  ///< seconds, for all components; empty = the scenario's
@@ -134,6 +135,11 @@ class LoadedScenario {
   void choose_repeated_steps();
   std::vector<bool> permissions(std::span<const PermissionRule> rules) const;
   void choose_times(const ScenarioRequest& request);
+  Time chosen_start(const ScenarioRequest& request) const;
+  Time earliest_start_of_units() const;
+  Time chosen_stop(const ScenarioRequest& request) const;
+  std::optional<Time> declared_stop() const;
+  Duration declared_length() const;
   void choose_steps(const StepSettings& request);
   void choose_checks(const ScenarioRequest& request);
   void choose_coverage(const ScenarioRequest& request);
@@ -145,6 +151,7 @@ class LoadedScenario {
   core::Grid grid() const;
   void check_instants(std::span<const core::Intervention> interventions) const;
   void choose_signals(const ScenarioRequest& request);
+  void warn_of_many_steps() const;
   void end_with_whole_steps();
   void warn_of_other_steps() const;
   void warn_of_internal_steps() const;

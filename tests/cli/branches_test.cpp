@@ -175,9 +175,10 @@ TEST_CASE("branches that are interrupted end with complete results") {
   Parts parts = talkers_and_filters();
   parts.experiment = "<ssd:DefaultExperiment stopTime=\"100000\"/>\n";
   const BranchingWorkspace workspace(parts, kThree);
-  Process process(stride_command(Workspace::run_arguments(
-                      {"--quiet", "--no-trace", "--branch", "0.5:futures.xml", "--jobs", "2"})),
-                  workspace.scratch().path());
+  Process process(
+      stride_command(Workspace::run_arguments({"--quiet", "--no-trace", "--step", "0.001",
+                                               "--branch", "0.5:futures.xml", "--jobs", "2"})),
+      workspace.scratch().path());
   const auto size = [&] {
     std::error_code none;
     return fs::file_size(workspace / "out/branches/same/signals.csv", none) + (none ? 1 : 0);

@@ -88,6 +88,18 @@ TEST_CASE("a stop time before the start time is refused") {
                  Contains("--stop SECONDS"));
 }
 
+TEST_CASE("--start has precedence over the start time of the scenario") {
+  Parts parts = two_filters();
+  parts.experiment = "<ssd:DefaultExperiment startTime=\"2\" stopTime=\"3\"/>\n";
+  const Workspace workspace(parts);
+  CHECK(workspace.run({"--start", "2.5", "--quiet"}).exit_code == 0);
+  CHECK(workspace.signals().row(0).front() == "2.5");
+  CHECK_THAT(input_error_of(workspace.run({"--start", "-1"})),
+             Contains("--start -1: '-1' is negative"));
+  CHECK_THAT(input_error_of(workspace.run({"--start", "4"})),
+             Contains("the stop time 3 s is before the start time 4 s") && Contains("--start"));
+}
+
 TEST_CASE("without a stop time anywhere, the message says where to give one") {
   Parts parts = two_filters();
   parts.experiment = "";

@@ -464,8 +464,8 @@ TEST_CASE("a run that a signal ends goes on from there") {
   Parts parts = ticking_parts();
   parts.experiment = "<ssd:DefaultExperiment stopTime=\"100000\"/>\n";
   const Workspace cut(parts);
-  const Arguments arguments =
-      stride_command(Workspace::run_arguments({"--quiet", "--checkpoint-on-signal", "--no-trace"}));
+  const Arguments arguments = stride_command(Workspace::run_arguments(
+      {"--quiet", "--checkpoint-on-signal", "--no-trace", "--step", "0.001"}));
   {
     Process process(arguments, cut.scratch().path());
     await_first_results(process, cut);
@@ -480,7 +480,7 @@ TEST_CASE("a run that a signal ends goes on from there") {
   INFO(resumed.err);
   REQUIRE(resumed.exit_code == 0);
   const Workspace whole(parts);
-  REQUIRE(whole.run({"--quiet", "--no-trace", "--stop", stop}).exit_code == 0);
+  REQUIRE(whole.run({"--quiet", "--no-trace", "--step", "0.001", "--stop", stop}).exit_code == 0);
   const bool is_same = whole.result("signals.csv") == cut.result("signals.csv");
   CHECK(is_same);
 }

@@ -309,9 +309,16 @@ TEST_CASE("what cannot be used of the default experiment is ignored, with a warn
   CHECK(parse_with("stepSize=\"0.01\"", "stepSize=\"1e-12\"").default_step == Duration(1));
 }
 
-TEST_CASE("a default experiment that ends later than times can be counted has no stop time") {
-  CHECK(parse_with("stopTime=\"12.5\"", "stopTime=\"9.2e6\"").default_stop);
-  CHECK_FALSE(parse_with("stopTime=\"12.5\"", "stopTime=\"1e8\"").default_stop);
+TEST_CASE("a default experiment that ends later than times can be counted has the last one") {
+  CHECK(parse_with("stopTime=\"12.5\"", "stopTime=\"9.2e6\"").default_stop == Time(9'200'000s));
+  CHECK(parse_with("stopTime=\"12.5\"", "stopTime=\"1e8\"").default_stop == Time::max());
+}
+
+TEST_CASE("a default experiment may begin at any time") {
+  CHECK(importer::parse_model_description(kComplete, "unit.xml").default_start == Time());
+  CHECK(parse_with("startTime=\"0\"", "startTime=\"3.5\"").default_start == Time(3500ms));
+  CHECK(parse_with("startTime=\"0\"", "startTime=\"-2\"").default_start == Time(-2s));
+  CHECK_FALSE(parse_with("startTime=\"0\"", "").default_start);
 }
 
 TEST_CASE("whether the unit may reject a step") {
