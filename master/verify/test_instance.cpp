@@ -94,7 +94,7 @@ void TestInstance::set_start_values() {
 }
 
 void TestInstance::enter_initialization() {
-  position_ = {};
+  position_ = {tested_.start(), 0, {}};
   recording_ = {};
   records_ = true;
   unit().enter_initialization(position_.now, std::nullopt);

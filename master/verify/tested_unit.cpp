@@ -88,25 +88,30 @@ void TestedUnit::choose_observed() {
   for (auto& [type, group] : groups) observed_.push_back(std::move(group));
 }
 
+core::Interval TestedUnit::chosen_step() const {
+  if (request_.step) return *request_.step;
+  const core::UnitDescription& unit = description();
+  const auto& own = unit.default_step ? unit.default_step : unit.fixed_internal_step;
+  const core::Interval step = own.value_or(core::Interval(kDefaultStep));
+  return unit.maximum_step ? std::min(step, core::Interval(*unit.maximum_step)) : step;
+}
+
 void TestedUnit::choose_times() {
   const core::UnitDescription& unit = description();
-  step_ = unit.default_step.value_or(unit.fixed_internal_step.value_or(kDefaultStep)).rounded();
-  if (unit.maximum_step) step_ = std::min(step_, *unit.maximum_step);
-  if (request_.step) step_ = *request_.step;
+  grid_ = core::Grid(std::max(unit.default_start.value_or(Time{}), Time{}), chosen_step());
   std::int64_t steps = kDefaultSteps;
   const auto values = static_cast<std::int64_t>(std::max<std::size_t>(1, observed_count_));
   if (request_.stop) {
-    steps = *request_.stop / step_;
+    steps = *request_.stop / step();
     if (steps < 4) {
       core::fail_input({},
                        fmt::format("there are {} steps of {} s to the stop time {} s; expected 4 "
                                    "at least",
-                                   steps, core::to_text(step_), core::to_text(*request_.stop)),
+                                   steps, core::to_text(step()), core::to_text(*request_.stop)),
                        "choose a smaller --step or a later --stop");
     }
   } else if (unit.default_stop) {
-    steps = std::clamp(unit.default_stop->time_since_epoch() / step_, kFewestSteps,
-                       kMostSimulatedSteps);
+    steps = std::clamp((*unit.default_stop - start()) / step(), kFewestSteps, kMostSimulatedSteps);
   }
   if (!request_.stop) steps = std::min(steps, std::max(kFewestSteps, kMostValues / values));
   steps_ = static_cast<std::size_t>(steps);

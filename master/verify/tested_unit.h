@@ -13,6 +13,7 @@
 #include <stride/time.h>
 
 #include "master/importer/fmu.h"
+#include "master/model/grid.h"
 #include "master/model/system.h"
 
 namespace stride::verify {
@@ -54,9 +55,10 @@ class TestedUnit {
   bool is_set(std::size_t variable) const;
 
   /// The grid of communication points: k * step() for k = 0 … steps().
-  Duration step() const { return step_; }
+  Duration step() const { return grid_.step().rounded(); }
   std::size_t steps() const { return steps_; }
-  Time point(std::size_t k) const { return Time(step_ * static_cast<std::int64_t>(k)); }
+  Time start() const { return grid_.start(); }
+  Time point(std::size_t k) const { return grid_.point(k); }
 
   /// What can be read at each communication point and shows the state of the unit: outputs, locals
   /// and calculated parameters that have no clock.
@@ -69,13 +71,14 @@ class TestedUnit {
   std::string symbol(const std::string& name) const;
 
  private:
+  core::Interval chosen_step() const;
   void choose_times();
   void choose_observed();
 
   VerifyRequest request_;
   std::shared_ptr<importer::Fmu> fmu_;
   std::optional<core::System> system_;
-  Duration step_{};
+  core::Grid grid_{Time{}, Duration(1)};
   std::size_t steps_ = 0;
   std::vector<Group> observed_;
   std::size_t observed_count_ = 0;

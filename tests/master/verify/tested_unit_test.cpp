@@ -43,6 +43,12 @@ TEST_CASE("step and stop are the user's, else the unit's, else 1 ms and 200 step
   CHECK(experimental.step() == 50ms);
   CHECK(experimental.steps() == 100);
   CHECK(declaring("", experiment, {.step = 1ms}).steps() == 1000);
+  const TestedUnit late = declaring(
+      "",
+      "<DefaultExperiment startTime=\"3600\" stopTime=\"3610\" stepSize=\"0.3333333333333333\"/>");
+  CHECK(late.point(0) == Time(3600s));
+  CHECK(late.steps() == 30);
+  CHECK(late.point(30) == Time(3610s));
 }
 
 TEST_CASE("what is observed are outputs and locals without a clock") {
