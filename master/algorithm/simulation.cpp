@@ -316,7 +316,7 @@ class Simulation::Run {
   }
 
   void notify_observers() {
-    context_.outputs.update();
+    context_.outputs.update(time_);
     for (Observer* observer : context_.observers) observer->on_communication_point(time_);
   }
 
@@ -380,7 +380,7 @@ class Simulation::Run {
     if (idle_) idle_->take_new_tangents(time_);
     interventions_.go_on(time_);
     counters_.resume();
-    context_.outputs.update();
+    context_.outputs.update(time_);
   }
 
   void persist_all(StateArchive& state) {

@@ -53,7 +53,7 @@ std::optional<Time> Stretch::make(Time& time, std::uint64_t steps) {
 inline void Stretch::observe(Time time) {
   ++context_.statistics.communication_steps;
   context_.statistics.reached = time;
-  context_.outputs.update();
+  context_.outputs.update(time);
   for (Observer* observer : context_.observers) observer->on_communication_point(time);
 }
 

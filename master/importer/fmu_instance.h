@@ -14,8 +14,10 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -301,7 +303,8 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics, public Call
 
   /// Copies the values that a function has given, which are in memory of the unit. What is wrong
   /// with one, or a crash, is an error with the function and the variable. No text (NULL), which
-  /// FMI forbids, is an empty one, with a warning.
+  /// FMI forbids, is an empty one, with a warning; of a text that is not UTF-8 there is one warning
+  /// for each variable.
   void copy_texts(const char* function, References references, std::span<const char* const> given,
                   std::span<std::string> values);
   void copy_binaries(const char* function, References references,
@@ -437,6 +440,7 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics, public Call
   template <class Copy>
   void copy_each(const char* function, References references, std::size_t count, Copy&& copy);
   std::string variable_name(core::ValueReference reference) const;
+  void warn_of_encoding(core::ValueReference variable, std::string_view text);
   [[noreturn]] void fail_value(core::ValueReference variable, const std::string& message,
                                const std::string& hint = "") const;
   char major_version() const { return prefix_[3] != '\0' ? prefix_[3] : '1'; }
@@ -463,6 +467,7 @@ class FmuInstance : public core::Unit, public core::UnitDiagnostics, public Call
   bool has_mode_warning_ = false;
   bool has_register_warning_ = false;
   bool has_text_warning_ = false;
+  std::set<core::ValueReference> has_encoding_warning_;
   bool has_null_state_warning_ = false;
   core::Listed<FmuInstance> listed_{*this};
 };

@@ -7,6 +7,8 @@
 #include <fmt/format.h>
 
 #include "master/importer/fmu_instance.h"
+#include "master/util/readable_text.h"
+#include "master/util/time_text.h"
 
 namespace stride::importer {
 namespace {
@@ -15,6 +17,9 @@ namespace {
 /// set.
 constexpr std::size_t kLongestValue = std::size_t{256} << 20;
 constexpr std::size_t kLongestState = std::size_t{16} << 30;
+
+/// Characters of a text in a warning.
+constexpr std::size_t kMostShown = 60;
 
 constexpr const char* kLengthHint =
     "the unit has to give the length that the value has in this instant, and has to end each text "
@@ -63,12 +68,24 @@ void FmuInstance::copy_texts(const char* function, References references,
                  kLengthHint);
     }
     values[i].assign(text == nullptr ? "" : text, size);
+    if (!core::is_utf8(values[i])) [[unlikely]]
+      warn_of_encoding(variable, values[i]);
     if (text != nullptr || std::exchange(has_text_warning_, true)) return;
     warn(
         fmt::format("{} gave no text (NULL) for '{}', which FMI forbids; it is taken as an empty "
                     "one, here and later",
                     function, variable_name(variable)));
   });
+}
+
+void FmuInstance::warn_of_encoding(core::ValueReference variable, std::string_view text) {
+  if (!has_encoding_warning_.insert(variable).second) return;
+  const auto now = time();
+  warn(fmt::format(
+      "{}the text of '{}' is not UTF-8, which FMI demands: \"{}\"; other units get its bytes, and "
+      "files U+FFFD for each that is not of a character, here and later",
+      now ? fmt::format("at {} s ", core::to_text(*now)) : "", variable_name(variable),
+      core::readable_text(text, kMostShown)));
 }
 
 void FmuInstance::copy_binaries(const char* function, References references,

@@ -1,11 +1,18 @@
 #include "master/importer/variable_attributes.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <ranges>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "master/model/finite.h"
+#include "master/model/item_text.h"
 #include "master/model/meant_value.h"
 #include "master/model/values.h"
 
@@ -61,6 +68,16 @@ std::vector<Initial> possible_initials(const core::Variable& variable) {
     default:
       return {Initial::Calculated, Initial::Exact, Initial::Approx};
   }
+}
+
+/// What is odd about an element of a start value, which the unit has by itself; empty: nothing.
+std::string oddity_of(const core::ValueBlock& element, const core::Variable& variable) {
+  if (core::not_finite(element)) return "is not a finite number";
+  if (variable.type != ValueType::Enumeration || variable.items.empty()) return "";
+  const std::int64_t number = element.numbers<std::int64_t>()[0];
+  const auto items = variable.items | std::views::values;
+  if (std::ranges::find(items, number) != items.end()) return "";
+  return "is not an item of its Enumeration: " + core::item_text(variable.items);
 }
 
 }  // namespace
@@ -184,7 +201,11 @@ void check_start(const xml::Element& element, core::Variable& variable,
   form.type = variable.type == ValueType::Enumeration ? ValueType::Int64 : variable.type;
   try {
     for (const std::string_view word : xml::split(variable.start)) {
-      core::parse(form, std::string(word));
+      const std::string odd = oddity_of(core::parse(form, std::string(word)), variable);
+      if (odd.empty()) continue;
+      warnings.push_back(core::to_text({.where = element.where()}) +
+                         fmt::format("start=\"{}\" of '{}' {}", word, variable.name, odd));
+      break;
     }
   } catch (const std::invalid_argument& mistake) {
     element.fail(fmt::format("the start value of '{}': {}", variable.name, mistake.what()));

@@ -97,7 +97,7 @@ double read_nominal(const xml::Element& element, core::ValueType type,
 /// Throws where the start value of a variable, whose size is known, is not of its type, or has
 /// neither one element nor as many as the variable. `elements`: how many a String or Binary has.
 /// A value of another form that has one meaning is replaced by it, and an empty one of a type that
-/// is no text is none, with a warning.
+/// is no text is none, with a warning. So is there of one that is not finite, or not an item.
 void check_start(const xml::Element& element, core::Variable& variable,
                  std::vector<std::string>& warnings, std::size_t elements = 1);
 /// Throws where the least or the greatest value of a variable is no number. If the least one is

@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include "master/model/finite.h"
 #include "master/model/meant_value.h"
 #include "master/model/system.h"
 #include "master/model/unknown_variable.h"
@@ -195,6 +196,10 @@ ValueBlock System::start_value(const StartDeclaration& wanted, const ElementRang
     ValueBlock value = parse(target, meant.value_or(text));
     convert_start(value, linear);
     check_range(target, value, context);
+    if (const auto odd = not_finite(value)) {
+      warnings_.push_back(to_text(context) +
+                          fmt::format("the start value is {}, which is not a finite number", *odd));
+    }
     return value;
   } catch (const std::invalid_argument& mistake) {
     fail_input(context, mistake.what());

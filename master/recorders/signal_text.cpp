@@ -3,6 +3,7 @@
 #include <type_traits>
 
 #include "master/model/array_element.h"
+#include "master/util/readable_text.h"
 
 namespace stride::recorders {
 
@@ -11,10 +12,16 @@ std::string column_name(const core::System& system, core::VariableId id, std::si
 }
 
 std::string csv_field(std::string_view text) {
+  if (!core::is_utf8(text)) return csv_field(core::utf8_text(text));
   if (text.find_first_of(",\"\r\n") == std::string_view::npos) return std::string(text);
   std::string field;
   quote_csv(text, [&](char c) { field += c; });
   return field;
+}
+
+void write_quoted(core::OutputFile& file, std::string_view text) {
+  if (!core::is_utf8(text)) return write_quoted(file, core::utf8_text(text));
+  quote_csv(text, [&](char c) { file.write(c); });
 }
 
 void write_csv(core::OutputFile& file, const core::ValueBlock& block, std::size_t element) {
@@ -22,7 +29,7 @@ void write_csv(core::OutputFile& file, const core::ValueBlock& block, std::size_
     const auto& value = values[element];
     using T = std::remove_cvref_t<decltype(value)>;
     if constexpr (std::is_same_v<T, std::string>) {
-      quote_csv(value, [&](char c) { file.write(c); });
+      write_quoted(file, value);
     } else if constexpr (std::is_same_v<T, core::Binary>) {
       file.write_hex(value);
     } else if constexpr (std::is_same_v<T, bool>) {

@@ -26,11 +26,11 @@ void quote_csv(std::string_view text, Write&& write) {
   write('"');
 }
 
-/// A field of a CSV file: in quotation marks where its text demands it.
+/// A field of a CSV file, in UTF-8 whatever the text is: in quotation marks where it demands them.
 std::string csv_field(std::string_view text);
 
 /// One element as a field of a CSV file: numbers in their shortest form, true or false, text in
-/// quotation marks, bytes as hexadecimal digits.
+/// quotation marks and in UTF-8, bytes as hexadecimal digits.
 void write_csv(core::OutputFile& file, const core::ValueBlock& block, std::size_t element);
 
 }  // namespace stride::recorders

@@ -33,6 +33,12 @@ void append_escaped(std::string& text, std::string_view character) {
 
 bool is_utf8(std::string_view text) { return utf8::is_valid(text.begin(), text.end()); }
 
+std::string utf8_text(std::string_view text) {
+  std::string valid;
+  while (!text.empty()) valid += take_character(text);
+  return valid;
+}
+
 std::size_t character_count(std::string_view text) {
   return static_cast<std::size_t>(
       std::ranges::count_if(text, [](char byte) { return !is_within_character(byte); }));

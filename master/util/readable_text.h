@@ -19,6 +19,9 @@ constexpr bool is_within_character(char byte) {
 /// Whether all of its bytes are those of characters of UTF-8.
 bool is_utf8(std::string_view text);
 
+/// The text with U+FFFD for each byte that is not of a character of UTF-8.
+std::string utf8_text(std::string_view text);
+
 /// The number of characters in a text of UTF-8.
 std::size_t character_count(std::string_view text);
 

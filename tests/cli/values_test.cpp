@@ -1,5 +1,6 @@
 // Values of units that cannot be read: the unit, the variable and the time are named, in process
 // and hosted.
+#include "master/util/readable_text.h"
 #include "tests/build.h"
 #include "tests/cli/failures.h"
 
@@ -80,6 +81,66 @@ TEST_CASE("no text where there has to be one is an empty one, with a warning") {
   CHECK(outcome.err ==
         "stride: warning: unit 'mute': fmi3GetString gave no text (NULL) for 'text', which FMI "
         "forbids; it is taken as an empty one, here and later\n");
+}
+
+TEST_CASE("a text that is not UTF-8 is said once, and is UTF-8 in all files") {
+  const bool is_hosted = GENERATE(false, true);
+  const RawUnit workspace("latin", true);
+  const Outcome outcome = run_raw_unit(workspace, is_hosted, "text");
+  CHECK(outcome.exit_code == 0);
+  CHECK(outcome.err ==
+        "stride: warning: unit 'latin': at 0.375 s the text of 'text' is not UTF-8, which FMI "
+        "demands: \"caf\uFFFD\"; other units get its bytes, and files U+FFFD for each that is not "
+        "of a character, here and later\n");
+  const std::string signals = workspace.result("signals.csv");
+  CHECK(stride::core::is_utf8(signals));
+  CHECK_THAT(signals, Contains("0.375,\"caf\uFFFD\"\n"));
+  CHECK(stride::core::is_utf8(workspace.result("run.json")));
+  CHECK(stride::core::is_utf8(workspace.result("trace.vcd")));
+}
+
+namespace {
+
+/// With an Enumeration among its outputs that has the items 0 and 1.
+struct EnumerationUnit : RawUnit {
+  explicit EnumerationUnit(const std::string& name) : RawUnit(name, false) {
+    std::string text =
+        description_text("raw", "canHandleVariableCommunicationStepSize=\"true\"",
+                         "<Enumeration name=\"mode\" valueReference=\"1\" causality=\"output\" "
+                         "declaredType=\"Mode\"/>\n");
+    replace(text, "<ModelStructure/>",
+            "<ModelStructure><Output valueReference=\"1\"/></ModelStructure>");
+    replace(text, "<ModelVariables>",
+            "<TypeDefinitions><EnumerationType name=\"Mode\"><Item name=\"off\" value=\"0\"/>"
+            "<Item name=\"on\" value=\"1\"/></EnumerationType></TypeDefinitions>\n"
+            "<ModelVariables>");
+    scratch().write("raw/modelDescription.xml", text);
+  }
+
+  static void replace(std::string& text, const std::string& before, const std::string& after) {
+    text.replace(text.find(before), before.size(), after);
+  }
+};
+
+}  // namespace
+
+TEST_CASE("a value that is not an item of its Enumeration ends the run") {
+  const bool is_hosted = GENERATE(false, true);
+  const EnumerationUnit workspace("odd");
+  const Outcome outcome = run_raw_unit(workspace, is_hosted, "mode");
+  CHECK(outcome.exit_code == 1);
+  CHECK_THAT(outcome.err, Contains("unit 'odd', variable 'mode', at 0.375 s: the unit gives 99, "
+                                   "which is not an item of its Enumeration: off (0), on (1)"));
+  CHECK(last_time(workspace) == "0.25");
+  CHECK(run_raw_unit(EnumerationUnit("even"), is_hosted, "mode").exit_code == 0);
+}
+
+TEST_CASE("a start value that is not finite is said") {
+  const Workspace workspace(Parts{component("filter", "minimal.fmu")});
+  const Outcome outcome = workspace.run({"--quiet", "--set", "filter.u=inf"});
+  CHECK(outcome.exit_code == 0);
+  CHECK_THAT(outcome.err, Contains("warning: ") && Contains("variable 'u': the start value is inf, "
+                                                            "which is not a finite number"));
 }
 
 TEST_CASE("a value is read where it is recorded or shown, and nowhere else") {

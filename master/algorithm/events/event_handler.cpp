@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "master/algorithm/exchange/item_check.h"
 #include "master/util/readable_text.h"
 #include "master/util/state_archive.h"
 
@@ -235,7 +236,7 @@ void EventHandler::exchange_after_events() {
   for (const std::size_t i : event_units_) {
     if (in_event_mode_[i]) exchange_.read_outputs(i, *units_[i]);
   }
-  if (evaluation_) return exchange_.check_nan(time_);
+  if (evaluation_) return exchange_.check_values(time_);
   find_discontinuities();
   route();
 }
@@ -298,10 +299,15 @@ void EventHandler::receive(std::size_t receiver) {
 }
 
 void EventHandler::report(VariableId id, bool received, const ValueBlock* block) {
-  if (!received && block != nullptr && has_nan(*block)) fail_nan(id);
+  if (!received && block != nullptr) check_sent(id, *block);
   UnitStatistics& statistics = statistics_.units[id.component];
   ++(received ? statistics.messages_received : statistics.messages_sent);
   notify_observers(id, received, block);
+}
+
+void EventHandler::check_sent(VariableId id, const ValueBlock& block) const {
+  if (has_nan(block)) fail_nan(id);
+  check_items(system_, id, block, time_);
 }
 
 void EventHandler::report_disturbed(VariableId id, const std::string& text) {

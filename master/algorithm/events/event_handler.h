@@ -112,6 +112,7 @@ class EventHandler : private OrderedEvaluation::Participants,
   std::string described_by(VariableId id, const ValueBlock& block) const;
   void find_discontinuities();
   void route();
+  void check_sent(VariableId id, const ValueBlock& block) const;
   [[noreturn]] void fail_nan(VariableId id) const;
   [[noreturn]] void fail_ticking() const;
   [[noreturn]] void fail_sample_loop(std::span<const std::size_t> ticking) const;

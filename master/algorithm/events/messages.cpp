@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "master/algorithm/events/bit_errors.h"
+#include "master/algorithm/exchange/item_check.h"
 #include "master/util/state_archive.h"
 #include "master/util/time_text.h"
 
@@ -201,7 +202,9 @@ void MessageExchange::send(SourceClock& clock) {
 void MessageExchange::convert(Target& target, std::span<const Payload> payloads) {
   for (Receiver& receiver : target.receivers) {
     const ValueBlock& sent = payloads[receiver.payload].block;
-    copy_elements(receiver.block, 0, sent, 0, sent.size(), receiver.connection->conversion);
+    const auto& [from, to, conversion, from_first, to_first, size] = *receiver.connection;
+    copy_elements(receiver.block, 0, sent, 0, sent.size(), conversion);
+    check_converted(system_, from, to, conversion, {&receiver.block, 0, sent.size()}, time_);
   }
 }
 

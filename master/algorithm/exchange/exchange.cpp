@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 #include <map>
+#include <ranges>
 #include <set>
 #include <tuple>
 #include <type_traits>
@@ -93,7 +94,18 @@ Exchange::Exchange(const System& system, std::span<const VariableId> observed) :
     add_copies(connection);
     has_other_types_ |= system.variable(connection.from).type != ValueType::Float64;
   }
+  for (Transfers* const transfers : {&outputs_, &sampled_outputs_}) add_item_checks(*transfers);
+  has_other_types_ |= !items_.is_empty();
   make_ports();
+}
+
+void Exchange::add_item_checks(Transfers& transfers) {
+  for (Transfer& transfer : transfers | std::views::join) {
+    for (std::size_t i = 0; i < transfer.ids.size(); ++i) {
+      const VariableId id = transfer.ids[i];
+      items_.add(id, {&transfer.block, transfer.firsts[i], system_.variable(id).size});
+    }
+  }
 }
 
 /// They are adjacent, so that a communication step reads memory in one direction.
@@ -219,7 +231,7 @@ void Exchange::add_number(const Connection& connection, ValueBlock& target, std:
   visit(target, [&]<class To>(std::span<To>) {
     visit(source, [&]<class From>(std::span<const From>) {
       if constexpr (std::is_arithmetic_v<To> && std::is_integral_v<From>) {
-        mapped_.push_back({&copy_mapped<To, From>, to, from, &connection});
+        mapped_.push_back({&copy_mapped<To, From>, to, from, &connection, {&target, target_at, 1}});
       }
     });
   });
@@ -422,29 +434,29 @@ ValueBlock Exchange::value(VariableId id) {
 }
 
 void Exchange::route_other_types(Time time) {
+  items_.check(time);
   copy_numbers<1>(numbers_[0]);
   copy_numbers<2>(numbers_[1]);
   copy_numbers<4>(numbers_[2]);
   copy_numbers<8>(numbers_[3]);
   for (const MappedCopy& copy : mapped_) {
     copy.copy(copy.to, copy.from, copy.connection->conversion);
-    if (!copy.connection->conversion.valid.empty()) check_item(copy, time);
+    check_mapped(copy, time);
   }
   for (const auto& copy : strings_) *copy.to = *copy.from;
   for (const auto& copy : binaries_) *copy.to = *copy.from;
 }
 
-/// An Enumeration takes 64 bits.
-void Exchange::check_item(const MappedCopy& copy, Time time) const {
-  const std::int64_t value = *static_cast<const std::int64_t*>(copy.to);
-  const auto& valid = copy.connection->conversion.valid;
-  if (std::binary_search(valid.begin(), valid.end(), value)) [[likely]]
-    return;
-  const VariableId to = copy.connection->to;
-  fail_run({{}, system_.components()[to.component].name, system_.variable(to).name, time},
-           fmt::format("'{}' gives it {}, which is not an item of its Enumeration",
-                       system_.full_name(copy.connection->from), value),
-           "map such values in an <ssc:IntegerMappingTransformation> at the connection");
+void Exchange::check_mapped(const MappedCopy& copy, Time time) const {
+  const Connection& connection = *copy.connection;
+  check_converted(system_, connection.from, connection.to, connection.conversion, copy.target,
+                  time);
+}
+
+void Exchange::check_values(Time time) const {
+  check_nan(time);
+  items_.check(time);
+  for (const MappedCopy& copy : mapped_) check_mapped(copy, time);
 }
 
 void Exchange::check_nan(Time time) const {

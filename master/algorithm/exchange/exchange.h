@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "master/algorithm/capabilities/concurrent_steps.h"
+#include "master/algorithm/exchange/item_check.h"
 #include "master/algorithm/observer.h"
 #include "master/algorithm/unit.h"
 #include "master/model/system.h"
@@ -47,9 +48,11 @@ class Exchange {
   /// Reads a unit's outputs and observed variables.
   void read_outputs(std::size_t component, Unit& unit);
   /// Copies the outputs of all units to the inputs of all units. Throws Error (Run) where a
-  /// connected output is NaN, or an integer becomes no item of an Enumeration.
+  /// connected output is NaN, or an Enumeration has a value that is not an item.
   void route(Time time);
-  /// Throws as route() does.
+  /// Throws as route() does, which has nothing to copy.
+  void check_values(Time time) const;
+  /// Of connected outputs only.
   void check_nan(Time time) const;
   /// Whether a discrete input of the unit has changed since it was written; FMI requires Event
   /// Mode then.
@@ -222,6 +225,7 @@ class Exchange {
     void* to;
     const void* from;
     const Connection* connection;
+    ValueSlice target;
   };
 
   /// An input that is forced.
@@ -255,7 +259,8 @@ class Exchange {
                    std::vector<VariableId>& changes) const;
   template <class Real, class Other>
   void check_nan(const RealLists<Real, Other>& lists, Time time) const;
-  void check_item(const MappedCopy& copy, Time time) const;
+  void check_mapped(const MappedCopy& copy, Time time) const;
+  void add_item_checks(Transfers& transfers);
   void add_copies(const Connection& connection);
   void add_copy(const Connection& connection, ValueBlock& target, std::size_t target_at,
                 const ValueBlock& source, std::size_t source_at);
@@ -288,9 +293,10 @@ class Exchange {
   std::vector<Copy<std::string>> strings_;
   std::vector<Copy<Binary>> binaries_;
   std::vector<MappedCopy> mapped_;
+  ItemCheck items_{system_};  ///< of all outputs that are read
   RealLists<double, float> doubles_;
   RealLists<float, double> floats_;
-  bool has_other_types_ = false;  ///< than Float64, in connections
+  bool has_other_types_ = false;  ///< than Float64, to be copied or checked
 };
 
 }  // namespace stride::core

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "master/algorithm/exchange/item_check.h"
+
 namespace stride::core {
 
 SystemOutputs::SystemOutputs(const System& system, std::span<const VariableId> observed)
@@ -21,11 +23,13 @@ void SystemOutputs::connect(Exchange& exchange) {
   for (Output& output : outputs_) output.source = exchange.signal(output.output->from);
 }
 
-void SystemOutputs::update_all() {
+void SystemOutputs::update_all(Time time) {
   for (Output& output : outputs_) {
     const std::size_t first = output.source.first + output.output->from_first;
-    copy_elements(output.block, 0, *output.source.block, first, output.block.size(),
-                  output.output->conversion);
+    const Conversion& conversion = output.output->conversion;
+    copy_elements(output.block, 0, *output.source.block, first, output.block.size(), conversion);
+    check_converted(system_, output.output->from, output.id, conversion,
+                    {&output.block, 0, output.block.size()}, time);
   }
 }
 

@@ -20,15 +20,16 @@ class SystemOutputs {
   const std::vector<VariableId>& sources() const { return sources_; }
   /// Connects the outputs with their sources. The exchange must outlive this object.
   void connect(Exchange& exchange);
-  /// Copies the values from the exchange.
-  void update() {
-    if (!outputs_.empty()) update_all();
+  /// Copies the values from the exchange. Throws Error (Run) for a value that becomes none of the
+  /// items of the output's Enumeration.
+  void update(Time time) {
+    if (!outputs_.empty()) update_all(time);
   }
   /// The signal of an observed variable, which may be an output of the system or another variable.
   Signal signal(VariableId id, Exchange& exchange) const;
 
  private:
-  void update_all();
+  void update_all(Time time);
 
   struct Output {
     VariableId id;

@@ -124,15 +124,15 @@ class Fmi1Variables {
     variable.type = type;
     read_kind(element, variable);
     variable.start = typed.attribute_or("start");
+    const auto declared = types_.declared(typed);
+    if (type == ValueType::Enumeration && declared) variable.items = items_of(*declared);
     check_start(typed, variable, unit_.warnings);
     variable.initial = initial_of(typed, variable);
-    const auto declared = types_.declared(typed);
     read_unit(typed, declared, variable, unit_.warnings);
     variable.min = inherited(typed, declared, "min");
     variable.max = inherited(typed, declared, "max");
     check_limits(typed, variable, unit_.warnings);
     variable.nominal = read_nominal(typed, variable.type, declared);
-    if (type == ValueType::Enumeration && declared) variable.items = items_of(*declared);
     return variable;
   }
 

@@ -105,8 +105,12 @@ class Variables {
     variable.variability = variability(element, variable);
     variable.initial = read_initial(element, variable);
     variable.start = typed.attribute_or("start");
-    check_start(typed, variable, unit_.warnings);
     const auto declared = declared_type(typed);
+    if (variable.type == ValueType::Enumeration) {
+      if (!declared) TypeDefinitions::fail_without(typed);
+      variable.items = read_items(*declared);
+    }
+    check_start(typed, variable, unit_.warnings);
     read_unit(typed, declared, variable, unit_.warnings);
     variable.min = inherited(typed, declared, "min");
     variable.max = inherited(typed, declared, "max");
@@ -115,9 +119,6 @@ class Variables {
     variable.intermediate_update = unit_.provides_intermediate_update &&
                                    variable.causality == Causality::Input &&
                                    variable.variability == Variability::Continuous;
-    if (variable.type != ValueType::Enumeration) return variable;
-    if (!declared) TypeDefinitions::fail_without(typed);
-    variable.items = read_items(*declared);
     return variable;
   }
 

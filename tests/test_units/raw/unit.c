@@ -14,6 +14,8 @@
  *   unheard  it returns 77, which is no status
  *   babbles  it logs 300 warnings              mumbles  it logs a message with the status 77
  *   mute     from the third step on each String is NULL
+ *   latin    likewise Latin-1
+ *   odd      likewise each number is 99
  *   astray   likewise at an address where nothing is
  *   huge     likewise each Binary has more bytes than there are addresses
  *   large    likewise 1 TiB
@@ -233,12 +235,16 @@ fmi3Status fmi3UpdateDiscreteStates(fmi3Instance i, fmi3Boolean* update, fmi3Boo
   return fmi3OK;
 }
 
+static bool is_now(const Instance* instance, const char* name) {
+  return instance->steps >= 3 && is(instance, name);
+}
+
 #define ACCESS(T)                                                                                 \
   fmi3Status fmi3Get##T(fmi3Instance i, const fmi3ValueReference r[], size_t n, fmi3##T values[], \
                         size_t size) {                                                            \
-    (void)i, (void)r, (void)n;                                                                    \
+    (void)r, (void)n;                                                                             \
     RETURN_FAULT("get")                                                                           \
-    for (size_t k = 0; k < size; ++k) values[k] = 0;                                              \
+    for (size_t k = 0; k < size; ++k) values[k] = is_now(i, "odd") ? 99 : 0;                      \
     return fmi3OK;                                                                                \
   }                                                                                               \
   fmi3Status fmi3Set##T(fmi3Instance i, const fmi3ValueReference r[], size_t n,                   \
@@ -259,10 +265,6 @@ ACCESS(Int64)
 ACCESS(UInt64)
 ACCESS(Boolean)
 
-static bool is_now(const Instance* instance, const char* name) {
-  return instance->steps >= 3 && is(instance, name);
-}
-
 /* The one String is the path of the resources. */
 fmi3Status fmi3GetString(fmi3Instance i, const fmi3ValueReference r[], size_t n,
                          fmi3String values[], size_t size) {
@@ -270,6 +272,7 @@ fmi3Status fmi3GetString(fmi3Instance i, const fmi3ValueReference r[], size_t n,
   for (size_t k = 0; k < size; ++k) {
     values[k] = ((Instance*)i)->resources;
     if (is_now(i, "mute")) values[k] = NULL;
+    if (is_now(i, "latin")) values[k] = "caf\xe9";
     if (is_now(i, "astray")) values[k] = (fmi3String)8;
   }
   return fmi3OK;

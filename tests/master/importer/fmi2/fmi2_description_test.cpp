@@ -306,6 +306,17 @@ TEST_CASE("start values as other tools write them are taken, with a warning") {
   CHECK_THAT(unit.warnings[1], Contains("declaredType=\"Switches\" is ignored"));
 }
 
+TEST_CASE("start values that are no items, or not finite, are said") {
+  const auto other_item = fmi2_with("start=\"7\"", "start=\"2\"");
+  REQUIRE(other_item.warnings.size() == 1);
+  CHECK_THAT(other_item.warnings[0],
+             Contains("unit.xml:") && Contains("start=\"2\" of 'mode' is not an item of its "
+                                               "Enumeration: off (1), on (7)"));
+  const auto infinite = fmi2_with("start=\"0.5\"", "start=\"INF\"");
+  REQUIRE(infinite.warnings.size() == 1);
+  CHECK_THAT(infinite.warnings[0], Contains("start=\"INF\" of 'inflow[1]' is not a finite number"));
+}
+
 TEST_CASE("a variable of FMI 2.0 whose name is there already is left out, and indices stay right") {
   const auto unit = fmi2_with("name=\"T2\"", "name=\"T\"");
   REQUIRE_FALSE(unit.warnings.empty());
