@@ -2,9 +2,13 @@
 
 #include <memory>
 #include <string>
+#include <string_view>
+#include <utility>
 
 #include <dlfcn.h>
 #include <fmt/format.h>
+
+#include <stride/xml_text.h>
 
 #include "master/importer/binaries.h"
 #include "master/importer/fmi3/fmi3_library.h"
@@ -49,34 +53,63 @@ class Preloaded {
   std::vector<std::unique_ptr<void, int (*)(void*)>> handles_;
 };
 
-archive::Contents collect(const PackRequest& request) {
-  const Preloaded bundled(request.bundled);
-  core::open_input(request.library);
-  const Fmi3Library library(request.library);
-  const std::string xml = library.describe(request.resources);
-  auto description = parse_model_description(xml, request.library.string());
-  const std::string binaries = fmt::format("binaries/{}/", platform());
+std::string name_in_binaries(const std::string& file) {
+  return fmt::format("binaries/{}/{}", platform(), file);
+}
+
+/// The kit writes the attribute once, of the root.
+void set_model_name(std::string& xml, const std::string& name) {
+  constexpr std::string_view kBegin = "modelName=\"";
+  const std::size_t begin = xml.find(kBegin) + kBegin.size();
+  xml.replace(begin, xml.find('"', begin) - begin, xml_escaped(name));
+}
+
+/// With the description that the library gives for these resources.
+archive::Contents describe(const PackRequest& request) {
+  const auto& [file, resources, bundled, output, model_name] = request;
+  core::open_input(file);
+  const Fmi3Library library(file);
+  std::string xml = library.describe(resources);
+  if (!model_name.empty()) set_model_name(xml, model_name);
+  auto description = parse_model_description(xml, file.string());
   archive::Contents contents;
   contents["modelDescription.xml"].text = xml;
-  const std::string manifest = library.idle_manifest(request.resources);
+  const std::string manifest = library.idle_manifest(resources);
   if (!manifest.empty()) {
-    parse_idle_manifest(manifest, request.library.string(), description);
+    parse_idle_manifest(manifest, file.string(), description);
     contents[STRIDE_IDLE_MANIFEST].text = manifest;
   }
-  archive::add_file(contents, binaries + description.model_identifier + ".so", request.library,
-                    true);
+  archive::add_file(contents, name_in_binaries(description.model_identifier + ".so"), file, true);
+  if (!resources.empty()) archive::add_folder(contents, "resources/", resources);
+  return contents;
+}
+
+archive::Contents collect(const PackRequest& request) {
+  const Preloaded bundled(request.bundled);
+  archive::Contents contents = describe(request);
   for (const fs::path& library : request.bundled) {
-    archive::add_file(contents, binaries + library.filename().string(), library, true);
-  }
-  if (!request.resources.empty()) {
-    archive::add_folder(contents, "resources/", request.resources);
+    archive::add_file(contents, name_in_binaries(library.filename().string()), library, true);
   }
   return contents;
 }
 
-/// The same for the library in an unpacked FMU, with what lies beside it.
-PackRequest with_library_of(const UnpackedFmu& fmu, PackRequest request,
-                            std::vector<std::string>& warnings) {
+/// What else is in the folder of the libraries; `library`, which lies below it, is there already.
+void add_other_binaries(archive::Contents& contents, const fs::path& library) {
+  const fs::path beside = library.parent_path();
+  archive::Contents others;
+  archive::add_folder(others, "binaries/", beside.parent_path());
+  const std::string folder = "binaries/" + beside.filename().string() + "/";
+  others.erase(folder + library.filename().string());
+  for (auto& [name, content] : others) {
+    const bool is_beside = name.starts_with(folder);
+    contents.emplace(is_beside ? name_in_binaries(name.substr(folder.size())) : name,
+                     std::move(content));
+  }
+}
+
+/// From an FMU, which may be of several platforms.
+archive::Contents collect_again(const UnpackedFmu& fmu, const PackRequest& request,
+                                std::vector<std::string>& warnings) {
   if (request.resources.empty()) {
     core::fail_input({}, fmt::format("'{}' is packed already", request.library.string()),
                      "name the folder that it is to be packed again with: --resources FOLDER");
@@ -87,12 +120,10 @@ PackRequest with_library_of(const UnpackedFmu& fmu, PackRequest request,
   for (const std::string& warning : {fmu.warning(), found.warning}) {
     if (!warning.empty()) warnings.push_back(warning);
   }
-  request.library = found.path;
-  // sorted: the order in which they are loaded
-  std::vector<fs::path> beside = core::folder_entries(request.library.parent_path());
-  std::erase(beside, request.library);
-  request.bundled.insert(request.bundled.begin(), beside.begin(), beside.end());
-  return request;
+  archive::Contents contents =
+      collect({found.path, request.resources, request.bundled, request.output, request.model_name});
+  add_other_binaries(contents, found.path);
+  return contents;
 }
 
 }  // namespace
@@ -104,7 +135,7 @@ std::vector<std::string> pack(const PackRequest& request) {
     return warnings;
   }
   const UnpackedFmu fmu(request.library);
-  archive::write_zip(request.output, collect(with_library_of(fmu, request, warnings)));
+  archive::write_zip(request.output, collect_again(fmu, request, warnings));
   return warnings;
 }
 

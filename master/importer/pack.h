@@ -13,15 +13,15 @@ struct PackRequest {
   std::filesystem::path resources;             ///< a folder, or empty
   std::vector<std::filesystem::path> bundled;  ///< shared libraries that go beside the unit's own
   std::filesystem::path output;
+  std::string model_name{};  ///< instead of the one that the library gives; empty: that one
 };
 
 /// Asks the library for its model description with these resources and writes the archive:
 /// modelDescription.xml, binaries/<platform>/<modelIdentifier>.so and the bundled libraries,
 /// resources/, and extra/org.stride.idle/ if the unit can promise to be idle. From a .fmu it takes
-/// the library for this platform and those beside it; its own resources stay behind, so there must
-/// be others. The same input gives the same bytes, and the output is replaced only when it is
-/// complete. Returns warnings. Throws core::Error: Input for what is given wrongly, Run if it
-/// cannot be written.
+/// all of binaries/; its own resources stay behind, so there must be others. The same input gives
+/// the same bytes, and the output is replaced only when it is complete. Returns warnings. Throws
+/// core::Error: Input for what is given wrongly, Run if it cannot be written.
 std::vector<std::string> pack(const PackRequest& request);
 
 }  // namespace stride::importer

@@ -255,12 +255,13 @@ bool SharedLibrary::can_be_unloaded() const noexcept {
     const std::string remnants = remnants_.find();
     if (remnants.empty()) return true;
     if (log_) {
-      log_(
-          user_.unit, Status::Warning, "stride",
-          fmt::format("its library stays loaded until stride ends, since something goes on that is "
-                      "newer and may need its code: {}; a unit ends its threads, and puts "
-                      "handlers of signals back, before its last instance is freed",
-                      remnants));
+      // an interpreter of Python lives as long as its process
+      const Status severity = python_.empty() ? Status::Warning : Status::Ok;
+      log_(user_.unit, severity, "stride",
+           fmt::format("its library stays loaded until stride ends, because it leaves {} behind, "
+                       "which may need its code; a unit has to end its threads, and restore the "
+                       "handlers of signals, before its last instance is freed",
+                       remnants));
     }
   } catch (const std::exception&) {  // then it is not known
   }

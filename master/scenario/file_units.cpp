@@ -1,13 +1,13 @@
 #include "master/scenario/file_units.h"
 
 #include <map>
+#include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include <fmt/format.h>
 
-#include "master/importer/binaries.h"
-#include "master/importer/unpacked_fmu.h"
 #include "master/scenario/unit_path.h"
 #include "master/util/archive/temporary_folder.h"
 #include "master/util/error.h"
@@ -36,16 +36,27 @@ void require_no_resources(const importer::PackRequest& request, const std::strin
 
 /// The unit with these resources, of which `file` is what the user has given.
 void pack_unit(const std::string& unit, const fs::path& resources, const fs::path& file,
-               const importer::PackRequest& request) {
-  const importer::UnpackedFmu unpacked(find_unit(unit + ".fmu", {}));
+               const importer::PackRequest& request, const std::string& model_name = {}) {
   try {
-    importer::pack({importer::find_library(unpacked.folder(), "3.0", unit).path,
-                    resources,
-                    {},
-                    request.output});
+    importer::pack({find_unit(unit + ".fmu", {}), resources, {}, request.output, model_name});
   } catch (const core::Error& failure) {
     core::fail_input({}, shown(failure.what(), file, request.library));
   }
+}
+
+/// By --capture, and no table.
+bool is_captured(const fs::path& path) {
+  constexpr std::string_view kBegin = "stride stimuli,";
+  return core::head_of(path, kBegin.size()) == kBegin;
+}
+
+void pack_stimuli_as(const fs::path& shown_as, importer::PackRequest request) {
+  const archive::TemporaryFolder resources;
+  const fs::path copy = resources.path() / "stimuli.csv";
+  core::copy_input(request.library, copy);
+  const std::string table = is_captured(request.library) ? "" : shown_as.stem().string();
+  request.library = shown_as;
+  pack_unit("player", resources.path(), copy, request, table);
 }
 
 /// The files that the declaration of a program names.
@@ -53,6 +64,7 @@ struct ProgramFiles {
   /// Those to be packed: name in the resources -> where it is.
   std::map<std::string, fs::path> packed;
   bool has_outside = false;  ///< others stay where they are
+  std::string model_name;    ///< of the unit; empty: the program has no name of its own
 };
 
 void add_file(ProgramFiles& files, const xml::Element& element, const fs::path& folder) {
@@ -87,23 +99,27 @@ ProgramFiles program_files(const fs::path& declaration) {
   }
   const fs::path folder = fs::absolute(declaration).parent_path();
   ProgramFiles files;
+  files.model_name = root.attribute("name").value_or("");
   for (const xml::Element& child : root.children()) add_file(files, child, folder);
   return files;
 }
 
 }  // namespace
 
-bool is_stimuli(const fs::path& path) {
-  constexpr std::string_view kBegin = "stride stimuli,";
-  return path.extension() == ".csv" || core::head_of(path, kBegin.size()) == kBegin;
-}
+bool is_stimuli(const fs::path& path) { return path.extension() == ".csv" || is_captured(path); }
 
 void pack_stimuli(const importer::PackRequest& request) {
   require_no_resources(request, "stimuli are", "player");
-  const archive::TemporaryFolder resources;
-  const fs::path copy = resources.path() / "stimuli.csv";
-  core::copy_input(request.library, copy);
-  pack_unit("player", resources.path(), copy, request);
+  pack_stimuli_as(request.library, request);
+}
+std::shared_ptr<importer::Fmu> load_unit(const fs::path& path, const core::Location& where,
+                                         const fs::path& shown_as) {
+  if (!core::is_file(path) || !is_stimuli(path)) return importer::Fmu::load(path, where, shown_as);
+  const archive::TemporaryFolder folder;
+  const fs::path packed = folder.path() / "player.fmu";
+  const fs::path name = shown_as.empty() ? path : shown_as;
+  pack_stimuli_as(name, {path, {}, {}, packed});
+  return importer::Fmu::load(packed, where, name);
 }
 
 bool is_program(const fs::path& path) { return path.extension() == ".xml"; }
@@ -121,7 +137,7 @@ void pack_program(const importer::PackRequest& request) {
   }
   const fs::path copy = resources.path() / "process.xml";
   core::copy_input(request.library, copy);
-  pack_unit("process", resources.path(), copy, request);
+  pack_unit("process", resources.path(), copy, request, files.model_name);
 }
 
 }  // namespace stride::scenario

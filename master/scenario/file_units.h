@@ -3,15 +3,24 @@
 #define STRIDE_MASTER_SCENARIO_FILE_UNITS_H
 
 #include <filesystem>
+#include <memory>
 
+#include "master/importer/fmu.h"
 #include "master/importer/pack.h"
+#include "master/util/error.h"
 
 namespace stride::scenario {
 
-/// Whether the file holds stimuli written by --capture.
+/// Whether the file holds stimuli written by --capture, or a table of values over time (.csv).
 bool is_stimuli(const std::filesystem::path& path);
 /// The unit player with this file in its resources. Throws core::Error.
 void pack_stimuli(const importer::PackRequest& request);
+
+/// The unit in a file: that of an FMU or a library, or the unit player of stimuli and tables.
+/// Throws core::Error (Input); `shown_as` is the path in messages, if that is another one.
+std::shared_ptr<importer::Fmu> load_unit(const std::filesystem::path& path,
+                                         const core::Location& where = {},
+                                         const std::filesystem::path& shown_as = {});
 
 /// Whether the file is meant to be the declaration of a program.
 bool is_program(const std::filesystem::path& path);

@@ -23,7 +23,7 @@ wheel=$(echo "$work"/*.whl)
 [[ ${wheel##*/} =~ ^stride_cosim-[0-9.]+-py3-none-manylinux_2_[0-9]+_x86_64\.whl$ ]] ||
   fail "${wheel##*/}: the name should say which systems it is for"
 clean /usr/bin/python3 -c 'import sys; sys.exit(0)' || skip "there can be no clean root file system"
-"$wheels/tools/bin/pip" download --quiet --disable-pip-version-check --only-binary :all: --dest "$work" "$wheel[mcap]" ||
+"$wheels/tools/bin/pip" download --quiet --disable-pip-version-check --only-binary :all: --dest "$work" "$wheel[mcap]" fmpy ||
   skip "PyPI cannot be reached"
 
 step "Install"
@@ -112,6 +112,34 @@ done
 cmp "$work/results/nfc_approach/signals.csv" "$work/results/hosted/signals.csv" || fail "hosts change the signals"
 clean "$stride" campaign search "$prefix/share/stride/scenarios/nfc_approach/nfc_approach.xosc" --runs 1 --quiet \
   --out results/search || fail "the search has failed"
+
+step "What is packed by the wheel runs in FMPy, with the wheel gone"
+clean /usr/bin/python3 -m venv "$work/fmpy"
+clean "$work/fmpy/bin/pip" install --quiet --no-index --find-links "$work" fmpy
+printf 'time,u\n0,0\n1,2\n' > "$work/ramp.csv"
+cat > "$work/double.py" << 'END'
+import stride.unit as su
+
+
+class Double(su.Unit):
+    u = su.Input(float)
+    y = su.Output(0.0)
+
+    def step(self, now, end):
+        self.y = 2 * self.u
+END
+clean "$stride" pack ramp.csv -o ramp.fmu
+clean "$work/venv/bin/python" -m stride.unit double.py -o double.fmu --python python3
+mv "$work/venv" "$work/gone"
+clean "$work/fmpy/bin/python" - << 'END' || fail "FMPy does not run what was packed"
+from fmpy import simulate_fmu
+
+ramp = simulate_fmu("ramp.fmu", stop_time=1, output_interval=0.5, output=["u"])
+assert list(ramp["u"]) == [0, 1, 2], ramp
+double = simulate_fmu("double.fmu", stop_time=1, output_interval=0.5, output=["y"], start_values={"u": 3})
+assert double["y"][-1] == 6, double
+END
+mv "$work/gone" "$work/venv"
 
 step "Licences of the libraries, man pages and completions"
 for file in lib/python3.*/site-packages/stride_cosim-*.dist-info/licenses/LICENSE \

@@ -444,10 +444,30 @@ def test_names_of_files_clash(units, name):
     assert f"other/{name}: the FMU has another file of this name; call it otherwise" in said
 
 
+def test_the_fmu_has_the_name_of_the_class(units):
+    assert units.pack(THERMOSTAT) == ""
+    assert 'modelName="Thermostat"' in describe("u.fmu")
+    assert 'modelIdentifier="process"' in describe("u.fmu")
+
+
+def test_the_interpreter_is_said_where_it_may_be_another_one(units, monkeypatch):
+    units.write(THERMOSTAT)
+    other = units.path / "other" / "python3"
+    other.parent.mkdir()
+    other.write_text("#!/bin/sh\necho /another/prefix\n")
+    other.chmod(0o755)
+    monkeypatch.setenv("PATH", f"{other.parent}:{os.environ['PATH']}")
+    command = [sys.executable, "-m", "stride.unit", "u.py", "-o", "u.fmu"]
+    said = subprocess.run(command, capture_output=True, text=True, check=True).stderr
+    assert said.startswith(f"stride.unit: warning: u.fmu: the first 'python3' in PATH runs it (here {other})")
+    assert said.endswith(f"to choose this one: --python {sys.executable}\n")
+    assert subprocess.run([*command, "--python", "python3"], capture_output=True, text=True, check=True).stderr == ""
+
+
 def test_a_file_can_run_and_pack_itself(units):
     assert units.pack(THERMOSTAT + "\n    su.main(Thermostat)\n") == ""
     assert stride.run("u.fmu", stop=0.5).reached == 0.5
-    assert subprocess.run([sys.executable, "u.py", "-o", "u.fmu"], check=True, capture_output=True).stderr == b""
+    assert subprocess.run([sys.executable, "u.py", "-o", "u.fmu", "--python", "python3"], check=True, capture_output=True).stderr == b""
     imported = [sys.executable, "-c", "import u; print(u.Thermostat().gain)"]
     assert subprocess.run(imported, check=True, capture_output=True).stdout == b"2.0\n"
     commands = (

@@ -307,7 +307,7 @@ Declaration load_declaration(const fs::path& resources) {
   }
   const xml::Document document = xml::Document::load(
       (resources / kFile).string(), "process",
-      {"description", "may-stop", "split-invariant", "trace", "time-unit", "maximum-step"});
+      {"name", "description", "may-stop", "split-invariant", "trace", "time-unit", "maximum-step"});
   return Reader(document.root()).read();
 }
 

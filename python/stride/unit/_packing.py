@@ -28,6 +28,7 @@ PathLike = Union[str, "os.PathLike[str]"]
 # stride.unit in the FMU, which Python runs as it is
 _RUNTIME = "stride_unit.pyz"
 _DECLARATION = "process.xml"
+_PYTHON = "python3"
 _MAIN = '''import os
 import sys
 
@@ -69,7 +70,7 @@ def _depends_on(cls: type[Unit], output: Output) -> Optional[str]:
 
 def declaration(cls: type[Unit], command: list[tuple[str, dict[str, str]]]) -> str:
     """That of docs/process-protocol.md, each element on a line. `command`: elements with their attributes."""
-    root = ElementTree.Element("process", {"version": "1", "description": _description(cls)})
+    root = ElementTree.Element("process", {"version": "1", "name": cls.__name__, "description": _description(cls)})
     for key, value in cls._options.items():
         root.set(key, str(value).lower())
     if cls.trace is not Unit.trace:
@@ -157,12 +158,31 @@ def _check_methods(cls: type[Unit]) -> None:
             raise UnitError(f"{cls.__name__}.{name}: expected a method without yield or async, whose body runs when it is called")
 
 
+def _prefix_of(interpreter: str) -> str:
+    """Where its packages are; a program in PATH may be a script that chooses one."""
+    done = subprocess.run([interpreter, "-c", "import sys; print(sys.prefix)"], stdout=subprocess.PIPE, text=True, check=False)
+    return done.stdout.strip()
+
+
+def _note_on_interpreter(output: PathLike) -> Optional[str]:
+    """What is to be known of the FMU if another interpreter than this one may run it."""
+    found = shutil.which(_PYTHON)
+    is_virtual = sys.prefix != sys.base_prefix
+    if not is_virtual and found is not None and _prefix_of(found) == sys.prefix:
+        return None
+    this = f"that of the virtual environment {sys.prefix}" if is_virtual else sys.executable
+    return (
+        f"{output}: the first '{_PYTHON}' in PATH runs it (here {found or 'there is none'}), which may be another "
+        f"interpreter than {this}; to choose this one: --python {sys.executable}"
+    )
+
+
 def pack(
     file: PathLike,
     output: PathLike,
     *,
     name: str = "",
-    python: str = "python3",
+    python: Optional[str] = None,
     files: Sequence[PathLike] = (),
     outside: bool = False,
 ) -> None:
@@ -171,7 +191,8 @@ def pack(
     Args:
         file: The file; `name` is the class, if it has more than one.
         output: The .fmu to write.
-        python: Runs it: a path, or a name that is searched in PATH where the unit runs.
+        python: Runs it: a path, or a name that is searched in PATH where the unit runs. Without one it is python3, and
+            a warning says so where that may be another interpreter than this one.
         files: Others that the unit needs: modules and data; each is in `resources` by the last part of its name.
         outside: The file is not packed but used where it is, so that it can be changed without packing it.
 
@@ -188,7 +209,7 @@ def pack(
                 raise UnitError(f"{other}: the FMU has another file of this name; call it otherwise")
             shutil.copyfile(other, Path(folder, other.name))
         command = [
-            ("program", {"name": python}),
+            ("program", {"name": python or _PYTHON}),
             ("argument", {"file": _RUNTIME}),
             ("argument", {"text": str(file) if outside else file.name}),
             ("argument", {"text": cls.__name__}),
@@ -201,6 +222,8 @@ def pack(
         if done.returncode != 0:
             raise _refusal(done.stderr, declared, cls, [*cls._variables])
     sys.stderr.write(done.stderr)
+    if python is None and (note := _note_on_interpreter(output)) is not None:
+        print(f"stride.unit: warning: {note}", file=sys.stderr)
 
 
 def _is_raised_in(file: PathLike, error: Exception) -> bool:
@@ -219,7 +242,7 @@ def command(arguments: list[str]) -> int:
     parser.add_argument(
         "--file", dest="files", action="append", default=[], metavar="FILE", help="to be packed, too; may be repeated"
     )
-    parser.add_argument("--python", default="python3", metavar="PROGRAM", help="what runs it, in PATH, or its path")
+    parser.add_argument("--python", metavar="PROGRAM", help="what runs it, in PATH, or its path [python3]")
     parser.add_argument("--outside", action="store_true", help="use FILE where it is, do not pack it")
     given = parser.parse_args(arguments)
     try:

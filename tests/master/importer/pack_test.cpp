@@ -103,6 +103,29 @@ TEST_CASE("a .fmu is packed again with other resources") {
              Contains("is packed already") && Contains("--resources"));
 }
 
+TEST_CASE("a .fmu that is packed again keeps all of its binaries") {
+  const Scratch scratch;
+  importer::pack(stateless(scratch, "first.fmu"));
+  const importer::UnpackedFmu first(scratch / "first.fmu");
+  archive::Contents contents;
+  archive::add_folder(contents, "", first.folder());
+  const std::string here = std::string("binaries/") + importer::platform();
+  for (const std::string& name : {here + "/libshared.so.1", here + "/data/table.txt",
+                                  std::string("binaries/x86-windows/a.dll")}) {
+    contents[name].text = "not loaded to describe the unit: " + name;
+  }
+  archive::write_zip(scratch / "more.fmu", contents);
+  importer::pack(
+      {scratch / "more.fmu", scratch / "resources", {}, scratch / "again.fmu", "named & so"});
+  const importer::UnpackedFmu again(scratch / "again.fmu");
+  for (const auto& [name, content] : contents) {
+    if (!name.starts_with("binaries/") || content.text.empty()) continue;
+    CHECK(read(again.folder() / name) == content.text);
+  }
+  CHECK(read(again.folder() / here / "stateless.so") == read(unit_library("stateless")));
+  CHECK(importer::Fmu::load(scratch / "again.fmu")->description()->model_name == "named & so");
+}
+
 TEST_CASE("an FMU whose description has another case is packed again, with a warning") {
   const Scratch scratch;
   importer::pack(stateless(scratch, "plain.fmu"));
