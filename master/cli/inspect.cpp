@@ -13,6 +13,7 @@
 #include "master/cli/table.h"
 #include "master/importer/fmu.h"
 #include "master/importer/terminals.h"
+#include "master/scenario/file_units.h"
 #include "master/scenario/unit_path.h"
 #include "master/util/time_text.h"
 
@@ -108,7 +109,7 @@ std::string terminal_table(const importer::Fmu& fmu) {
 
 void inspect(const std::filesystem::path& file) {
   const CrashGuard guard;
-  const auto fmu = importer::Fmu::load(scenario::find_unit(file, {}));
+  const auto fmu = scenario::load_unit(scenario::find_unit(file, {}));
   const LimitedEnd end;
   const core::UnitDescription& unit = *fmu->description();
   print_warnings(unit.warnings);

@@ -20,6 +20,7 @@
 #include "master/scenario/check_selection.h"
 #include "master/scenario/component_selection.h"
 #include "master/scenario/default_step.h"
+#include "master/scenario/file_units.h"
 #include "master/scenario/recordings.h"
 #include "master/scenario/remote_units.h"
 #include "master/scenario/signal_selection.h"
@@ -156,7 +157,7 @@ std::vector<std::shared_ptr<importer::Fmu>> load_fmus(const Scenario& scenario, 
     if (!named) {
       const auto path = find_unit_shown_as(source, shown_places(scenario, source), where);
       auto& fmu = units[path];
-      if (!fmu) fmu = importer::Fmu::load(path, where, scenario.files->shown(path));
+      if (!fmu) fmu = load_unit(path, where, scenario.files->shown(path));
       named = fmu;
     }
     fmus.push_back(named);

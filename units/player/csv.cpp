@@ -8,7 +8,9 @@ bool CsvRows::next() {
   line_ = next_line_;
   if (at_end()) return false;
   fields_.clear();
+  is_quoted_.clear();
   while (true) {
+    is_quoted_.push_back(text_[at_] == '"');
     fields_.push_back(text_[at_] == '"' ? take_quoted() : take_field());
     if (fields_.back().find('\0') != std::string::npos) fail("a field has a NUL character");
     if (text_.compare(at_, 2, "\r\n") == 0) ++at_;

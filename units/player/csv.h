@@ -21,6 +21,8 @@ class CsvRows {
   /// does, for a last row without its end, and for quotation marks where none may be.
   bool next();
   const std::vector<std::string>& fields() const { return fields_; }
+  /// Whether the field is in quotation marks, so that an empty one is a text.
+  bool is_quoted(std::size_t field) const { return is_quoted_[field]; }
   /// Where the row begins, from 1 on.
   int line() const { return line_; }
   bool at_end() const { return at_ == text_.size(); }
@@ -38,6 +40,7 @@ class CsvRows {
   int line_ = 0;
   int next_line_ = 1;
   std::vector<std::string> fields_;
+  std::vector<bool> is_quoted_;  ///< by field
 };
 
 }  // namespace player

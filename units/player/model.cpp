@@ -22,6 +22,7 @@ bool Playback::is_due(stride::Time now) const {
       if (ticked_[entry.input]) return false;
       break;
     case Entry::Kind::Value:
+    case Entry::Kind::Jump:
       break;
   }
   return entry.time < now || (entry.time == now && entry.event <= position_.iteration);
@@ -29,7 +30,7 @@ bool Playback::is_due(stride::Time now) const {
 
 bool Playback::has_more(stride::Time now) const {
   const Entry& entry = next();
-  const bool is_stimulus = entry.kind == Entry::Kind::Value || entry.kind == Entry::Kind::Tick;
+  const bool is_stimulus = entry.kind != Entry::Kind::Step && entry.kind != Entry::Kind::End;
   return is_stimulus && entry.time <= now;
 }
 

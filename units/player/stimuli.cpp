@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "units/player/csv.h"
+#include "units/player/table.h"
 #include "units/xml/file.h"
 
 namespace player {
@@ -14,6 +15,7 @@ namespace {
 
 constexpr const char* kFormat = "stride stimuli";
 constexpr const char* kVersion = "1";
+constexpr std::size_t kByteOrderMark = 3;  ///< bytes that may come before it
 constexpr std::size_t kMostElements = 1u << 20;
 
 /// Exact decimal seconds with twelve places at most.
@@ -304,7 +306,8 @@ Stimuli parse_stimuli(const std::string& text, const std::string& file) {
 }
 
 Stimuli load_stimuli(const std::string& file) {
-  return parse_stimuli(xml::read_file(file, "what stride run --capture wrote"), file);
+  const std::string text = xml::read_file(file, "what stride run --capture wrote, or a table");
+  return text.find(kFormat) <= kByteOrderMark ? parse_stimuli(text, file) : parse_table(text, file);
 }
 
 }  // namespace player

@@ -1,4 +1,5 @@
 // The player as an FMU. Its variable table comes from the stimuli in its resources.
+#include <algorithm>
 #include <charconv>
 #include <cstdint>
 #include <filesystem>
@@ -34,6 +35,8 @@ class Output {
   virtual ~Output() = default;
   /// Values of the input, from this one on.
   virtual void show(const player::Values& values, std::size_t first) = 0;
+  /// Of a floating-point number.
+  virtual void show(double number) = 0;
 };
 
 template <class T, class Source>
@@ -44,6 +47,9 @@ class OutputOf final : public Output {
   void show(const player::Values& values, std::size_t first) override {
     const auto& list = std::get<std::vector<Source>>(values);
     for (std::size_t i = 0; i < size_; ++i) elements_[i] = static_cast<T>(list[first + i]);
+  }
+  void show(double number) override {
+    if constexpr (std::is_floating_point_v<T>) elements_[0] = static_cast<T>(number);
   }
 
  private:
@@ -59,40 +65,59 @@ class PlayerUnit : public stride::Unit {
       : stimuli_(player::load_stimuli(stimuli_file(setup.resources).string())),
         playback_(stimuli_),
         outputs_(stimuli_.inputs.size()),
+        slopes_(stimuli_.inputs.size()),
         clocks_(stimuli_.inputs.size()) {
-    auto& info = describe("Plays to '" + stimuli_.unit + "' what '" + stimuli_.component +
-                          "' received in '" + stimuli_.system + "'");
+    auto& info = describe(origin_text());
     info.split_invariant = true;
     info.promises_idle = true;
     for (std::size_t i = 0; i < stimuli_.inputs.size(); ++i) list_clock(i);
     for (std::size_t i = 0; i < stimuli_.inputs.size(); ++i) list_value(i);
-    list_origin();
     state(playback_.position());
+    if (stimuli_.is_table) {
+      state(slopes_);
+    } else {
+      list_origin();
+    }
     show_start_values();
   }
 
   void initialize(stride::Time start) override {
     show_start_values();
     playback_.begin(start, [this](const player::Entry& entry) { play(entry); });
-    if (start <= stimuli_.start()) return;
+    follow_curves(start);
+    if (start <= stimuli_.start() || !has_clock()) return;
     warn_once(told_start_, "the stimuli begin at " + text(stimuli_.start()) + " s, the run at " +
                                text(start) + " s, so what ticked before is not played");
   }
 
   void step(stride::Step& step) override {
+    for (std::size_t i = 0; i < outputs_.size(); ++i) {
+      if (const auto& curve = stimuli_.inputs[i].curve) {
+        outputs_[i]->show(curve->before(step.to()));
+        slopes_[i] = curve->at(step.to()).slope;
+      }
+    }
     if (play_until(step.to())) step.need_event();
   }
 
   void event(stride::Event& event) override {
     playback_.iterate(event.time(), [this](const player::Entry& entry) { play(entry); });
+    follow_curves(event.time());
     report();
     if (playback_.has_more(event.time())) return event.iterate();
     const auto next = stop_at_stimuli_ ? playback_.following() : playback_.target();
     next ? event.next_event(*next) : event.no_next_event();
   }
 
-  stride::Time idle_until(stride::Time) const override {
-    return playback_.following().value_or(stride::Time::max());
+  stride::Time idle_until(stride::Time now) const override {
+    stride::Time until = playback_.following().value_or(stride::Time::max());
+    for (std::size_t i = 0; i < outputs_.size(); ++i) {
+      const player::Input& input = stimuli_.inputs[i];
+      if (!input.curve) continue;
+      if (input.type == player::Type::Float32 && slopes_[i] != 0) return now;  // it has no tangent
+      until = std::min(until, input.curve->next(now).value_or(stride::Time::max()));
+    }
+    return until;
   }
 
  private:
@@ -103,22 +128,53 @@ class PlayerUnit : public stride::Unit {
     return {digits, std::to_chars(digits, digits + sizeof digits, seconds, fixed).ptr};
   }
 
+  std::string origin_text() const {
+    if (stimuli_.is_table) return "Plays a table of values over time";
+    return "Plays to '" + stimuli_.unit + "' what '" + stimuli_.component + "' received in '" +
+           stimuli_.system + "'";
+  }
+
+  bool has_clock() const {
+    return std::any_of(clocks_.begin(), clocks_.end(),
+                       [](const auto& clock) { return clock != nullptr; });
+  }
+
+  void follow_curves(stride::Time now) {
+    for (std::size_t i = 0; i < outputs_.size(); ++i) {
+      if (!stimuli_.inputs[i].curve) continue;
+      const auto [value, slope] = stimuli_.inputs[i].curve->at(now);
+      outputs_[i]->show(value);
+      slopes_[i] = slope;
+    }
+  }
+
   void list_clock(std::size_t i) {
     const player::Input& input = stimuli_.inputs[i];
     if (input.type != player::Type::Clock) return;
     clocks_[i] = std::make_unique<stride::Clock>();
-    output(input.name, *clocks_[i]).description("ticks as that of the captured unit");
+    output(input.name, *clocks_[i])
+        .description(stimuli_.is_table ? "ticks in each row with a message"
+                                       : "ticks as that of the captured unit");
   }
 
   void list_value(std::size_t i) {
     const player::Input& input = stimuli_.inputs[i];
     if (input.type == player::Type::Clock) return;
     auto row = add_output(i);
-    row.depends_on({}).description("as the captured unit received it");
+    row.depends_on({}).description(stimuli_.is_table ? "a column of the table"
+                                                     : "as the captured unit received it");
     if (!input.unit.empty()) row.unit(input.unit);
     if (!input.items.empty()) row.items(input.items);
     if (!input.is_continuous) row.discrete();
     if (input.clock) row.clocked_by(*clocks_[*input.clock]);
+    if (!input.curve || input.type != player::Type::Float64) return;
+    row.derivative(slopes_[i]).tolerance(tangent_tolerance(*input.curve));
+  }
+
+  /// Of rounding alone.
+  static double tangent_tolerance(const player::Curve& curve) {
+    constexpr double kRelative = 1e-12;
+    return kRelative * std::max(curve.magnitude(), 1.0);
   }
 
   stride::VariableBuilder add_output(std::size_t i) {
@@ -153,7 +209,9 @@ class PlayerUnit : public stride::Unit {
 
   void show_start_values() {
     for (std::size_t i = 0; i < outputs_.size(); ++i) {
-      if (outputs_[i]) outputs_[i]->show(stimuli_.inputs[i].values, 0);
+      const player::Input& input = stimuli_.inputs[i];
+      if (outputs_[i]) outputs_[i]->show(input.values, 0);
+      if (input.curve) outputs_[i]->show(input.curve->first());
     }
   }
 
@@ -162,6 +220,7 @@ class PlayerUnit : public stride::Unit {
   }
   void play(const player::Entry& entry) {
     if (entry.kind == player::Entry::Kind::Tick) return clocks_[entry.input]->tick();
+    if (entry.kind == player::Entry::Kind::Jump) return;  // see follow_curves()
     outputs_[entry.input]->show(stimuli_.inputs[entry.input].values, entry.first);
   }
 
@@ -190,6 +249,7 @@ class PlayerUnit : public stride::Unit {
   player::Stimuli stimuli_;
   player::Playback playback_;
   std::vector<std::unique_ptr<Output>> outputs_;        ///< by input; none of clocks
+  std::vector<double> slopes_;                          ///< by input; of curves only
   std::vector<std::unique_ptr<stride::Clock>> clocks_;  ///< by input; of clocks only
   bool stop_at_stimuli_ = false;
   bool told_start_ = false;

@@ -43,3 +43,17 @@ TEST_CASE("without stimuli, or with bad ones, the error has what is expected") {
   CHECK_THROWS_WITH(library.describe(bad.path()),
                     Contains("stimuli.csv:20: 'x' is not a valid Float64"));
 }
+
+TEST_CASE("a table's columns are outputs; lines are continuous, with a tangent") {
+  const UnitLibrary library(unit_library("player"));
+  const Resources resources("time,car.speed [m/s],gear: Int32\n0,72,1\n10,100,2\n");
+  const std::string xml = library.describe(resources.path());
+  CHECK(attribute(xml, "name=\"car.speed\"", "causality") == "output");
+  CHECK(attribute(xml, "name=\"car.speed\"", "unit") == "m/s");
+  CHECK(attribute(xml, "name=\"gear\"", "variability") == "discrete");
+  CHECK(xml.find("captured.unit") == std::string::npos);
+  const Resources bad("time,u\n0,1\n1,\"a\"\n");
+  CHECK_NOTHROW(library.describe(bad.path()));  // a text
+  const Resources twice("time,u,u\n0,1,2\n");
+  CHECK_THROWS_WITH(library.describe(twice.path()), Contains("stimuli.csv:1: columns 2 and 3"));
+}

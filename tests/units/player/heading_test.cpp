@@ -1,0 +1,52 @@
+#include "units/player/heading.h"
+
+#include <catch2/catch.hpp>
+
+using namespace player;
+using Catch::Contains;
+
+TEST_CASE("a heading is a name, a unit of measure and what the values are") {
+  const Heading plain = parse_heading("speed");
+  CHECK(plain.name == "speed");
+  CHECK(plain.unit.empty());
+  CHECK(!plain.type);
+  CHECK(!plain.course);
+
+  const Heading whole = parse_heading("car.speed [km/h]: Float32 hold");
+  CHECK(whole.name == "car.speed");
+  CHECK(whole.unit == "km/h");
+  CHECK(whole.type == Type::Float32);
+  CHECK(whole.course == Course::Hold);
+}
+
+TEST_CASE("the words of a heading have any order, and one of them is enough") {
+  const Heading both = parse_heading("frame.data:event Binary");
+  CHECK(both.type == Type::Binary);
+  CHECK(both.course == Course::Event);
+  CHECK(parse_heading("gear: Int8").type == Type::Int8);
+  CHECK(parse_heading("level [V]:linear").course == Course::Linear);
+}
+
+TEST_CASE("what is no such word, and an index of an array, belongs to the name") {
+  CHECK(parse_heading("'a: b'").name == "'a: b'");
+  CHECK(parse_heading("a: Float64 Float32").name == "a: Float64 Float32");
+  CHECK(parse_heading("a: Enumeration").name == "a: Enumeration");
+  const Heading element = parse_heading("pose[1,2] [m]");
+  CHECK(element.name == "pose[1,2]");
+  CHECK(element.unit == "m");
+  CHECK(parse_heading("pose[1]").unit.empty());
+}
+
+TEST_CASE("a heading without a name is refused") {
+  CHECK_THROWS_WITH(parse_heading(" "), Contains("no name"));
+  CHECK_THROWS_WITH(parse_heading(": Int32"), Contains("no name"));
+}
+
+TEST_CASE("the first column is the time, in a unit of time") {
+  CHECK(parse_time_heading("time") == 1'000'000'000'000);
+  CHECK(parse_time_heading("Time [ms]") == 1'000'000'000);
+  CHECK(parse_time_heading("time [h]") == 3'600'000'000'000'000);
+  for (const char* text : {"t", "time [m]", "", "speed"}) {
+    CHECK_THROWS_WITH(parse_time_heading(text), Contains("expected 'time', in seconds"));
+  }
+}

@@ -1,0 +1,329 @@
+#include "units/player/table.h"
+
+#include <charconv>
+#include <cmath>
+#include <map>
+#include <stdexcept>
+#include <type_traits>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "units/player/csv.h"
+#include "units/player/heading.h"
+
+namespace player {
+namespace {
+
+/// After a step that has ended there, in the event.
+constexpr std::int32_t kInEvent = 1;
+
+struct Column {
+  Heading heading;
+  std::size_t input = 0;
+  bool has_value = false;  ///< in a row so far
+
+  Course course() const { return *heading.course; }
+  bool is_event() const { return course() == Course::Event; }
+};
+
+bool is_number(const std::string& text) {
+  double number = 0;
+  const char* const last = text.data() + text.size();
+  const auto [end, mistake] = std::from_chars(text.data(), last, number);
+  return mistake == std::errc() && end == last;
+}
+
+bool is_truth(const std::string& text) { return text == "true" || text == "false"; }
+
+/// Of the last value and the one before it.
+bool ends_with_change(const Values& values) {
+  return std::visit(
+      [](const auto& list) {
+        return list.size() < 2 || list[list.size() - 1] != list[list.size() - 2];
+      },
+      values);
+}
+
+void drop_last(Values& values) {
+  std::visit([](auto& list) { list.pop_back(); }, values);
+}
+
+void append_nothing(Values& values) {
+  std::visit([](auto& list) { list.emplace_back(); }, values);
+}
+
+std::size_t size_of(const Values& values) {
+  return std::visit([](const auto& list) { return list.size(); }, values);
+}
+
+/// `frame.data` has the clock `frame.clock`, as in a declaration of a program.
+std::string clock_of(const std::string& name) {
+  const std::size_t dot = name.rfind('.');
+  if (dot != std::string::npos) return name.substr(0, dot) + ".clock";
+  throw std::invalid_argument("expected a name such as '" + name +
+                              ".value' for events, whose "
+                              "clock is '" +
+                              name + ".clock'");
+}
+
+class TableReader {
+ public:
+  TableReader(const std::string& text, const std::string& file)
+      : text_(text), file_(file), rows_(text_, file_) {
+    result_.is_table = true;
+  }
+
+  Stimuli read() {
+    read_headings();
+    complete_types();
+    for (std::size_t i = 0; i < columns_.size(); ++i) in_column(i, [&] { add_input(i); });
+    while (next_row()) read_row();
+    for (std::size_t i = 0; i < columns_.size(); ++i) in_column(i, [&] { finish_column(i); });
+    result_.entries.push_back(entry(Entry::Kind::End, 0));
+    result_.ending = "completed";
+    return std::move(result_);
+  }
+
+ private:
+  // ---- The headings ----
+
+  void read_headings() {
+    if (!rows_.next()) rows_.fail("the table is empty; expected a line of headings");
+    const auto& fields = rows_.fields();
+    checked([&] { ticks_ = parse_time_heading(fields[0]); });
+    if (fields.size() == 1) rows_.fail("the table has no column behind 'time', or no commas");
+    for (std::size_t i = 1; i < fields.size(); ++i) {
+      checked([&] { columns_.push_back({parse_heading(fields[i])}); });
+      const std::string& name = columns_.back().heading.name;
+      const auto [first, is_new] = places_.emplace(name, i);
+      if (!is_new) {
+        rows_.fail("columns " + std::to_string(first->second + 1) + " and " +
+                   std::to_string(i + 1) + " have one name, '" + name + "'");
+      }
+    }
+  }
+
+  /// Of columns that do not name one: Boolean or Float64 if all of their values are, else String.
+  void complete_types() {
+    std::vector<bool> numbers(columns_.size(), true), truths(columns_.size(), true);
+    for (CsvRows rows(text_, file_); rows.next();) {
+      if (rows.line() == rows_.line()) continue;
+      for (std::size_t i = 0; i < columns_.size() && i + 1 < rows.fields().size(); ++i) {
+        const std::string& field = rows.fields()[i + 1];
+        if (field.empty() && !rows.is_quoted(i + 1)) continue;
+        numbers[i] = numbers[i] && is_number(field);
+        truths[i] = truths[i] && is_truth(field);
+      }
+    }
+    for (std::size_t i = 0; i < columns_.size(); ++i) {
+      Heading& heading = columns_[i].heading;
+      if (!heading.type) {
+        heading.type = truths[i] ? Type::Boolean : numbers[i] ? Type::Float64 : Type::String;
+        if (numbers[i] && truths[i]) heading.type = Type::Float64;  // it has no value at all
+      }
+      if (!heading.course) heading.course = is_real(i) ? Course::Linear : Course::Hold;
+    }
+  }
+
+  bool is_real(std::size_t i) const {
+    const Type type = *columns_[i].heading.type;
+    return type == Type::Float64 || type == Type::Float32;
+  }
+
+  void add_input(std::size_t i) {
+    Column& column = columns_[i];
+    const auto& [name, unit, type, course] = column.heading;
+    if (course == Course::Linear && !is_real(i)) {
+      throw std::invalid_argument("only Float64 and Float32 can be linear; expected hold or event");
+    }
+    std::optional<std::size_t> clock;
+    if (column.is_event()) clock = clock_named(clock_of(name));
+    column.input = result_.inputs.size();
+    Input& input = result_.inputs.emplace_back();
+    input.name = name;
+    input.unit = unit;
+    input.type = *type;
+    input.clock = clock;
+    input.is_continuous = course == Course::Linear;
+    input.values = values_of(*type);
+    if (input.is_continuous) input.curve.emplace();
+    if (clock) append_nothing(input.values);
+  }
+
+  std::size_t clock_named(const std::string& name) {
+    if (places_.count(name) != 0) {
+      throw std::invalid_argument("its clock '" + name + "' has the name of another column");
+    }
+    const auto [found, is_new] = clocks_.emplace(name, result_.inputs.size());
+    if (is_new) {
+      Input& clock = result_.inputs.emplace_back();
+      clock.name = name;
+      clock.type = Type::Clock;
+      clock.values = values_of(Type::Clock);
+    }
+    return found->second;
+  }
+
+  // ---- The rows ----
+
+  bool next_row() {
+    if (!rows_.next()) return false;
+    if (rows_.fields().size() != columns_.size() + 1) {
+      rows_.fail("the line has " + std::to_string(rows_.fields().size()) +
+                 " fields, the headings " + std::to_string(columns_.size() + 1));
+    }
+    return true;
+  }
+
+  /// At an instant the values come first, then the messages, then where lines jump.
+  void read_row() {
+    read_time();
+    for (std::size_t i = 0; i < columns_.size(); ++i) {
+      if (!columns_[i].is_event() && has_field(i)) in_column(i, [&] { read_value(i); });
+    }
+    for (const auto& [name, clock] : clocks_) read_message(clock);
+    for (const std::size_t input : jumps_) {
+      result_.entries.push_back(entry(Entry::Kind::Jump, input));
+      result_.entries.back().event = kInEvent;
+    }
+    jumps_.clear();
+  }
+
+  void read_time() {
+    stride::Time time;
+    checked([&] { time = parse_time(rows_.fields()[0]); });
+    if (!is_first_ && time < time_) {
+      rows_.fail("column 'time': " + rows_.fields()[0] + " is before the time of the line above");
+    }
+    time_ = time;
+    is_first_ = false;
+  }
+
+  stride::Time parse_time(const std::string& text) const {
+    long double number = 0;
+    const char* const last = text.data() + text.size();
+    const auto [end, mistake] = std::from_chars(text.data(), last, number);
+    const long double ticks = number * static_cast<long double>(ticks_);
+    const bool is_time = mistake == std::errc() && end == last && !text.empty();
+    if (is_time && std::abs(ticks) <= stride::kMaxSeconds * 1e12L) {
+      return stride::Time(stride::Duration(std::llround(ticks)));
+    }
+    throw std::invalid_argument("column 'time': '" + text + "' is not a time; expected a number");
+  }
+
+  bool has_field(std::size_t i) const {
+    return !rows_.fields()[i + 1].empty() || rows_.is_quoted(i + 1);
+  }
+  const std::string& field(std::size_t i) const { return rows_.fields()[i + 1]; }
+
+  void read_value(std::size_t i) {
+    Column& column = columns_[i];
+    Input& input = result_.inputs[column.input];
+    if (column.course() == Course::Linear) return add_point(i, input);
+    append_parsed(input.values, input.type, field(i));
+    const bool is_first = !std::exchange(column.has_value, true);
+    if (is_first) return;  // it is the start value
+    if (!ends_with_change(input.values)) return drop_last(input.values);
+    result_.entries.push_back(value_of(column.input));
+  }
+
+  void add_point(std::size_t i, Input& input) {
+    Values number = values_of(Type::Float64);
+    append_parsed(number, Type::Float64, field(i));
+    const double value = std::get<std::vector<double>>(number).front();
+    if (!std::isfinite(value)) {
+      throw std::invalid_argument("'" + field(i) + "' is not finite, so no line leads to it");
+    }
+    input.curve->add(time_, value);
+    columns_[i].has_value = true;
+    if (input.curve->ends_with_jump()) jumps_.push_back(columns_[i].input);
+  }
+
+  Entry entry(Entry::Kind kind, std::size_t input) const {
+    Entry made;
+    made.time = time_;
+    made.kind = kind;
+    made.input = input;
+    return made;
+  }
+
+  /// The last one of the input.
+  Entry value_of(std::size_t input) const {
+    Entry value = entry(Entry::Kind::Value, input);
+    value.first = size_of(result_.inputs[input].values) - 1;
+    return value;
+  }
+
+  void read_message(std::size_t clock) {
+    std::vector<std::size_t> parts, missing;
+    for (std::size_t i = 0; i < columns_.size(); ++i) {
+      const bool is_of_clock = result_.inputs[columns_[i].input].clock == clock;
+      if (is_of_clock) (has_field(i) ? parts : missing).push_back(i);
+    }
+    if (parts.empty()) return;
+    if (!missing.empty()) {
+      in_column(missing.front(), [&] {
+        throw std::invalid_argument("the message has a value in the column '" +
+                                    columns_[parts.front()].heading.name + "', and none here");
+      });
+    }
+    result_.entries.push_back(entry(Entry::Kind::Tick, clock));
+    for (const std::size_t i : parts) in_column(i, [&] { read_part(i); });
+  }
+
+  void read_part(std::size_t i) {
+    Input& input = result_.inputs[columns_[i].input];
+    append_parsed(input.values, input.type, field(i));
+    columns_[i].has_value = true;
+    result_.entries.push_back(value_of(columns_[i].input));
+  }
+
+  void finish_column(std::size_t i) {
+    if (!columns_[i].has_value) throw std::invalid_argument("the column has no value");
+    Input& input = result_.inputs[columns_[i].input];
+    if (!input.curve) return;
+    append_nothing(input.values);  // the unit shows its curve
+  }
+
+  // ---- Mistakes ----
+
+  template <class Work>
+  void checked(Work&& work) const {
+    try {
+      work();
+    } catch (const std::invalid_argument& mistake) {
+      rows_.fail(mistake.what());
+    }
+  }
+  template <class Work>
+  void in_column(std::size_t i, Work&& work) const {
+    try {
+      work();
+    } catch (const std::invalid_argument& mistake) {
+      rows_.fail("column '" + columns_[i].heading.name + "': " + mistake.what());
+    }
+  }
+
+  const std::string& text_;
+  const std::string& file_;
+  CsvRows rows_;
+  Stimuli result_;
+  std::int64_t ticks_ = 0;  ///< picoseconds of the unit of the time
+  std::vector<Column> columns_;
+  std::map<std::string, std::size_t> places_;  ///< of columns, by name
+  std::map<std::string, std::size_t> clocks_;  ///< inputs, by name
+  std::vector<std::size_t> jumps_;             ///< inputs, in the present row
+  stride::Time time_{};
+  bool is_first_ = true;
+};
+
+}  // namespace
+
+Stimuli parse_table(const std::string& text, const std::string& file) {
+  const bool is_whole = text.empty() || text.back() == '\n';
+  const std::string whole = is_whole ? "" : text + '\n';
+  return TableReader(is_whole ? text : whole, file).read();
+}
+
+}  // namespace player
