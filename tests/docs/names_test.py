@@ -48,7 +48,7 @@ SHOWN = {
     "InputExtrapolator": "persist sample set_targets signal_of undo_step within_step",
     "StepPolicy": "persist regular_grid",
     "EventHandler": "had_event has_announced count description activate activate_announced update_announced "
-                    "notify_observers receive report content_of described_by fail_nan fail_ticking fail_sample_loop "
+                    "notify_observers receive report content_of described_by check_sent fail_nan fail_ticking fail_sample_loop "
                     "takes_part find_discontinuities quiet_until pass_quietly persist set_in_event make_assignments disturb release report_disturbed",
 }
 
