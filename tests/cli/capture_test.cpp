@@ -190,7 +190,8 @@ TEST_CASE("stimuli that are damaged are refused with the user's file and the lin
   const std::size_t second = whole.find("0.6,step,,");
   CHECK_THAT(mistake(whole.substr(0, first) + whole.substr(second, 14) + whole.substr(first)),
              Contains("error: bad.csv:") && Contains("out of order"));
-  CHECK_THAT(mistake("time,x\n0,1\n"), Contains("bad.csv:1: expected 'stride stimuli,1'"));
+  CHECK_THAT(mistake("stride stimuli\n"), Contains("bad.csv:1: the version is '', expected 1"));
+  CHECK_THAT(mistake("t,x\n0,1\n"), Contains("bad.csv:1: the first column is 't'"));
 }
 
 TEST_CASE("stimuli are packed with nothing else, and played to what they fit only") {

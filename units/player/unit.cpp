@@ -85,7 +85,8 @@ class PlayerUnit : public stride::Unit {
     show_start_values();
     playback_.begin(start, [this](const player::Entry& entry) { play(entry); });
     follow_curves(start);
-    if (start <= stimuli_.start() || !has_clock()) return;
+    const bool has_ticks = !stimuli_.is_table || has_clock();
+    if (start <= stimuli_.start() || !has_ticks) return;
     warn_once(told_start_, "the stimuli begin at " + text(stimuli_.start()) + " s, the run at " +
                                text(start) + " s, so what ticked before is not played");
   }

@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <ranges>
 #include <string>
-#include <vector>
 
 #include <fmt/format.h>
 
@@ -36,10 +35,8 @@ void check_items(const System& system, VariableId id, const ValueBlock& value, T
   }
 }
 
-void check_converted(const System& system, VariableId from, VariableId to,
-                     const Conversion& conversion, const ValueSlice& value, Time time) {
-  const std::vector<std::int64_t>& valid = conversion.valid;
-  if (valid.empty()) return;
+void check_valid(const System& system, VariableId from, VariableId to,
+                 std::span<const std::int64_t> valid, const ValueSlice& value, Time time) {
   const auto numbers = value.block->numbers<std::int64_t>().subspan(value.first, value.size);
   for (const std::int64_t number : numbers) {
     if (std::ranges::binary_search(valid, number)) [[likely]]

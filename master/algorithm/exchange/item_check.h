@@ -3,6 +3,7 @@
 #define STRIDE_MASTER_ALGORITHM_EXCHANGE_ITEM_CHECK_H
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include <stride/time.h>
@@ -17,10 +18,17 @@ namespace stride::core {
 /// another type, or one whose description lists no items, may have any value.
 void check_items(const System& system, VariableId id, const ValueBlock& value, Time time);
 
-/// Throws Error (Run) for an element of the value, which `to` has from `from`, that is not an item
-/// of its Enumeration. Looks only where the conversion can lead to such values.
-void check_converted(const System& system, VariableId from, VariableId to,
-                     const Conversion& conversion, const ValueSlice& value, Time time);
+/// Throws Error (Run) for an element of the value, which `to` has from `from`, that is not valid.
+void check_valid(const System& system, VariableId from, VariableId to,
+                 std::span<const std::int64_t> valid, const ValueSlice& value, Time time);
+
+/// Likewise for one that is not an item of the Enumeration, where the conversion can lead to such.
+inline void check_converted(const System& system, VariableId from, VariableId to,
+                            const Conversion& conversion, const ValueSlice& value, Time time) {
+  if (conversion.valid.empty()) [[likely]]
+    return;
+  check_valid(system, from, to, conversion.valid, value, time);
+}
 
 /// check_items() of many variables at each communication point.
 class ItemCheck {

@@ -54,6 +54,7 @@ static void start(Unit* unit) {
   memset(unit->string, 0, sizeof unit->string);
   unit->real[kInflow] = 1;
   unit->real[kLongest] = 0.25;
+  unit->integer[kMode] = 1; /* open */
 }
 
 EXPORT fmi1Component NAMED(InstantiateSlave)(fmi1String name, fmi1String guid, fmi1String location,

@@ -301,9 +301,9 @@ TEST_CASE("start values as other tools write them are taken, with a warning") {
                "<Boolean declaredType=\"Switches\" start=\"True\"/>");
   const auto unit = importer::parse_model_description(text, "unit.xml");
   REQUIRE(unit.warnings.size() == 2);
-  CHECK_THAT(unit.warnings[0],
+  CHECK_THAT(unit.warnings[0], Contains("declaredType=\"Switches\" is ignored"));
+  CHECK_THAT(unit.warnings[1],
              Contains("unit.xml:") && Contains("start=\"True\"") && Contains("is taken for true"));
-  CHECK_THAT(unit.warnings[1], Contains("declaredType=\"Switches\" is ignored"));
 }
 
 TEST_CASE("start values that are no items, or not finite, are said") {
