@@ -57,13 +57,6 @@ std::string name_in_binaries(const std::string& file) {
   return fmt::format("binaries/{}/{}", platform(), file);
 }
 
-/// The kit writes the attribute once, of the root.
-void set_model_name(std::string& xml, const std::string& name) {
-  constexpr std::string_view kBegin = "modelName=\"";
-  const std::size_t begin = xml.find(kBegin) + kBegin.size();
-  xml.replace(begin, xml.find('"', begin) - begin, xml_escaped(name));
-}
-
 /// With the description that the library gives for these resources.
 archive::Contents describe(const PackRequest& request) {
   const auto& [file, resources, bundled, output, model_name] = request;
@@ -127,6 +120,15 @@ archive::Contents collect_again(const UnpackedFmu& fmu, const PackRequest& reque
 }
 
 }  // namespace
+
+/// The kit writes the attribute once, of the root.
+void set_model_name(std::string& description, const std::string& name) {
+  constexpr std::string_view kBegin = "modelName=\"";
+  const std::size_t found = description.find(kBegin);
+  if (found == std::string::npos) return;
+  const std::size_t begin = found + kBegin.size();
+  description.replace(begin, description.find('"', begin) - begin, xml_escaped(name));
+}
 
 std::vector<std::string> pack(const PackRequest& request) {
   std::vector<std::string> warnings;

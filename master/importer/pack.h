@@ -16,6 +16,9 @@ struct PackRequest {
   std::string model_name{};  ///< instead of the one that the library gives; empty: that one
 };
 
+/// Gives the description that a library of the unit kit has of itself another model name.
+void set_model_name(std::string& description, const std::string& name);
+
 /// Asks the library for its model description with these resources and writes the archive:
 /// modelDescription.xml, binaries/<platform>/<modelIdentifier>.so and the bundled libraries,
 /// resources/, and extra/org.stride.idle/ if the unit can promise to be idle. From a .fmu it takes

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "master/importer/pack.h"
 #include "master/util/input_file.h"
 #include "master/verify/checks.h"
 
@@ -167,8 +168,9 @@ void compare_with_library(const Trial& trial, std::vector<std::string>& mistakes
   const std::filesystem::path folder = trial.tested.fmu().folder();
   const std::filesystem::path resources = folder / "resources";
   trial.note.write("strideModelDescription");
-  const std::string own = library->describe(core::is_folder(resources) ? resources : "");
+  std::string own = library->describe(core::is_folder(resources) ? resources : "");
   trial.note.clear();
+  importer::set_model_name(own, trial.tested.description().model_name);  // which packing may choose
   const std::string packed = core::read_input(folder / "modelDescription.xml");
   if (own == packed) return;
   const auto place = std::mismatch(own.begin(), own.end(), packed.begin(), packed.end()).first;
