@@ -122,7 +122,8 @@ Checkpoint read(const fs::path& file, const fs::path& folder) {
 
 void write_checkpoint(const std::filesystem::path& file, const Checkpoint& checkpoint) {
   archive::Contents contents;
-  contents[kDescription].text = description(checkpoint).dump(1) + "\n";
+  contents[kDescription].text =
+      description(checkpoint).dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
   contents[kDescriptionHash].text = core::sha256(contents[kDescription].text);
   std::size_t index = 0;
   for (const auto& [name, bytes] : checkpoint.states) {

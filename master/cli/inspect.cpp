@@ -135,7 +135,8 @@ void add_inspect(CLI::App& app) {
       app.add_subcommand("inspect", "Show a unit's variables and terminals in tables");
   const auto file = std::make_shared<std::filesystem::path>();
   command
-      ->add_option("FILE", *file, "An FMU: a .fmu, its unpacked folder, or a .so of the unit kit")
+      ->add_option("FILE", *file,
+                   "A .fmu, its unpacked folder, a .so of the unit kit, or a table (.csv)")
       ->required()
       ->type_name("");
   command->callback([file] { inspect(*file); });

@@ -1,5 +1,5 @@
-// stride pack: a library made with the unit kit, another .fmu, captured stimuli or the declaration
-// of a program become a .fmu, a scenario a .ssp.
+// stride pack: a library made with the unit kit, another .fmu, captured stimuli, a table or the
+// declaration of a program become a .fmu, a scenario a .ssp.
 #include "master/importer/pack.h"
 
 #include <functional>
@@ -67,14 +67,15 @@ void add_pack(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
       "pack",
       "Make a .fmu from a library of the unit kit, or from another .fmu, and a resources folder, "
-      "from stimuli that --capture wrote, or from the declaration of a program; or a .ssp from a "
-      "scenario and all that it names");
+      "from stimuli that --capture wrote, from a table of values over time, or from the "
+      "declaration of a program; or a .ssp from a scenario and all that it names");
   const auto request = std::make_shared<importer::PackRequest>();
   command
       ->add_option(
           "FILE", request->library,
-          "The unit's shared library (.so) or .fmu, captured stimuli (.csv), the declaration of a "
-          "program (.xml), or a scenario (.ssd, or the name of one that comes with stride)")
+          "The unit's shared library (.so) or .fmu, captured stimuli or a table (.csv), the "
+          "declaration of a program (.xml), or a scenario (.ssd, or the name of one that comes "
+          "with stride)")
       ->required()
       ->type_name("");
   command->add_option("--output,--out,-o", request->output, "The .fmu or .ssp to write")

@@ -55,6 +55,17 @@ TEST_CASE("a checkpoint is read back as it was written") {
   CHECK_THROWS_WITH(state_of(read, "none"), Contains("no state of 'none'"));
 }
 
+TEST_CASE("a checkpoint of a run whose paths are not UTF-8 is written, with U+FFFD in them") {
+  const Scratch scratch;
+  Checkpoint made = example();
+  made.results = "/somewhere/caf\xe9";
+  made.provenance.sources[0].path = "/somewhere/\xff.ssd";
+  write_checkpoint(scratch / "c.zip", made);
+  const Checkpoint read = read_checkpoint(scratch / "c.zip");
+  CHECK(read.results == "/somewhere/caf\uFFFD");
+  CHECK(read.provenance.sources[0].path == "/somewhere/\uFFFD.ssd");
+}
+
 TEST_CASE("what is no checkpoint is refused, by its name") {
   const Scratch scratch;
   scratch.write("text.zip", "no archive");
