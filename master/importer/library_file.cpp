@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <cstring>
 #include <iterator>
+#include <sstream>
+#include <utility>
 #include <vector>
 
 #include <elf.h>
@@ -22,6 +24,7 @@ using Header = ElfW(Ehdr);
 using Segment = ElfW(Phdr);
 using Section = ElfW(Shdr);
 using Symbol = ElfW(Sym);
+using Entry = ElfW(Dyn);
 
 constexpr unsigned char kClass = sizeof(void*) == 8 ? ELFCLASS64 : ELFCLASS32;
 
@@ -36,6 +39,18 @@ struct Range {
 
 Range in_file(const Segment& segment) { return {segment.p_offset, segment.p_filesz}; }
 Range in_memory(const Segment& segment) { return {segment.p_vaddr, segment.p_memsz}; }
+
+/// Texts that end in a NUL character, by their places.
+struct Texts {
+  std::vector<char> bytes;
+
+  /// Empty if there is none.
+  std::string at(std::uint64_t place) const {
+    if (place >= bytes.size()) return "";
+    const auto first = bytes.begin() + static_cast<std::ptrdiff_t>(place);
+    return {first, std::find(first, bytes.end(), '\0')};
+  }
+};
 
 class LibraryFile {
  public:
@@ -55,25 +70,75 @@ class LibraryFile {
     return damage(segments);
   }
 
-  std::set<std::string> exported_names() const {
+  DynamicPart dynamic_part() const {
     Header header{};
     if (!read(&header, {0, sizeof header}) || !is_for_loader(header)) return {};
-    std::set<std::string> names;
+    DynamicPart part;
     const auto sections = table<Section>({header.e_shoff, header.e_shnum * sizeof(Section)});
-    for (const Section& section : sections) {
-      if (section.sh_type != SHT_DYNSYM || section.sh_link >= sections.size()) continue;
-      const Section& strings = sections[section.sh_link];
-      const auto texts = table<char>({strings.sh_offset, strings.sh_size});
-      for (const Symbol& symbol : table<Symbol>({section.sh_offset, section.sh_size})) {
-        if (symbol.st_shndx == SHN_UNDEF || symbol.st_name >= texts.size()) continue;
-        const auto first = texts.begin() + symbol.st_name;
-        names.emplace(first, std::find(first, texts.end(), '\0'));
-      }
+    for (const std::uint32_t type : {SHT_DYNSYM, SHT_DYNAMIC}) {
+      const auto section = std::ranges::find(sections, type, &Section::sh_type);
+      if (section == sections.end() || section->sh_link >= sections.size()) continue;
+      const Section& strings = sections[section->sh_link];
+      const Texts texts{table<char>({strings.sh_offset, strings.sh_size})};
+      const Range content{section->sh_offset, section->sh_size};
+      if (type == SHT_DYNSYM) add_symbols(table<Symbol>(content), texts, part);
+      if (type == SHT_DYNAMIC) add_entries(table<Entry>(content), texts, part);
     }
-    return names;
+    return part;
   }
 
  private:
+  static void add_symbols(const std::vector<Symbol>& symbols, const Texts& texts,
+                          DynamicPart& part) {
+    for (const Symbol& symbol : symbols) {
+      const unsigned binding = ELF64_ST_BIND(symbol.st_info);
+      const unsigned type = ELF64_ST_TYPE(symbol.st_info);
+      if (binding == STB_LOCAL || symbol.st_shndx == SHN_ABS) continue;
+      const bool is_defined = symbol.st_shndx != SHN_UNDEF;
+      const bool is_function = type == STT_FUNC || type == STT_GNU_IFUNC;
+      std::string name = texts.at(symbol.st_name);
+      if (name.empty()) continue;
+      if (is_defined && binding == STB_GNU_UNIQUE) part.stays_loaded = true;
+      part.symbols.push_back({std::move(name), is_defined, is_function});
+    }
+  }
+
+  static void add_entries(const std::vector<Entry>& entries, const Texts& texts,
+                          DynamicPart& part) {
+    for (const Entry& entry : entries) {
+      const auto value = entry.d_un.d_val;
+      switch (entry.d_tag) {
+        case DT_NULL:
+          return;
+        case DT_NEEDED:
+          part.needed.push_back(texts.at(value));
+          break;
+        case DT_RPATH:
+        case DT_RUNPATH:
+          add_folders(texts.at(value), part);
+          break;
+        case DT_SYMBOLIC:
+          part.binds_to_itself = true;
+          break;
+        case DT_FLAGS:
+          part.binds_to_itself |= (value & DF_SYMBOLIC) != 0;
+          break;
+        case DT_FLAGS_1:
+          part.stays_loaded |= (value & DF_1_NODELETE) != 0;
+          break;
+        default:
+          break;
+      }
+    }
+  }
+
+  static void add_folders(const std::string& list, DynamicPart& part) {
+    std::istringstream folders(list);
+    for (std::string folder; std::getline(folders, folder, ':');) {
+      part.search_path.push_back(folder);
+    }
+  }
+
   /// What is there of it, nothing if it goes beyond the end of the file.
   template <class Element>
   std::vector<Element> table(const Range& range) const {
@@ -162,8 +227,16 @@ std::string find_damage(const std::filesystem::path& library) {
   return LibraryFile(library).damage();
 }
 
+DynamicPart read_dynamic_part(const std::filesystem::path& library) {
+  return LibraryFile(library).dynamic_part();
+}
+
 std::set<std::string> exported_names(const std::filesystem::path& library) {
-  return LibraryFile(library).exported_names();
+  std::set<std::string> names;
+  for (DynamicSymbol& symbol : read_dynamic_part(library).symbols) {
+    if (symbol.is_defined) names.insert(std::move(symbol.name));
+  }
+  return names;
 }
 
 }  // namespace stride::importer

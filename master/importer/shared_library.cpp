@@ -191,6 +191,7 @@ SharedLibrary::SharedLibrary(const fs::path& path, core::Context user, const fs:
     core::fail_input(user_, fmt::format("the library '{}' cannot be loaded: {}", shown_as_, damage),
                      "get another copy of the unit, or export it again");
   }
+  needed_.emplace(path_, needed_libraries(path_));
   const core::ProcessState before;
   const std::string reason = load();
   changes_ = before.restore();
@@ -250,7 +251,7 @@ SharedLibrary::~SharedLibrary() {
 }
 
 bool SharedLibrary::can_be_unloaded() const noexcept {
-  if (is_unusable()) return false;
+  if (is_unusable() || needed_->may_be_outlived()) return false;
   try {
     const std::string remnants = remnants_.find();
     if (remnants.empty()) return true;

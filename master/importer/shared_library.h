@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <iterator>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -14,6 +15,7 @@
 
 #include <sys/types.h>
 
+#include "master/importer/needed_libraries.h"
 #include "master/importer/status.h"
 #include "master/model/description.h"
 #include "master/util/error.h"
@@ -23,17 +25,18 @@
 
 namespace stride::importer {
 
-/// A loaded library; unloaded with the object, unless it is unusable, or something is left of it
-/// that goes on (core::Remnants). Then it stays until the process ends, with a warning.
+/// A loaded library; unloaded with the object, unless it is unusable, a library that it needs may
+/// outlive it (LibraryUse), or something is left of it that goes on (core::Remnants), of which a
+/// warning is printed. Then it stays until the process ends.
 class SharedLibrary {
  public:
-  /// Loads it with all its symbols resolved and kept to itself (RTLD_NOW, RTLD_LOCAL). Where a
-  /// symbol of Python is missing, Python's library is loaded for it. A library that it needs, and
-  /// that the loader does not find, is loaded from its own folder, or from the resources of its
-  /// FMU, if it is there: see find_companion(). Throws core::Error of the kind Input that names the
-  /// shared library or the symbol that is missing, and for a file that is cut off or damaged.
-  /// `user` is the place that names the unit, and a component, if it is known; messages call the
-  /// file `shown_as`, or by its path.
+  /// Loads it with all its symbols resolved and kept to itself (RTLD_NOW, RTLD_LOCAL), and its own
+  /// before those of the program (SymbolScope). Where a symbol of Python is missing, Python's
+  /// library is loaded for it. A library that it needs, and that the loader does not find, is loaded
+  /// from its own folder, or from the resources of its FMU, if it is there: see find_companion().
+  /// Throws core::Error of the kind Input that names the shared library or the symbol that is
+  /// missing, and for a file that is cut off or damaged. `user` is the place that names the unit,
+  /// and a component, if it is known; messages call the file `shown_as`, or by its path.
   explicit SharedLibrary(const std::filesystem::path& path, core::Context user = {},
                          const std::filesystem::path& shown_as = {});
   SharedLibrary(const SharedLibrary&) = delete;
@@ -124,6 +127,7 @@ class SharedLibrary {
   std::vector<std::filesystem::path> companions_;
   std::vector<Handle> companion_handles_;
   Handle handle_;
+  std::optional<LibraryUse> needed_;
   std::atomic<bool>* is_unusable_ = nullptr;
   const core::Listed<SharedLibrary> listed_{*this};
 };

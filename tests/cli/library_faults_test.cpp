@@ -308,6 +308,30 @@ TEST_CASE("what a unit registers with on_exit() is called at the end of the proc
   CHECK(run_json(workspace)["outcome"] == "completed");
 }
 
+TEST_CASE("a library whose objects another one keeps is not unloaded, and all ends quietly") {
+  const Workspace workspace(Parts{component("registrar", "registrar.fmu")});
+  const Arguments hosting = GENERATE(Arguments{}, Arguments{"--isolate"});
+  const Outcome outcome = workspace.run(hosting);
+  INFO(outcome.err);
+  CHECK(outcome.exit_code == 0);
+  CHECK_THAT(outcome.err, !Contains("signal") && !Contains("stays loaded"));
+  CHECK(run_json(workspace)["outcome"] == "completed");
+}
+
+TEST_CASE("a library whose objects another one keeps is packed and verified") {
+  const Workspace workspace(Parts{component("registrar", "registrar.fmu")});
+  const fs::path registry = unit_library("registrar").parent_path() / "libstride_test_registry.so";
+  const auto arguments =
+      GENERATE_COPY(Arguments{"pack", unit_library("registrar").string(), "--bundle",
+                              registry.string(), "--output", "packed.fmu"},
+                    Arguments{"verify", test_fmu("registrar").string()},
+                    Arguments{"inspect", test_fmu("registrar").string()});
+  const Outcome outcome = workspace.stride(arguments);
+  INFO(outcome.err);
+  CHECK(outcome.exit_code == 0);
+  CHECK(outcome.err == "");
+}
+
 // ---- Damaged files ----
 
 namespace {

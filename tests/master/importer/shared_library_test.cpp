@@ -139,7 +139,7 @@ TEST_CASE("a library that is needed, in the FMU and damaged is named") {
   const Scratch scratch;
   fs::copy_file(raw_library("raw_with_missing_library"), scratch / "unit.so");
   const std::string bytes = read(raw_library("absent/libstride_test_absent"));
-  scratch.write("libstride_test_absent.so", bytes.substr(0, bytes.size() / 2));
+  scratch.write("libstride_test_absent.so", bytes.substr(0, bytes.size() / 8));
   CHECK_THAT(error_of_loading(scratch / "unit.so"),
              Contains("needs the shared library 'libstride_test_absent.so', which is there") &&
                  Contains("and damaged: its file has"));

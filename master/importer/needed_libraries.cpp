@@ -1,0 +1,158 @@
+#include "master/importer/needed_libraries.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <map>
+#include <mutex>
+#include <set>
+#include <sstream>
+#include <system_error>
+#include <utility>
+
+#include <dlfcn.h>
+#include <link.h>
+
+#include "master/importer/companion.h"
+#include "master/importer/library_file.h"
+#include "master/util/input_file.h"
+
+namespace stride::importer {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Where the loader looks after all else, and those that its cache mostly adds.
+constexpr std::array kSystemFolders {
+#if defined(__x86_64__)
+  "/lib/x86_64-linux-gnu", "/usr/lib/x86_64-linux-gnu", "/lib64", "/usr/lib64",
+#elif defined(__aarch64__)
+  "/lib/aarch64-linux-gnu", "/usr/lib/aarch64-linux-gnu", "/lib64", "/usr/lib64",
+#endif
+      "/lib", "/usr/lib", "/usr/local/lib"
+};
+
+/// The file of this library in the process; empty if it is not there.
+fs::path loaded_file(const std::string& name) {
+  void* const handle = ::dlopen(name.c_str(), RTLD_LAZY | RTLD_NOLOAD);
+  if (handle == nullptr) return {};
+  link_map* place = nullptr;
+  const bool is_found = ::dlinfo(handle, RTLD_DI_LINKMAP, &place) == 0;
+  fs::path file = is_found ? place->l_name : "";
+  ::dlclose(handle);
+  return file;
+}
+
+/// $ORIGIN is the folder of the library that names the folder.
+fs::path with_origin(std::string folder, const fs::path& library) {
+  for (const std::string_view word : {"$ORIGIN", "${ORIGIN}"}) {
+    const std::size_t place = folder.find(word);
+    if (place != std::string::npos) {
+      folder.replace(place, word.size(), library.parent_path().string());
+    }
+  }
+  return folder;
+}
+
+/// As the loader does.
+std::vector<fs::path> folders_for(const fs::path& library,
+                                  const std::vector<std::string>& search_path) {
+  std::vector<fs::path> folders;
+  for (const std::string& folder : search_path) folders.push_back(with_origin(folder, library));
+  const char* const named = std::getenv("LD_LIBRARY_PATH");
+  std::istringstream further(named != nullptr ? named : "");
+  for (std::string folder; std::getline(further, folder, ':');) folders.emplace_back(folder);
+  folders.insert(folders.end(), kSystemFolders.begin(), kSystemFolders.end());
+  return folders;
+}
+
+/// `unit` is the library whose FMU may have it.
+NeededLibrary find_needed(const std::string& name, const fs::path& library,
+                          const std::vector<std::string>& search_path, const fs::path& unit) {
+  NeededLibrary needed{name, loaded_file(name), false, false};
+  needed.is_loaded = !needed.file.empty();
+  if (needed.is_loaded) return needed;
+  if (name.find('/') != std::string::npos && core::is_file(name)) needed.file = name;
+  for (const fs::path& folder : folders_for(library, search_path)) {
+    if (needed.file.empty() && core::is_file(folder / name)) needed.file = folder / name;
+  }
+  if (needed.file.empty()) needed.file = find_companion(unit, name);
+  return needed;
+}
+
+/// Which libraries are needed, and by which units.
+class Uses {
+ public:
+  void add(const fs::path& library, const fs::path& unit) {
+    const std::lock_guard lock(mutex_);
+    units_[library].insert(unit);
+  }
+  void remove(const fs::path& library, const fs::path& unit) {
+    const std::lock_guard lock(mutex_);
+    auto& units = units_[library];
+    units.erase(units.find(unit));
+  }
+  bool is_shared(const fs::path& library, const fs::path& unit) {
+    const std::lock_guard lock(mutex_);
+    const auto& units = units_[library];
+    return units.size() > units.count(unit);
+  }
+
+ private:
+  std::mutex mutex_;
+  std::map<fs::path, std::multiset<fs::path>> units_;
+};
+
+/// Never destroyed, since units may be unloaded when the process ends.
+Uses& uses() {
+  static auto& uses = *new Uses;
+  return uses;
+}
+
+}  // namespace
+
+std::vector<NeededLibrary> needed_libraries(const fs::path& library) {
+  std::vector<NeededLibrary> found;
+  const auto add_needed_of = [&](const fs::path& file, const DynamicPart& part) {
+    for (const std::string& name : part.needed) {
+      const bool is_known = std::ranges::count(found, name, &NeededLibrary::name) > 0;
+      if (is_known || is_of_compiler(name)) continue;
+      found.push_back(find_needed(name, file, part.search_path, library));
+    }
+  };
+  add_needed_of(library, read_dynamic_part(library));
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    if (found[i].is_loaded) continue;
+    const DynamicPart part = read_dynamic_part(found[i].file);
+    found[i].stays_loaded = part.stays_loaded;
+    add_needed_of(fs::path(found[i].file), part);
+  }
+  return found;
+}
+
+bool is_of_compiler(std::string_view name) {
+  constexpr std::array<std::string_view, 19> kNames{
+      "libc",   "libm",      "libstdc++", "libgcc_s",  "ld-linux", "libpthread",  "libdl",
+      "librt",  "libutil",   "libresolv", "libatomic", "libgomp",  "libgfortran", "libquadmath",
+      "libc++", "libc++abi", "libasan",   "libubsan",  "libtsan"};
+  name = name.substr(name.rfind('/') + 1);
+  const std::string_view plain = name.substr(0, name.find(".so"));
+  return plain.starts_with("ld-linux") || std::ranges::count(kNames, plain) > 0;
+}
+
+LibraryUse::LibraryUse(fs::path unit, std::vector<NeededLibrary> needed)
+    : unit_(std::move(unit)), needed_(std::move(needed)) {
+  for (const NeededLibrary& library : needed_) uses().add(library.file, unit_);
+}
+
+LibraryUse::~LibraryUse() {
+  for (const NeededLibrary& library : needed_) uses().remove(library.file, unit_);
+}
+
+bool LibraryUse::may_be_outlived() const {
+  return std::ranges::any_of(needed_, [this](const NeededLibrary& library) {
+    return library.is_loaded || library.stays_loaded || uses().is_shared(library.file, unit_);
+  });
+}
+
+}  // namespace stride::importer
