@@ -210,6 +210,9 @@ void Fmu::warn_of_library(const std::string& name, const InstanceOptions& option
     options.log(name, Status::Ok, "stride",
                 fmt::format("its library needs '{}', which was loaded for it", companion.string()));
   }
+  for (const std::string& warning : library->warnings()) {
+    options.log(name, Status::Warning, "stride", warning);
+  }
   if (!library_warning_.empty()) options.log(name, Status::Warning, "stride", library_warning_);
   if (!library->prefix().empty()) {
     options.log(name, Status::Warning, "stride", prefix_note(library->prefix()));

@@ -15,6 +15,8 @@
 #include "master/importer/idle_manifest.h"
 #include "master/importer/library_file.h"
 #include "master/importer/model_description.h"
+#include "master/importer/needed_libraries.h"
+#include "master/importer/symbol_scope.h"
 #include "master/importer/unpacked_fmu.h"
 #include "master/util/archive/zip.h"
 #include "master/util/error.h"
@@ -39,7 +41,9 @@ class Preloaded {
         core::fail_input({}, fmt::format("the library to bundle, '{}', cannot be loaded: {}",
                                          library.string(), damage));
       }
-      void* const handle = ::dlopen(fs::absolute(library).c_str(), RTLD_NOW | RTLD_LOCAL);
+      const fs::path path = fs::absolute(library);
+      const SymbolScope scope = find_symbol_scope(path, needed_libraries(path));
+      void* const handle = ::dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL | scope.flags);
       if (handle == nullptr) {
         core::fail_input({},
                          fmt::format("the library to bundle cannot be loaded: {}", ::dlerror()));

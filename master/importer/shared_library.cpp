@@ -19,6 +19,7 @@
 #include "master/importer/binaries.h"
 #include "master/importer/companion.h"
 #include "master/importer/library_file.h"
+#include "master/importer/loaded_image.h"
 #include "master/importer/python_library.h"
 #include "master/util/input_file.h"
 #include "master/util/lower_case.h"
@@ -192,6 +193,7 @@ SharedLibrary::SharedLibrary(const fs::path& path, core::Context user, const fs:
                      "get another copy of the unit, or export it again");
   }
   needed_.emplace(path_, needed_libraries(path_));
+  scope_ = find_symbol_scope(path_, needed_->needed());
   const core::ProcessState before;
   const std::string reason = load();
   changes_ = before.restore();
@@ -217,7 +219,7 @@ std::string SharedLibrary::open() {
   };
   std::list<LoaderName> names;
   for (std::vector<Wanted> wanted{{path_, path_}}; true;) {
-    Handle handle(::dlopen(wanted.back().path.c_str(), RTLD_NOW | RTLD_LOCAL));
+    Handle handle(::dlopen(wanted.back().path.c_str(), RTLD_NOW | RTLD_LOCAL | scope_.flags));
     if (!handle) {
       std::string reason = ::dlerror();
       const std::string missing = missing_library(reason, wanted.back().path);
@@ -273,6 +275,21 @@ void SharedLibrary::add_user(const std::string& component, const LogSink& log) c
   if (log_) return;
   user_.unit = component;
   log_ = log;
+}
+
+std::vector<std::string> SharedLibrary::warnings() const {
+  std::vector<std::string> warnings;
+  if (!scope_.warning.empty()) warnings.push_back(scope_.warning);
+  for (const NeededLibrary& library : needed_->needed()) {
+    const fs::path own = library.is_loaded ? find_companion(path_, library.name) : fs::path();
+    if (own.empty() || is_loaded_from_equal(library.name, own)) continue;
+    warnings.push_back(
+        fmt::format("its library brings '{}' along, and another library of this name is loaded "
+                    "already, which takes its place: '{}'; a process has one library of a name, so "
+                    "give this one another (patchelf --set-soname, --replace-needed)",
+                    own.filename().string(), library.file.string()));
+  }
+  return warnings;
 }
 
 std::string SharedLibrary::answer_of(const char* what, const char* (*function)()) const {

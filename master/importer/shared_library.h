@@ -17,6 +17,7 @@
 
 #include "master/importer/needed_libraries.h"
 #include "master/importer/status.h"
+#include "master/importer/symbol_scope.h"
 #include "master/model/description.h"
 #include "master/util/error.h"
 #include "master/util/fixed_text.h"
@@ -54,6 +55,10 @@ class SharedLibrary {
   const std::vector<std::string>& changes() const { return changes_; }
   /// The name of Python's library, if it was loaded for this one; else empty.
   const std::string& python() const { return python_; }
+
+  /// Why symbols of its own are replaced by others, or that another library takes the place of one
+  /// that it brings along: one warning for each.
+  std::vector<std::string> warnings() const;
 
   /// What comes before the names that its functions have by the standard; else empty.
   const std::string& prefix() const { return prefix_; }
@@ -128,6 +133,7 @@ class SharedLibrary {
   std::vector<Handle> companion_handles_;
   Handle handle_;
   std::optional<LibraryUse> needed_;
+  SymbolScope scope_;
   std::atomic<bool>* is_unusable_ = nullptr;
   const core::Listed<SharedLibrary> listed_{*this};
 };

@@ -107,9 +107,10 @@ class Compilation {
     objects_.push_back(object.string());
   }
 
+  /// Bound to its own symbols, whatever program loads it.
   void link() {
-    Words words{has_cpp_ ? compiler("CXX", "c++") : compiler("CC", "cc"), "-shared", "-o",
-                build_.library.string()};
+    Words words{has_cpp_ ? compiler("CXX", "c++") : compiler("CC", "cc"), "-shared",
+                "-Wl,-Bsymbolic", "-o", build_.library.string()};
     words.insert(words.end(), objects_.begin(), objects_.end());
     for (const std::string& library : build_.description.libraries) words.push_back("-l" + library);
     words.push_back("-lm");

@@ -52,6 +52,16 @@ def test_results_are_those_of_a_run(folder):
     assert stepped.verdicts == whole.verdicts
 
 
+@pytest.mark.parametrize("unit", ["own_checksum", "own_names", "every_symbol"])
+def test_a_unit_calls_its_own_functions(folder, unit):
+    (folder / "own.ssd").write_text(scenario(f"unit={unit}"), encoding="utf-8")
+    with stride.Simulation("own.ssd") as sim:
+        sim.run()
+        assert sim["unit.own"] == sim["unit.called"] > 0
+    signals = stride.run("own.ssd", out="own").signals
+    assert signals["unit.own"][-1] == signals["unit.called"][-1]
+
+
 @pytest.mark.parametrize(
     ("name", "value"),
     [

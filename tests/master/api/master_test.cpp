@@ -159,6 +159,16 @@ TEST_CASE("a scenario is opened, advanced, looked at and ended") {
   CHECK(std::isnan(verdict.margin));
 }
 
+TEST_CASE("a unit calls its own functions, whatever names those of the program's libraries have") {
+  if (kSanitized) return;  // whose functions come before all others
+  const std::string name = GENERATE("own_checksum", "own_names", "every_symbol");
+  CAPTURE(name);
+  const Simulation simulation = open(unit(name));
+  step_to(simulation, 0.5);
+  CHECK(get(simulation, name + ".called") >= 1);
+  CHECK(get(simulation, name + ".own") == get(simulation, name + ".called"));
+}
+
 TEST_CASE("results are those of stride run, if the steps are") {
   const Folder folder;
   const std::string results = (folder / "results").string();

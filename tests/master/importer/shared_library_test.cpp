@@ -1,5 +1,8 @@
 #include "master/importer/shared_library.h"
 
+#include <vector>
+
+#include <dlfcn.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -133,6 +136,34 @@ TEST_CASE("a library that is needed and in the FMU is loaded, whatever name it h
   const importer::Fmi3Library library(scratch / "unit.so");
   REQUIRE(library.companions().size() == 1);
   CHECK(fs::equivalent(library.companions()[0], scratch / file));
+}
+
+TEST_CASE("another library of the name of one that a unit brings along is a warning") {
+  const Scratch scratch;
+  const bool is_other = GENERATE(false, true);
+  const std::string name = is_other ? "libstride_test_another.so" : "libstride_test_thesame.so";
+  const auto renamed = [&](const fs::path& library) {
+    std::string bytes = read(library);
+    const std::string own = "libstride_test_bundled.so";
+    for (std::size_t at = 0; (at = bytes.find(own, at)) != bytes.npos;) {
+      bytes.replace(at, own.size(), name);
+    }
+    return bytes;
+  };
+  const fs::path unit = unit_library("bundling");
+  std::string bytes = renamed(unit.parent_path() / "libstride_test_bundled.so");
+  fs::create_directory(scratch / "unit");
+  scratch.write("unit/unit.so", renamed(unit));
+  scratch.write("unit/" + name, bytes);
+  if (is_other) bytes[bytes.find("__gmon_start__")] = 'x';  // a weak reference
+  const fs::path loaded = scratch.write(name, bytes);
+  REQUIRE(::dlopen(loaded.c_str(), RTLD_NOW) != nullptr);
+  const importer::Fmi3Library library(scratch / "unit/unit.so");
+  const std::vector<std::string> warnings = library.warnings();
+  REQUIRE(warnings.size() == (is_other ? 1 : 0));
+  if (!is_other) return;
+  CHECK_THAT(warnings[0], Contains("brings '" + name + "' along") &&
+                              Contains("its place: '" + loaded.string() + "'"));
 }
 
 TEST_CASE("a library that is needed, in the FMU and damaged is named") {

@@ -1,0 +1,16 @@
+// Libraries of one name, of which a process has one.
+#ifndef STRIDE_MASTER_IMPORTER_LOADED_IMAGE_H
+#define STRIDE_MASTER_IMPORTER_LOADED_IMAGE_H
+
+#include <filesystem>
+#include <string>
+
+namespace stride::importer {
+
+/// Whether the library of this name that is in the process has the code and the constants of this
+/// file. Its own file may have been removed meanwhile. True where there is none of the name.
+bool is_loaded_from_equal(const std::string& name, const std::filesystem::path& file);
+
+}  // namespace stride::importer
+
+#endif

@@ -1,0 +1,197 @@
+#include "master/importer/symbol_scope.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <iterator>
+#include <memory>
+#include <set>
+#include <string_view>
+
+#include <dlfcn.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <link.h>
+
+#include "master/importer/library_file.h"
+#include "master/importer/python_library.h"
+#include "master/util/process/loaded_object.h"
+
+namespace stride::importer {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Closer {
+  void operator()(void* handle) const { ::dlclose(handle); }
+};
+using Handle = std::unique_ptr<void, Closer>;
+
+/// A library that is in the process; empty for the program, with all that it is linked with.
+Handle loaded(const char* name) { return Handle(::dlopen(name, RTLD_LAZY | RTLD_NOLOAD)); }
+
+/// The name of its file, empty for the program.
+std::string library_at(const void* address) {
+  const link_map* const place = core::loaded_object_at(address);
+  return place != nullptr ? fs::path(place->l_name).filename().string() : "";
+}
+
+/// Names of the standard library's templates, with whatever they are made for: all have the same
+/// code. After the prefixes of the C++ ABI for tables, static variables and members.
+bool is_of_standard_templates(std::string_view name) {
+  if (!name.starts_with("_Z")) return false;
+  name.remove_prefix(2);
+  for (const std::string_view prefix : {"TV", "TI", "TS", "TT", "GV", "GR", "Z"}) {
+    if (name.starts_with(prefix)) name.remove_prefix(prefix.size());
+  }
+  name.remove_prefix(std::min(name.find_first_not_of("NKVrRO"), name.size()));
+  constexpr std::array<std::string_view, 8> kSpaces{"St", "Sa", "Ss",         "Sb",
+                                                    "Si", "So", "9__gnu_cxx", "10__cxxabiv1"};
+  return std::ranges::any_of(kSpaces, [&](auto space) { return name.starts_with(space); });
+}
+
+/// What a linker adds to each library.
+bool is_of_linker(std::string_view name) {
+  constexpr std::array<std::string_view, 9> kNames{
+      "_init", "_fini", "__bss_start", "_edata", "edata", "_end", "end", "_etext", "etext"};
+  return std::ranges::count(kNames, name) > 0;
+}
+
+/// Memory that one of them gives must go back to the same allocator, whoever has asked for it.
+bool is_of_allocator(std::string_view name) {
+  constexpr std::array<std::string_view, 11> kNames{
+      "malloc",  "calloc",         "realloc",           "free",
+      "cfree",   "memalign",       "aligned_alloc",     "valloc",
+      "pvalloc", "posix_memalign", "malloc_usable_size"};
+  constexpr std::array<std::string_view, 4> kOperators{"_Znw", "_Zna", "_Zdl", "_Zda"};
+  return std::ranges::count(kNames, name) > 0 ||
+         std::ranges::any_of(kOperators, [&](auto begin) { return name.starts_with(begin); });
+}
+
+/// Variables that a program may have copies of, all with one value: streams of C, tables of C++.
+bool is_alike_in_copies(std::string_view name) {
+  constexpr std::array<std::string_view, 4> kNames{"stdin", "stdout", "stderr",
+                                                   "__libc_single_threaded"};
+  constexpr std::array<std::string_view, 4> kTables{"_ZTV", "_ZTI", "_ZTS", "_ZTT"};
+  return std::ranges::count(kNames, name) > 0 ||
+         std::ranges::any_of(kTables, [&](auto begin) { return name.starts_with(begin); });
+}
+
+class Group {
+ public:
+  Group(const fs::path& library, const std::vector<NeededLibrary>& needed) {
+    add(read_dynamic_part(library), true);
+    for (const NeededLibrary& other : needed) {
+      if (other.is_loaded) {
+        add_neighbour(other.name);
+      } else {
+        add(read_dynamic_part(other.file), false);
+      }
+    }
+    for (const std::string& name : own_) outer_.erase(name);
+    for (const std::string& name : bound_) outer_.erase(name);
+  }
+
+  /// Its own symbols that the loader would take from elsewhere, each with the library that has it.
+  std::vector<std::string> contested() const {
+    std::vector<std::string> found;
+    for (const std::string& name : own_) {
+      const void* const address = ::dlsym(program_.get(), name.c_str());
+      if (address == nullptr) continue;
+      const std::string library = library_at(address);
+      if (is_of_compiler(library) && !functions_.contains(name)) continue;
+      found.push_back(fmt::format("'{}' ({})", name, library.empty() ? "the program" : library));
+    }
+    return found;
+  }
+
+  /// What forbids that its own symbols come first: names that are replaced in this process for all
+  /// code, or that it would replace for a part.
+  std::vector<std::string> replaced() const {
+    std::vector<std::string> found(allocator_.begin(), allocator_.end());
+    for (const char* const name : {"__asan_init", "__tsan_init", "__msan_init", "__hwasan_init"}) {
+      if (::dlsym(program_.get(), name) != nullptr) found.emplace_back(name);
+    }
+    for (const std::string& name : outer_) {
+      if (is_replaced(name)) found.push_back(name);
+    }
+    return found;
+  }
+
+ private:
+  void add(const DynamicPart& part, bool is_unit) {
+    for (const DynamicSymbol& symbol : part.symbols) {
+      if (!symbol.is_defined) {
+        outer_.insert(symbol.name);
+      } else if (is_unit && part.binds_to_itself) {
+        bound_.insert(symbol.name);
+      } else if (is_of_allocator(symbol.name)) {
+        allocator_.insert(symbol.name);
+      } else {
+        add_own(symbol);
+      }
+    }
+    for (const std::string& name : part.needed) {
+      if (is_of_compiler(name)) add_neighbour(name);
+    }
+  }
+
+  void add_own(const DynamicSymbol& symbol) {
+    const std::string& name = symbol.name;
+    if (is_of_standard_templates(name) || is_of_linker(name)) return;
+    if (is_of_python(name)) {  // there is one Python in a process
+      outer_.insert(name);
+      return;
+    }
+    own_.insert(name);
+    if (symbol.is_function) functions_.insert(name);
+  }
+
+  /// A library that is there for others, too.
+  void add_neighbour(const std::string& name) {
+    if (Handle handle = loaded(name.c_str())) neighbours_.push_back(std::move(handle));
+  }
+
+  bool is_replaced(const std::string& name) const {
+    if (is_alike_in_copies(name)) return false;
+    const void* const address = ::dlsym(program_.get(), name.c_str());
+    if (address == nullptr) return false;
+    for (const Handle& neighbour : neighbours_) {
+      const void* const original = ::dlsym(neighbour.get(), name.c_str());
+      if (original != nullptr) return original != address;
+    }
+    return false;
+  }
+
+  const Handle program_ = loaded(nullptr);
+  std::set<std::string> own_, bound_, functions_, allocator_, outer_;
+  std::vector<Handle> neighbours_;
+};
+
+/// The first ones, and how many more there are.
+std::string some_of(const std::vector<std::string>& names) {
+  constexpr std::size_t kMost = 4;
+  const std::size_t shown = std::min(names.size(), kMost);
+  const auto end = std::next(names.begin(), static_cast<std::ptrdiff_t>(shown));
+  std::string text = fmt::format("{}", fmt::join(names.begin(), end, ", "));
+  if (shown < names.size()) text += fmt::format(" and {} more", names.size() - shown);
+  return text;
+}
+
+}  // namespace
+
+SymbolScope find_symbol_scope(const fs::path& library, const std::vector<NeededLibrary>& needed) {
+  const Group group(library, needed);
+  const std::vector<std::string> contested = group.contested();
+  if (contested.empty()) return {};
+  const std::vector<std::string> replaced = group.replaced();
+  if (replaced.empty()) return {RTLD_DEEPBIND, ""};
+  return {0,
+          fmt::format("the unit has symbols of its own that are replaced by others of the same "
+                      "names in this process: {}; it cannot be bound to its own, since it would "
+                      "lose what is replaced on purpose: {}; compile it with -fvisibility=hidden "
+                      "or link it with -Bsymbolic",
+                      some_of(contested), some_of(replaced))};
+}
+
+}  // namespace stride::importer

@@ -1,0 +1,56 @@
+#include "master/importer/symbol_scope.h"
+
+#include <dlfcn.h>
+
+#include "tests/build.h"
+#include "tests/master/importer/support.h"
+
+using namespace stride;
+using namespace stride::tests;
+using Catch::Matchers::Contains;
+using importer::find_symbol_scope;
+using importer::SymbolScope;
+
+namespace {
+
+fs::path fmi2_library(const std::string& unit) {
+  const char* const platform = importer::fmi2_platform();
+  return build_folder() / "tests/test_units" / unit / "binaries" / platform / (unit + ".so");
+}
+
+}  // namespace
+
+TEST_CASE("a unit whose symbols nothing else has is bound as usual") {
+  for (const fs::path& library : {unit_library("minimal"), unit_library("types"),
+                                  fmi2_library("fmi2_relaxation"), raw_library("raw")}) {
+    CAPTURE(library);
+    const SymbolScope scope = find_symbol_scope(library, {});
+    CHECK(scope.flags == 0);
+    CHECK(scope.warning == "");
+  }
+}
+
+TEST_CASE("a unit with a symbol that another library has is bound to its own first") {
+  if (kSanitized) return;
+  const SymbolScope scope = find_symbol_scope(fmi2_library("own_checksum"), {});
+  CHECK(scope.flags == RTLD_DEEPBIND);
+  CHECK(scope.warning == "");
+}
+
+TEST_CASE("a library that a unit brings along is bound to its own symbols first, too") {
+  if (kSanitized) return;
+  const importer::NeededLibrary own{"own.so", fmi2_library("own_checksum"), false, false};
+  CHECK(find_symbol_scope(fmi2_library("fmi2_relaxation"), {own}).flags == RTLD_DEEPBIND);
+}
+
+TEST_CASE("a sanitizer forbids that a unit is bound to its own symbols first") {
+  if (!kSanitized) return;
+  const SymbolScope scope = find_symbol_scope(fmi2_library("own_checksum"), {});
+  CHECK(scope.flags == 0);
+  CHECK_THAT(scope.warning, Contains("'crc32'"));
+}
+
+TEST_CASE("what is no library has no symbols of its own") {
+  const Scratch scratch;
+  CHECK(find_symbol_scope(scratch.write("text.so", "no library"), {}).flags == 0);
+}
