@@ -33,11 +33,12 @@ class SharedLibrary {
  public:
   /// Loads it with all its symbols resolved and kept to itself (RTLD_NOW, RTLD_LOCAL), and its own
   /// before those of the program (SymbolScope). Where a symbol of Python is missing, Python's
-  /// library is loaded for it. A library that it needs, and that the loader does not find, is loaded
-  /// from its own folder, or from the resources of its FMU, if it is there: see find_companion().
-  /// Throws core::Error of the kind Input that names the shared library or the symbol that is
-  /// missing, and for a file that is cut off or damaged. `user` is the place that names the unit,
-  /// and a component, if it is known; messages call the file `shown_as`, or by its path.
+  /// library is loaded for it. A library that it needs, and that the loader does not find, is
+  /// loaded from its own folder, or from the resources of its FMU, if it is there: see
+  /// find_companion(). Throws core::Error of the kind Input that names the shared library or the
+  /// symbol that is missing, and for a file that is cut off or damaged. `user` is the place that
+  /// names the unit, and a component, if it is known; messages call the file `shown_as`, or by its
+  /// path.
   explicit SharedLibrary(const std::filesystem::path& path, core::Context user = {},
                          const std::filesystem::path& shown_as = {});
   SharedLibrary(const SharedLibrary&) = delete;
