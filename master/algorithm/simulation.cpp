@@ -515,6 +515,7 @@ class Simulation::Run {
   }
 
   ValueBlock read_output(const SystemOutput& output) {
+    if (output.constant) return *output.constant;
     ValueBlock value(output.variable.type, output.variable.size);
     copy_elements(value, 0, read_value(output.from), output.from_first, value.size(),
                   output.conversion);

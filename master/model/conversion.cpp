@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <map>
+#include <stdexcept>
 
 #include <fmt/format.h>
 
@@ -11,7 +12,6 @@
 #include "master/model/number_range.h"
 #include "master/util/boolean_text.h"
 #include "master/util/suggest.h"
-#include "master/util/words.h"
 
 namespace stride::core {
 namespace {
@@ -97,7 +97,7 @@ class Composer {
       const Transformation::Kind kind = segments_[i].transformation.kind;
       if (kind == Transformation::Kind::None || kind == Transformation::Kind::Linear) continue;
       std::string result;
-      for (const std::string& element : words_of(text)) {
+      for (const std::string& element : elements(i, text)) {
         result += (result.empty() ? "" : " ") + word(i, element);
       }
       text = result;
@@ -113,6 +113,23 @@ class Composer {
     const auto first = std::ranges::find_if(
         path_, [](const PathConnector& connector) { return !connector.unit.name.empty(); });
     return first == path_.end() ? path_.front().unit : first->unit;
+  }
+
+  /// Those of the text before a segment.
+  std::vector<std::string> elements(std::size_t segment, const std::string& text) const {
+    try {
+      return item_words(text, known_items(segment));
+    } catch (const std::invalid_argument& mistake) {
+      fail(mistake.what(), "");
+    }
+  }
+
+  EnumerationItems known_items(std::size_t segment) const {
+    EnumerationItems items = path_[segment].items;
+    for (const auto& [source, target] : segments_[segment].transformation.names) {
+      if (!number_of(items, source)) items.emplace_back(source, 0);
+    }
+    return items;
   }
 
   /// Whether the segment's mapping is one of Boolean.

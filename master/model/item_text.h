@@ -3,6 +3,7 @@
 #define STRIDE_MASTER_MODEL_ITEM_TEXT_H
 
 #include <string>
+#include <vector>
 
 #include "master/model/transformation.h"
 
@@ -10,6 +11,11 @@ namespace stride::core {
 
 /// "off (0), on (1)".
 std::string item_text(const EnumerationItems& items);
+
+/// The elements of a value: what is between blanks, except that the name of an item may hold blanks
+/// itself. A text that is such a name is one element. Throws std::invalid_argument for a text that
+/// can be read in two ways.
+std::vector<std::string> item_words(const std::string& text, const EnumerationItems& items);
 
 }  // namespace stride::core
 

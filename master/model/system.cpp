@@ -8,9 +8,11 @@
 #include <fmt/ranges.h>
 
 #include "master/model/array_element.h"
+#include "master/model/declared_dimensions.h"
 #include "master/model/number_range.h"
 #include "master/model/unknown_variable.h"
 #include "master/model/way.h"
+#include "master/util/limited_warnings.h"
 #include "master/util/suggest.h"
 
 namespace stride::core {
@@ -20,27 +22,21 @@ namespace {
 /// for all warnings and for the mistakes that Diagnostics shows.
 constexpr std::size_t kMostHints = 120;
 
-/// "2 × 'n'"
-std::string dimensions_text(const std::vector<DimensionDeclaration>& dimensions) {
-  std::vector<std::string> texts;
-  for (const auto& [size, connector] : dimensions) {
-    texts.push_back(size ? std::to_string(*size) : fmt::format("'{}'", connector));
-  }
-  return fmt::format("{}", fmt::join(texts, " × "));
-}
-
-/// Nothing if a connector gives one of them.
-std::optional<std::vector<Dimension>> known_sizes(
-    const std::vector<DimensionDeclaration>& dimensions) {
-  std::vector<Dimension> sizes;
-  for (const DimensionDeclaration& dimension : dimensions) {
-    if (!dimension.size) return std::nullopt;
-    sizes.emplace_back(*dimension.size);
-  }
-  return sizes;
-}
-
 }  // namespace
+
+std::vector<std::shared_ptr<const UnitDescription>> System::sized_descriptions(
+    const SystemDeclaration& declaration) {
+  System system;
+  Diagnostics diagnostics;
+  system.add_components(declaration);
+  system.add_structural_values(declaration, diagnostics);
+  diagnostics.raise();
+  std::vector<std::shared_ptr<const UnitDescription>> descriptions;
+  for (const Component& component : system.components_) {
+    descriptions.push_back(component.description);
+  }
+  return descriptions;
+}
 
 /// Mistakes are reported together, except those that follow from others.
 System::System(const SystemDeclaration& declaration) : name_(declaration.name) {
@@ -56,6 +52,7 @@ System::System(const SystemDeclaration& declaration) : name_(declaration.name) {
   diagnostics.raise();
   add_outputs(declaration, diagnostics);
   diagnostics.raise();
+  note_same_names(declaration);
 }
 
 std::string System::prefix(VariableId id) const {
@@ -173,10 +170,7 @@ void System::check_connector(const SystemDeclaration& declaration, std::size_t c
 void System::check_dimensions(const Context& context, const ConnectorDeclaration& connector,
                               const ConnectorElements& elements) const {
   if (connector.dimensions.empty()) return;
-  const auto is_same = [](const DimensionDeclaration& declared, std::size_t size) {
-    return !declared.size || *declared.size == size;
-  };
-  if (std::ranges::equal(connector.dimensions, elements.dimensions, is_same)) return;
+  if (are_same(connector.dimensions, elements.dimensions)) return;
   fail_input(
       context,
       fmt::format("the connector has the dimensions {}, the unit has {}",
@@ -356,52 +350,6 @@ void System::note_difference(const std::vector<PathConnector>& path,
                   "  hint: if they are absolute, set suppressUnitConversion=\"true\" and convert "
                   "them by an <ssc:LinearTransformation>",
                   difference.name, other.name, path.front().unit.name, path.back().unit.name));
-}
-
-void System::add_outputs(const SystemDeclaration& declaration, Diagnostics& diagnostics) {
-  std::set<std::string> names;
-  for (std::size_t c = 0; !declaration.outputs.empty() && c < components_.size(); ++c) {
-    const auto& variables = components_[c].description->variables;
-    for (std::size_t v = 0; v < variables.size(); ++v) names.insert(full_name({c, v}));
-  }
-  for (const OutputDeclaration& wanted : declaration.outputs) {
-    // a variable of that name is recorded as it is
-    if (names.contains(wanted.via.back().connector.name)) continue;
-    diagnostics.attempt([&] { add_output(wanted, declaration); });
-  }
-}
-
-/// Scalars of an array become as many outputs.
-void System::add_output(const OutputDeclaration& wanted, const SystemDeclaration& declaration) {
-  const ConnectorElements from =
-      find_elements({wanted.where, wanted.component, wanted.variable, {}}, &declaration);
-  check_way(wanted.via, from);
-  for (std::size_t i = 0; i < from.parts.size(); ++i) {
-    const std::string& name = wanted.via.back().connector.name;
-    add_output(wanted, from.parts[i],
-               from.are_scalars() ? element_name(name, from.dimensions, i) : name);
-  }
-}
-
-void System::add_output(const OutputDeclaration& wanted, const ElementRange& from,
-                        const std::string& name) {
-  const Variable& source = variable(from.id);
-  if (!is_signal(from.id)) return;  // it is seen where it is sent
-  Way way(path_connector(from));
-  for (const ViaDeclaration& via : wanted.via) way.go(via.connector, via.segment);
-  const std::vector<PathConnector> path = completed(way.path);
-  const PathConnector& end = path.back();
-  SystemOutput output{from.id, converted_on(path, way.segments, wanted.where), source, from.first};
-  output.variable.name = name;
-  if (!is_whole(from)) output.variable.dimensions.clear();
-  output.variable.size = from.size;
-  output.variable.aliases.clear();
-  output.variable.type = *end.type;
-  output.variable.unit = end.unit.name;
-  output.variable.items = end.items;
-  output.variable.causality = Causality::Output;
-  output.variable.clocks.clear();
-  outputs_.push_back(std::move(output));
 }
 
 }  // namespace stride::core

@@ -20,6 +20,7 @@
 #include "master/model/variable_id.h"
 #include "master/util/diagnostics.h"
 #include "master/util/error.h"
+#include "master/util/limited_warnings.h"
 
 namespace stride::core {
 
@@ -48,13 +49,15 @@ struct Connection {
   ElementRange source() const { return {from, from_first, size}; }
   ElementRange target() const { return {to, to_first, size}; }
 };
-/// An output connector of the system: a component's variable, or an element of one, converted, with
-/// another name.
+/// A connector of a system: a component's variable, or an element of one, converted, with another
+/// name; or a value that is given to it.
 struct SystemOutput {
   VariableId from;
   Conversion conversion;
   Variable variable;  ///< its name, type, size and unit
   std::size_t from_first = 0;
+  bool is_inner = false;                 ///< not an output of the outermost system
+  std::optional<ValueBlock> constant{};  ///< has no `from` then
 };
 struct StartValue {
   VariableId id;
@@ -75,6 +78,11 @@ class System {
   /// name is unknown; several mistakes are one Error, with a line for each.
   explicit System(const SystemDeclaration& declaration);
 
+  /// The descriptions of the components, with the sizes that structural parameters give. Throws
+  /// Error as the constructor does, for these parameters.
+  static std::vector<std::shared_ptr<const UnitDescription>> sized_descriptions(
+      const SystemDeclaration& declaration);
+
   const std::string& name() const { return name_; }
   const std::vector<Component>& components() const { return components_; }
   /// The index of the component with this name. Throws Error (Input) at `where`, with the nearest
@@ -90,7 +98,8 @@ class System {
   /// The one whose target() this is. It has to be there.
   const Connection& connection_to(const ElementRange& target) const;
   const std::vector<StartValue>& start_values() const { return start_values_; }
-  /// Outputs of the system; see output_id() for their ids. No output is a message.
+  /// Outputs of the system, then connectors of systems in it; see output_id() for their ids. None
+  /// is a message.
   const std::vector<SystemOutput>& outputs() const { return outputs_; }
   VariableId output_id(std::size_t output) const { return {components_.size(), output}; }
   bool is_output(VariableId id) const { return id.component == components_.size(); }
@@ -127,13 +136,20 @@ class System {
   std::string prefix(VariableId id) const;
 
  private:
+  System() = default;
   void add_components(const SystemDeclaration& declaration);
   void add_connections(const SystemDeclaration& declaration, Diagnostics& diagnostics);
   void sum_up_misfits(const SystemDeclaration& declaration, Diagnostics& diagnostics) const;
+  void note_same_names(const SystemDeclaration& declaration);
+  void note_same_names(const SystemDeclaration& declaration, std::size_t outer, std::size_t inner,
+                       LimitedWarnings& twice) const;
+  void note_shadowed(const OutputDeclaration& output);
   void add_outputs(const SystemDeclaration& declaration, Diagnostics& diagnostics);
   void add_output(const OutputDeclaration& output, const SystemDeclaration& declaration);
   void add_output(const OutputDeclaration& declaration, const ElementRange& from,
                   const std::string& name);
+  void add_if_right(const OutputDeclaration& output, const SystemDeclaration& declaration);
+  void add_constant(const OutputDeclaration& output);
   /// A start value and what it is for.
   struct Target {
     const StartDeclaration* declaration;
@@ -150,6 +166,7 @@ class System {
   std::vector<Target> find_targets(const SystemDeclaration& declaration, Diagnostics& diagnostics);
   void add_structural_values(const SystemDeclaration& declaration, Diagnostics& diagnostics);
   void add_start_values(const SystemDeclaration& declaration, Diagnostics& diagnostics);
+  void check_value_dimensions(const Target& target) const;
   void give(const Target& target, GivenValues& values);
   static std::vector<StartValue> listed(GivenValues values);
   void resize(const StartDeclaration& declaration, VariableId structural_parameter,

@@ -26,7 +26,19 @@ bool is_source(const Variable& variable) {
 /// In SSP, start and end do not define which way a value goes; where connectors are not declared,
 /// the variables do.
 bool is_from_input_to_source(const Variable& start, const Variable& end) {
-  return start.causality == Causality::Input && !is_source(start) && is_source(end);
+  const bool takes_value =
+      start.causality == Causality::Input || start.causality == Causality::Parameter;
+  return takes_value && !is_source(start) && is_source(end);
+}
+
+/// A parameter takes a value that is known when the unit is initialised, and a tunable one that of
+/// another one, too. FMI 1.0 has no time at which it could.
+bool may_take(const Variable& source, const Variable& parameter, const UnitDescription& unit) {
+  const bool is_known =
+      source.variability == Variability::Constant || source.variability == Variability::Fixed ||
+      (source.variability == Variability::Tunable && parameter.variability == Variability::Tunable);
+  return parameter.causality == Causality::Parameter && is_known &&
+         !unit.fmi_version.starts_with("1.");
 }
 
 /// What to do about ends of which none gives a value, or none takes it.
@@ -369,7 +381,8 @@ void System::check_ends(const ConnectionDeclaration& wanted, const ElementRange&
                            core::name(target.causality)),
                direction_hint(source, target));
   }
-  if (target.causality != Causality::Input) {
+  const UnitDescription& unit = *components_[to.id.component].description;
+  if (target.causality != Causality::Input && !may_take(source, target, unit)) {
     const bool is_parameter = target.causality == Causality::Parameter ||
                               target.causality == Causality::StructuralParameter;
     fail_input(context,

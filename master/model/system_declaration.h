@@ -65,11 +65,15 @@ struct InputDeclaration {
   std::vector<ViaDeclaration> via;  ///< the first one is that connector
   Location where{};                 ///< of the last connection
 };
-/// An output connector of the system.
+/// A connector of a system whose value can be recorded: that of a component's variable, or, without
+/// one, the one that is given to the first of `via`.
 struct OutputDeclaration {
   std::string component, variable;
-  std::vector<ViaDeclaration> via;  ///< the last one is the system's connector itself, by its name
+  std::vector<ViaDeclaration> via;  ///< the last one is the connector itself, by its path
   Location where{};
+  bool is_inner = false;  ///< not an output of the outermost system: recorded on demand
+  std::string value{};
+  UnitOfMeasure unit{};  ///< in which the value is given
 };
 /// A start value of what a connector may be: see ConnectionDeclaration.
 struct StartDeclaration {
@@ -80,6 +84,7 @@ struct StartDeclaration {
   bool suppress_unit_conversion = false;
   Transformation transformation{};
   std::vector<ViaDeclaration> via{};
+  std::vector<DimensionDeclaration> dimensions{};  ///< of the value; none: not checked
   /// Whether it is ignored, with a warning, if there is no such variable.
   bool is_optional = false;
   /// Start values with the same non-zero group come from one declaration; at least one of them must

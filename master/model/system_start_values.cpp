@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include "master/model/declared_dimensions.h"
 #include "master/model/finite.h"
 #include "master/model/meant_value.h"
 #include "master/model/system.h"
@@ -72,16 +73,14 @@ void check_range(const Variable& variable, const ValueBlock& value, const Contex
   });
 }
 
-void convert_start(ValueBlock& value, const LinearConversion& conversion) {
-  if (conversion.is_identity()) return;  // which keeps the sign of -0
-  visit(value, [&](auto elements) {
-    using T = typename decltype(elements)::value_type;
-    if constexpr (std::is_floating_point_v<T>) {
-      for (T& element : elements) {
-        element = static_cast<T>(conversion.factor * element + conversion.offset);
-      }
-    }
-  });
+/// Of scalars that stand for an array, `first` among them.
+std::vector<std::string> scalar_texts(const StartDeclaration& wanted, const Variable& first) {
+  if (first.type != ValueType::Enumeration) return words_of(wanted.value);
+  try {
+    return element_texts(first, wanted.value);
+  } catch (const std::invalid_argument& mistake) {
+    fail_input({wanted.where, wanted.component, wanted.variable, {}}, mistake.what());
+  }
 }
 
 Variable element_of(const Variable& array) {
@@ -194,7 +193,7 @@ ValueBlock System::start_value(const StartDeclaration& wanted, const ElementRang
   }
   try {
     ValueBlock value = parse(target, meant.value_or(text));
-    convert_start(value, linear);
+    convert(value, linear);
     check_range(target, value, context);
     if (const auto odd = not_finite(value)) {
       warnings_.push_back(to_text(context) +
@@ -219,11 +218,27 @@ void System::resize(const StartDeclaration& declaration, VariableId structural_p
   shared = std::make_shared<const UnitDescription>(std::move(description));
 }
 
+/// Of a connector of a system only the number of elements has to be that of its ends.
+void System::check_value_dimensions(const Target& target) const {
+  const auto& [wanted, elements] = target;
+  if (wanted->dimensions.empty()) return;
+  const std::optional<std::vector<Dimension>> given = known_sizes(wanted->dimensions);
+  const bool fits = wanted->via.empty() ? are_same(wanted->dimensions, elements.dimensions)
+                                        : !given || element_count(*given) == elements.size();
+  if (fits) return;
+  fail_input({wanted->where, wanted->component, wanted->variable, {}},
+             fmt::format("the value has the dimensions {}, the variable is {}",
+                         dimensions_text(wanted->dimensions), shape_text(elements)),
+             "correct the size of its <ssc:Dimension>, or leave it out");
+}
+
 /// Scalars that stand for an array have a word of the text each.
 void System::give(const Target& target, GivenValues& values) {
+  check_value_dimensions(target);
   const auto& [wanted, elements] = target;
   const std::vector<std::string> texts =
-      elements.are_scalars() ? words_of(wanted->value) : std::vector{wanted->value};
+      elements.are_scalars() ? scalar_texts(*wanted, variable(elements.parts.front().id))
+                             : std::vector{wanted->value};
   if (texts.size() != elements.parts.size()) {
     fail_input({wanted->where, wanted->component, wanted->variable, {}},
                fmt::format("'{}' is not a value for it, expected {} {} values separated by blanks",

@@ -19,6 +19,12 @@ long double finite_number(const xml::Element& element, const char* attribute, do
 
 }  // namespace
 
+bool is_same(const BaseUnitOfMeasure& a, const BaseUnitOfMeasure& b) {
+  const auto number = [](long double value) { return static_cast<double>(value); };
+  return a.exponents == b.exponents && number(a.factor) == number(b.factor) &&
+         number(a.offset) == number(b.offset);
+}
+
 BaseUnitOfMeasure read_base_unit(const xml::Element& element) {
   BaseUnitOfMeasure unit;
   for (std::size_t i = 0; i < kUnitOfMeasureBases.size(); ++i) {

@@ -17,6 +17,9 @@ namespace stride::core {
 using stride::BaseUnitOfMeasure;
 using UnitsOfMeasure = std::map<std::string, BaseUnitOfMeasure>;
 
+/// Whether both mean the same, as far as doubles tell.
+bool is_same(const BaseUnitOfMeasure& a, const BaseUnitOfMeasure& b);
+
 /// Reads a <BaseUnit>. Throws Error (Input) for what is no finite number, and for the factor 0.
 BaseUnitOfMeasure read_base_unit(const xml::Element& element);
 

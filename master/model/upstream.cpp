@@ -14,7 +14,8 @@ void add_once(std::vector<std::size_t>& components, std::size_t component) {
 std::vector<std::size_t> components_upstream(const System& system, VariableId id) {
   std::vector<std::size_t> found;
   if (system.is_output(id)) {
-    found.push_back(system.outputs()[id.variable].from.component);
+    const SystemOutput& output = system.outputs()[id.variable];
+    if (!output.constant) found.push_back(output.from.component);
   } else if (system.variable(id).causality != Causality::Input) {
     found.push_back(id.component);
   } else {

@@ -8,7 +8,9 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include "master/model/item_text.h"
 #include "master/util/boolean_text.h"
 #include "master/util/hex.h"
 #include "master/util/message_text.h"
@@ -59,7 +61,7 @@ void parse_element(const Variable&, const std::string& text, Binary& value) {
 void parse_enumeration(const Variable& variable, const std::string& text, std::int64_t& value) {
   std::string names;
   for (const auto& [item, number] : variable.items) {
-    if (item == text || std::to_string(number) == text) {
+    if (item == text || words_of(item) == words_of(text) || std::to_string(number) == text) {
       value = number;
       return;
     }
@@ -151,6 +153,18 @@ void set_real(ValueBlock& block, std::size_t element, double value) {
   }
 }
 
+void convert(ValueBlock& block, const LinearConversion& conversion) {
+  if (conversion.is_identity()) return;  // which keeps the sign of -0
+  visit(block, [&](auto elements) {
+    using T = typename decltype(elements)::value_type;
+    if constexpr (std::is_floating_point_v<T>) {
+      for (T& element : elements) {
+        element = static_cast<T>(conversion.factor * element + conversion.offset);
+      }
+    }
+  });
+}
+
 bool has_nan(const ValueBlock& block) {
   return visit(block, []<class T>(std::span<const T> values) {
     if constexpr (std::is_floating_point_v<T>) {
@@ -167,13 +181,19 @@ bool is_same(const ValueBlock& a, std::size_t a_element, const ValueBlock& b,
   });
 }
 
+std::vector<std::string> element_texts(const Variable& variable, const std::string& text) {
+  if (variable.type == ValueType::Enumeration) {
+    if (variable.size != 1) return item_words(text, variable.items);
+    return {fmt::format("{}", fmt::join(words_of(text), " "))};
+  }
+  const bool is_whole = variable.size == 1 && variable.type == ValueType::String;
+  if (is_whole || (text.empty() && variable.type == ValueType::Binary)) return {text};
+  return words_of(text);
+}
+
 ValueBlock parse(const Variable& variable, const std::string& text) {
   ValueBlock block(variable.type, variable.size);
-  const bool whole = variable.type == ValueType::String && variable.size == 1;
-  const std::vector<std::string> words = whole ? std::vector<std::string>{text}
-                                         : variable.type == ValueType::Binary && text.empty()
-                                             ? std::vector<std::string>{""}
-                                             : words_of(text);
+  const std::vector<std::string> words = element_texts(variable, text);
   if (words.size() != variable.size) {
     reject(text, variable.size == 1 ? fmt::format("one {} value", name(variable.type))
                                     : fmt::format("{} {} values separated by blanks", variable.size,

@@ -137,12 +137,19 @@ To converted(const From& value, const Conversion& conversion) {
   }
 }
 
+/// Converts the elements of a block of floating-point numbers.
+void convert(ValueBlock& block, const LinearConversion& conversion);
+
 /// Whether a floating-point number of the block is NaN.
 bool has_nan(const ValueBlock& block);
 
 /// Whether two elements of blocks of the same type are equal.
 bool is_same(const ValueBlock& a, std::size_t a_element, const ValueBlock& b,
              std::size_t b_element);
+
+/// The texts of the elements in that of a variable's value, as parse() reads it. Throws
+/// std::invalid_argument for an enumeration's text that can be read in two ways.
+std::vector<std::string> element_texts(const Variable& variable, const std::string& text);
 
 /// Parses a variable's value: numbers separated by blanks for an array, "true"/"false"/"1"/"0" for
 /// Boolean, the item's name or number for Enumeration, hexadecimal digits for Binary, the text

@@ -33,11 +33,18 @@ namespace {
                    core::suggestion(pattern.text, names));
 }
 
+/// Whether it is a connector of a system in the outermost one, which repeats other values.
+bool is_inner(const core::System& system, core::VariableId id) {
+  return system.is_output(id) && system.outputs()[id.variable].is_inner;
+}
+
 std::vector<core::VariableId> all_outputs(const core::System& system) {
   std::vector<core::VariableId> outputs;
   for (const NamedVariable& variable : named_variables(system)) {
     const bool is_output = system.variable(variable.id).causality == core::Causality::Output;
-    if (is_output && variable.is_signal) outputs.push_back(variable.id);
+    if (is_output && variable.is_signal && !is_inner(system, variable.id)) {
+      outputs.push_back(variable.id);
+    }
   }
   return outputs;
 }

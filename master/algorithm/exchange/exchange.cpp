@@ -35,6 +35,9 @@ Transfer make_transfer(const System& system, ValueType type, WriteTime write_tim
 }
 
 WriteTime write_time_of(const Variable& variable, bool jumps) {
+  const bool is_fixed =
+      variable.causality == Causality::Parameter && variable.variability == Variability::Fixed;
+  if (is_fixed) return WriteTime::Initialization;
   if (jumps || variable.variability != Variability::Continuous) return WriteTime::Change;
   return variable.intermediate_update ? WriteTime::PointAndWithin : WriteTime::Point;
 }
@@ -128,7 +131,8 @@ void Exchange::make_ports() {
   const BoundValues* next = bound_values_.data();
   for (std::size_t i = 0; i < lengths.size(); ++i) {
     const auto [inputs, outputs] = lengths[i];
-    const bool has_discrete_inputs = std::ranges::any_of(inputs_[i], &Transfer::is_discrete);
+    const bool has_discrete_inputs =
+        std::ranges::any_of(inputs_[i], &Transfer::is_written_on_change);
     ports_.push_back({{{next, inputs}, {next + inputs, outputs}}, has_discrete_inputs});
     next += inputs + outputs;
   }
@@ -255,7 +259,7 @@ void Exchange::begin_samples(std::size_t component, Unit& unit) {
 
 bool Exchange::any_discrete_change(std::size_t component) const {
   for (const Transfer& transfer : inputs_[component]) {
-    if (transfer.is_discrete() && !(transfer.block == transfer.written)) return true;
+    if (transfer.is_written_on_change() && !(transfer.block == transfer.written)) return true;
   }
   return false;
 }
@@ -272,7 +276,7 @@ void Exchange::write_inputs(std::size_t component, Unit& unit) {
 
 void Exchange::write_discrete_inputs(std::size_t component, Unit& unit) {
   for (Transfer& transfer : inputs_[component]) {
-    if (transfer.is_discrete() && is_changed(transfer)) write(transfer, unit);
+    if (transfer.is_written_on_change() && is_changed(transfer)) write(transfer, unit);
   }
 }
 

@@ -27,6 +27,7 @@ enum class WriteTime {
   Point,           ///< at each communication point
   PointAndWithin,  ///< and at times within a step, if the unit requests it
   Change,          ///< where they changed: discrete variables
+  Initialization,  ///< once, before the first step: a fixed parameter
 };
 
 /// A connection between continuous variables, for one element.
@@ -182,7 +183,10 @@ class Exchange {
     std::vector<VariableId> ids;      ///< sorted
     std::vector<std::size_t> firsts;  ///< where each variable begins in the block
 
-    bool is_discrete() const { return write_time == WriteTime::Change; }
+    bool is_discrete() const {
+      return is_written_on_change() || write_time == WriteTime::Initialization;
+    }
+    bool is_written_on_change() const { return write_time == WriteTime::Change; }
   };
   using Transfers = std::vector<std::vector<Transfer>>;  // by component; final once it is planned
 

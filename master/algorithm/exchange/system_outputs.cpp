@@ -14,6 +14,10 @@ SystemOutputs::SystemOutputs(const System& system, std::span<const VariableId> o
       continue;
     }
     const SystemOutput& output = system.outputs()[id.variable];
+    if (output.constant) {
+      constants_.emplace(id, *output.constant);
+      continue;
+    }
     sources_.push_back(output.from);
     outputs_.push_back({id, &output, ValueBlock(output.variable.type, output.variable.size)});
   }
@@ -35,6 +39,9 @@ void SystemOutputs::update_all(Time time) {
 
 Signal SystemOutputs::signal(VariableId id, Exchange& exchange) const {
   if (!system_.is_output(id)) return exchange.signal(id);
+  if (const auto constant = constants_.find(id); constant != constants_.end()) {
+    return {id, &constant->second, 0};
+  }
   const auto found = std::ranges::lower_bound(outputs_, id, {}, &Output::id);
   return {id, &found->block, 0};
 }

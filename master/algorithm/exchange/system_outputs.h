@@ -2,6 +2,7 @@
 #ifndef STRIDE_MASTER_ALGORITHM_EXCHANGE_SYSTEM_OUTPUTS_H
 #define STRIDE_MASTER_ALGORITHM_EXCHANGE_SYSTEM_OUTPUTS_H
 
+#include <map>
 #include <span>
 #include <vector>
 
@@ -10,8 +11,8 @@
 
 namespace stride::core {
 
-/// The System::outputs() that are observed. They have blocks of their own, since they are
-/// converted.
+/// The System::outputs() that are observed. Those with a source have blocks of their own, since
+/// they are converted.
 class SystemOutputs {
  public:
   SystemOutputs(const System& system, std::span<const VariableId> observed);
@@ -41,6 +42,7 @@ class SystemOutputs {
   const System& system_;
   std::vector<VariableId> sources_;
   std::vector<Output> outputs_;  ///< pointers into it stay valid
+  std::map<VariableId, ValueBlock> constants_;
 };
 
 }  // namespace stride::core

@@ -1,6 +1,7 @@
 #include "master/algorithm/loops/dependencies.h"
 
 #include <algorithm>
+#include <iterator>
 
 namespace stride::core {
 namespace {
@@ -11,9 +12,13 @@ bool never_follows_inputs(const Variable& variable) {
          variable.variability == Variability::Fixed || variable.variability == Variability::Tunable;
 }
 
+bool is_constant(const Variable& variable) { return variable.variability == Variability::Constant; }
+
 }  // namespace
 
 bool carries_value(const System& system, const Connection& connection, Phase phase) {
+  const bool is_initial = system.variable(connection.to).variability == Variability::Fixed;
+  if (is_initial && phase == Phase::Events) return false;
   const auto has_value = [&](VariableId id) {
     return phase == Phase::Initialization ? system.is_signal(id)
                                           : system.variable(id).is_unclocked_value();
@@ -45,8 +50,18 @@ Dependencies::Dependencies(const System& system, Phase phase)
 }
 
 bool Dependencies::depends_on_nothing(const UnitDescription& unit, const Variable& output) const {
-  if (never_follows_inputs(output)) return true;
+  if (never_follows_inputs(output)) return phase_ == Phase::Events || is_constant(output);
   return phase_ == Phase::Initialization ? output.initial == Initial::Exact : !unit.has_event_mode;
+}
+
+/// A calculated parameter is calculated from parameters.
+std::vector<std::size_t> Dependencies::parameters_among(const UnitDescription& unit,
+                                                        const std::vector<std::size_t>& variables) {
+  std::vector<std::size_t> parameters;
+  std::ranges::copy_if(variables, std::back_inserter(parameters), [&](std::size_t variable) {
+    return unit.variables[variable].causality == Causality::Parameter;
+  });
+  return parameters;
 }
 
 const Unknown* Dependencies::unknown(const Declared& declared, const Variable& output) const {
@@ -66,6 +81,7 @@ Dependencies::Inputs Dependencies::inputs_of(VariableId output) const {
   const Declared& declared = declared_.at(&unit);
   const std::vector<std::size_t>& connected = inputs_[output.component];
   const Unknown* found = unknown(declared, variable);
+  if (never_follows_inputs(variable)) return {true, parameters_among(unit, connected)};
   if (found == nullptr || !found->dependencies) return {false, {}};
   Inputs inputs;
   for (const ValueReference reference : *found->dependencies) {

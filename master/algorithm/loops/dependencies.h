@@ -43,6 +43,8 @@ class Dependencies {
   };
 
   bool depends_on_nothing(const UnitDescription& unit, const Variable& output) const;
+  static std::vector<std::size_t> parameters_among(const UnitDescription& unit,
+                                                   const std::vector<std::size_t>& variables);
   const Unknown* unknown(const Declared& declared, const Variable& output) const;
 
   const System& system_;
@@ -51,7 +53,8 @@ class Dependencies {
   std::vector<std::vector<std::size_t>> inputs_;         // by component
 };
 
-/// Whether a connection carries a value in this phase. What belongs to a time-based clock has one
+/// Whether a connection carries a value in this phase. A fixed parameter takes one at the
+/// initialisation only. What belongs to a time-based clock has one
 /// at the initialisation and then at the clock's ticks only; what belongs to a triggered clock is a
 /// message.
 bool carries_value(const System& system, const Connection& connection, Phase phase);

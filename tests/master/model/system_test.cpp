@@ -409,6 +409,31 @@ TEST_CASE("a unit that lacks variables is summed up above them") {
                                         "'model' has 1 of the 3 variables that are expected:\n"));
 }
 
+TEST_CASE("the dimensions of a value must be those of the variable") {
+  const auto pair_of = [](std::vector<DimensionDeclaration> dimensions) {
+    SystemDeclaration system = declaration();
+    system.start_values = {{"beta", "trio", "1 2 3", {}, {"s.ssd", 12}}};
+    system.start_values[0].dimensions = std::move(dimensions);
+    return reason(system);
+  };
+  CHECK(pair_of({{3, ""}}) == "accepted");
+  CHECK(pair_of({{std::nullopt, "n"}}) == "accepted");
+  CHECK_THAT(pair_of({{2, ""}}), StartsWith("s.ssd:12: ") &&
+                                     Contains("the value has the dimensions 2, the variable is an "
+                                              "array of 3 elements"));
+  CHECK_THAT(pair_of({{1, ""}, {3, ""}}), Contains("the dimensions 1 × 3"));
+}
+
+TEST_CASE("two variables of one name are a warning") {
+  SystemDeclaration system = declaration();
+  system.components = {{"a", Describe("m").output("b.y").output("y").done(), {}, {"s.ssd", 3}},
+                       {"a.b", Describe("n").output("y").done(), {}, {"s.ssd", 4}}};
+  const std::vector<std::string> warnings = System(system).warnings();
+  REQUIRE(warnings.size() == 1);
+  CHECK_THAT(warnings[0], StartsWith("s.ssd:4: two variables are named 'a.b.y'") &&
+                              Contains("'b.y' of the component 'a' in line 3"));
+}
+
 TEST_CASE("wrong start values are reported together") {
   auto system = declaration();
   system.start_values = {{"alpha", "gain", "high", {}, {"s.ssd", 5}},

@@ -70,6 +70,21 @@ TEST_CASE("an enumeration takes names and numbers") {
   CHECK_THAT(reason(row, "maybe"), Contains("expected one of off, on"));
 }
 
+TEST_CASE("the name of an item may hold blanks") {
+  Variable mode = variable(ValueType::Enumeration);
+  mode.items = {{"Option 1", 1}, {"Option 2", 2}, {"off", 3}};
+  CHECK(parse(mode, "Option 2").numbers<std::int64_t>()[0] == 2);
+  CHECK(parse(mode, " Option  2 ").numbers<std::int64_t>()[0] == 2);
+  CHECK_THAT(reason(mode, "Option 3"), Contains("expected one of Option 1, Option 2, off"));
+  mode.size = 4;
+  const ValueBlock modes = parse(mode, "Option 2 off 1 Option 1");
+  const auto numbers = modes.numbers<std::int64_t>();
+  CHECK(std::vector(numbers.begin(), numbers.end()) == std::vector<std::int64_t>{2, 3, 1, 1});
+  mode.items.emplace_back("Option", 4);
+  CHECK_THAT(reason(mode, "Option 2 off off"),
+             Contains("may be the item 'Option 2' or begin with 'Option'"));
+}
+
 TEST_CASE("the error of an invalid value has what was expected") {
   CHECK_THAT(reason(variable(ValueType::Float64), "fast"), Contains("expected a Float64 number"));
   CHECK_THAT(reason(variable(ValueType::Float64), "1 2"), Contains("expected one Float64 value"));
