@@ -2,17 +2,22 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
+#include <map>
 #include <optional>
 #include <set>
+#include <string>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include <stride/xml_text.h>
 
+#include "master/model/array_element.h"
 #include "master/ssp/definitions.h"
 #include "master/ssp/ssp.h"
 #include "master/ssp/system_reader.h"
+#include "master/ssp/uri.h"
 #include "master/ssp/version.h"
 #include "master/util/xml/document.h"
 #include "master/util/xml/editor.h"
@@ -21,12 +26,6 @@ namespace stride::ssp {
 namespace {
 
 using core::ValueType;
-
-bool is_same(const core::BaseUnitOfMeasure& a, const core::BaseUnitOfMeasure& b) {
-  const auto number = [](long double value) { return static_cast<double>(value); };
-  return a.exponents == b.exponents && number(a.factor) == number(b.factor) &&
-         number(a.offset) == number(b.offset);
-}
 
 /// The namespace prefix, ready to be put before a name: "ssc:" or nothing.
 std::string head(const std::string& prefix) { return prefix.empty() ? "" : prefix + ":"; }
@@ -80,6 +79,7 @@ class Completion {
 
   std::string result(std::span<const core::ConnectionDeclaration> connections) {
     const xml::Element system = *root_.child({kSsd, "System"});
+    collect_uses(system, system.index(), "");
     complete_elements(system, system.index(), "");
     add_connections(system, connections);
     add_list("Enumerations", new_enumerations_);
@@ -104,6 +104,32 @@ class Completion {
     }
     needs_common_prefix_ = false;
     return ssc_;
+  }
+
+  /// A system is one component, and others may be further ones of it: source="#id". `index` is that
+  /// of the system.
+  void collect_uses(const xml::Element& system, std::size_t index, const std::string& prefix) {
+    const auto elements = system.child({kSsd, "Elements"});
+    if (!elements) return;
+    index = index_within(system, index, "Elements") + 1;
+    for (const xml::Element& element : elements->children()) {
+      const std::string path = prefix + element.required("name");
+      const std::string source = element.is(kSsd, "Component") ? source_text(element) : "";
+      if (element.is(kSsd, "System")) {
+        collect_uses(element, index, path + ".");
+      } else if (source.starts_with('#')) {
+        const xml::Element& used = own_systems().at(source.substr(1));
+        collect_uses(used, used.index(), path + ".");
+      } else if (const auto found = descriptions_.find(path); found != descriptions_.end()) {
+        uses_[index].push_back(found->second.get());
+      }
+      index += count(element);
+    }
+  }
+
+  const std::map<std::string, xml::Element>& own_systems() {
+    if (own_systems_.empty()) own_systems_ = systems_by_id(root_);
+    return own_systems_;
   }
 
   /// `index` is that of the system.
@@ -135,7 +161,8 @@ class Completion {
       const bool is_connector = variable.causality == core::Causality::Input ||
                                 variable.causality == core::Causality::Output;
       if (!is_connector || declared.contains(variable.name)) continue;
-      added.push_back(connector(component, path, description, variable));
+      added.push_back(
+          connector(component, path, description, variable, is_sized_alike(index, variable)));
     }
     if (added.empty()) return;
     if (connectors) {
@@ -146,10 +173,25 @@ class Completion {
     editor_.prepend_children(index, {list + fmt::format("\n</{}Connectors>", ssd_)});
   }
 
+  /// Whether the component at this place of the file has the variable in one size, wherever its
+  /// system is used.
+  bool is_sized_alike(std::size_t index, const core::Variable& variable) const {
+    const auto uses = uses_.find(index);
+    return uses == uses_.end() ||
+           std::ranges::all_of(uses->second, [&](const core::UnitDescription* used) {
+             const auto same =
+                 std::ranges::find(used->variables, variable.name, &core::Variable::name);
+             return same == used->variables.end() || core::sizes(*same) == core::sizes(variable);
+           });
+  }
+
   std::string connector(const xml::Element& component, const std::string& path,
-                        const core::UnitDescription& description, const core::Variable& variable) {
+                        const core::UnitDescription& description, const core::Variable& variable,
+                        bool has_known_size) {
     std::string content = type(component, path, description, variable);
-    if (!is_first_version_) content += dimensions(variable) + clocks(description, variable);
+    if (!is_first_version_) {
+      content += (has_known_size ? dimensions(variable) : "") + clocks(description, variable);
+    }
     const std::string start = fmt::format("<{}Connector name=\"{}\" kind=\"{}\"", ssd_,
                                           xml_escaped(variable.name), name(variable.causality));
     if (content.empty()) return start + "/>";
@@ -211,7 +253,7 @@ class Completion {
     if (meaning == description.units_of_measure.end()) return "";
     const auto [known, is_new] = units_.emplace(unit, meaning->second);
     if (is_new) new_units_.push_back(unit_definition(unit, meaning->second));
-    return is_same(known->second, meaning->second) ? unit : "";
+    return core::is_same(known->second, meaning->second) ? unit : "";
   }
 
   std::string unit_definition(const std::string& unit, const core::BaseUnitOfMeasure& base) {
@@ -308,6 +350,9 @@ class Completion {
   xml::Editor editor_;
   std::map<std::string, core::BaseUnitOfMeasure> units_;
   std::set<std::string> enumerations_;
+  std::map<std::string, xml::Element> own_systems_;  ///< by id
+  /// The descriptions of the components that one place of the file stands for, by its index.
+  std::map<std::size_t, std::vector<const core::UnitDescription*>> uses_;
   std::vector<std::string> new_units_;
   std::vector<std::string> new_enumerations_;
 };

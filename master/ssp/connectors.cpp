@@ -74,7 +74,8 @@ void read_child(const xml::Element& child, const SspFile& file,
                 std::vector<std::string>& warnings) {
   const xml::Name name = child.name();
   if (name == xml::Name{kSsc, "Dimension"}) {
-    return read_dimension(child, connector);
+    connector.dimensions.push_back(read_dimension(child));
+    return;
   }
   // a unit's own clocks hold; geometry and annotations change nothing
   if (name == xml::Name{kSsd, "Clock"} || name == xml::Name{kSsd, "ConnectorGeometry"} ||
@@ -111,14 +112,13 @@ Connector read_connector(const xml::Element& element, const SspFile& file,
 
 }  // namespace
 
-void read_dimension(const xml::Element& dimension, core::ConnectorDeclaration& connector) {
+core::DimensionDeclaration read_dimension(const xml::Element& dimension) {
   dimension.allow_attributes({"size", "sizeConnector"});
   if (dimension.attribute("size").has_value() == dimension.attribute("sizeConnector").has_value()) {
     dimension.fail(
         fmt::format("{} needs one of the attributes 'size' and 'sizeConnector'", dimension.tag()));
   }
-  connector.dimensions.push_back(
-      {dimension.number<std::size_t>("size"), dimension.attribute_or("sizeConnector")});
+  return {dimension.number<std::size_t>("size"), dimension.attribute_or("sizeConnector")};
 }
 
 bool read_type(const xml::Element& child, const SspFile& file,

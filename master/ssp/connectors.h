@@ -23,9 +23,9 @@ struct SspFile {
 std::vector<Connector> read_connectors(const xml::Element& owner, const SspFile& file,
                                        std::vector<std::string>& warnings);
 
-/// Reads an <ssc:Dimension> into the connector or dictionary entry around it. Throws core::Error
+/// Reads an <ssc:Dimension> of a connector, dictionary entry or parameter. Throws core::Error
 /// (Input).
-void read_dimension(const xml::Element& dimension, core::ConnectorDeclaration& connector);
+core::DimensionDeclaration read_dimension(const xml::Element& dimension);
 
 /// Reads the type of a connector or dictionary entry from one of its children; false if the child
 /// is something else. Throws core::Error (Input).

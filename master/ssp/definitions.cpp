@@ -1,22 +1,17 @@
 #include "master/ssp/definitions.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <string_view>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "master/ssp/ssp.h"
+#include "master/ssp/unique_names.h"
 
 namespace stride::ssp {
 namespace {
-
-core::EnumerationItems read_items(const xml::Element& enumeration) {
-  core::EnumerationItems items;
-  for (const xml::Element& item : enumeration.children({kSsc, "Item"})) {
-    items.emplace_back(item.required("name"), item.required_number<std::int64_t>("value"));
-  }
-  return items;
-}
 
 void warn(const xml::Element& element, const std::string& message,
           std::vector<std::string>& warnings) {
@@ -34,11 +29,42 @@ bool is_common(const xml::Element& element, std::string_view name,
   return true;
 }
 
-void read_unit(const xml::Element& unit, Definitions& definitions,
+core::EnumerationItems read_items(const xml::Element& enumeration,
+                                  std::vector<std::string>& warnings) {
+  core::EnumerationItems items;
+  UniqueNames names("items", warnings);
+  for (const xml::Element& item : enumeration.children({kSsc, "Item"})) {
+    const std::string name = item.required("name");
+    const auto number = item.required_number<std::int64_t>("value");
+    const auto is_first = [&](const auto& other) { return other.first == name; };
+    const auto first = std::ranges::find_if(items, is_first);
+    if (names.add(item, name, [&] { return first->second == number; })) {
+      items.emplace_back(name, number);
+    }
+  }
+  return items;
+}
+
+void read_unit(const xml::Element& unit, UniqueNames& names, Definitions& definitions,
                std::vector<std::string>& warnings) {
   for (const xml::Element& child : unit.children()) {
     if (!is_common(child, "BaseUnit", warnings)) continue;
-    definitions.units_of_measure.emplace(unit.required("name"), core::read_base_unit(child));
+    const std::string name = unit.required("name");
+    const core::BaseUnitOfMeasure base = core::read_base_unit(child);
+    auto& units = definitions.units_of_measure;
+    if (names.add(unit, name, [&] { return core::is_same(units.at(name), base); })) {
+      units.emplace(name, base);
+    }
+  }
+}
+
+void read_enumeration(const xml::Element& enumeration, UniqueNames& names, Definitions& definitions,
+                      std::vector<std::string>& warnings) {
+  const std::string name = enumeration.required("name");
+  core::EnumerationItems items = read_items(enumeration, warnings);
+  auto& enumerations = definitions.enumerations;
+  if (names.add(enumeration, name, [&] { return enumerations.at(name) == items; })) {
+    enumerations.emplace(name, std::move(items));
   }
 }
 
@@ -57,9 +83,10 @@ Definitions read_definitions(const xml::Element& root, const char* name_space,
                              std::vector<std::string>& warnings) {
   Definitions definitions;
   if (const auto units = root.child({name_space, "Units"})) {
+    UniqueNames names("units of measure", warnings);
     for (const xml::Element& unit : units->children()) {
       if (is_common(unit, "Unit", warnings)) {
-        read_unit(unit, definitions, warnings);
+        read_unit(unit, names, definitions, warnings);
       } else {
         warn(unit, fmt::format("{} is not known in {} and is ignored", unit.tag(), units->tag()),
              warnings);
@@ -67,8 +94,9 @@ Definitions read_definitions(const xml::Element& root, const char* name_space,
     }
   }
   if (const auto enumerations = root.child({name_space, "Enumerations"})) {
+    UniqueNames names("enumerations", warnings);
     for (const xml::Element& enumeration : enumerations->children({kSsc, "Enumeration"})) {
-      definitions.enumerations.emplace(enumeration.required("name"), read_items(enumeration));
+      read_enumeration(enumeration, names, definitions, warnings);
     }
   }
   return definitions;

@@ -173,6 +173,17 @@ fs::path Files::system_file(const fs::path& package, const std::string& name,
   return *displaced;
 }
 
+std::vector<fs::path> Files::variants(const fs::path& path, const fs::path& file) const {
+  const auto archive = archive_of(file);
+  if (!archive && !core::is_folder(path)) return {};
+  std::vector<fs::path> found;
+  for (const auto& entry : fs::directory_iterator(archive ? archive->folder : path)) {
+    if (entry.path().extension() == ".ssd") found.push_back(entry.path());
+  }
+  std::ranges::sort(found);
+  return found;
+}
+
 fs::path Files::unit_folder(const fs::path& source, const core::Location& where) {
   const fs::path path = find_unit_ ? find_unit_(source, where) : source;
   const fs::path folder = core::is_folder(path) ? path : unpack(path, "an FMU (.fmu, zip)", where);

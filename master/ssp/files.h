@@ -37,6 +37,11 @@ class Files {
   /// folder that one unpacks to, or a library, .so) is one itself: document() gives a system of it
   /// alone, with a component of its name.
   std::filesystem::path scenario_file(const std::filesystem::path& path);
+  /// The .ssd files at the top of a package, or of the folder that one unpacks to, in the order of
+  /// their names; none for what is no package. The file is one that scenario_file() has found for
+  /// this path.
+  std::vector<std::filesystem::path> variants(const std::filesystem::path& path,
+                                              const std::filesystem::path& file) const;
   /// Likewise, this .ssd in a package.
   std::filesystem::path system_file(const std::filesystem::path& package, const std::string& name,
                                     const core::Location& where);

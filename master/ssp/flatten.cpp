@@ -1,7 +1,11 @@
 #include "master/ssp/flatten.h"
 
 #include <algorithm>
+#include <map>
+#include <optional>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -22,6 +26,7 @@ class Flattener {
         graph_(root),
         ports_(graph_.ports()),
         connections_(graph_.connections()),
+        warnings_(warnings),
         unmatched_(warnings, "parameters that belong to no component, and are ignored, too"),
         open_(warnings, "parameters for connectors that lead to no component") {
     warnings.insert(warnings.end(), graph_.warnings().begin(), graph_.warnings().end());
@@ -41,12 +46,19 @@ class Flattener {
     add_parameters(root_);
     unmatched_.finish();
     open_.finish();
+    add_start_values();
     add_outputs();
     add_inputs();
     return std::move(flat_);
   }
 
  private:
+  /// A start value, and how many connections lead to its variable from what it is given to.
+  struct Start {
+    core::StartDeclaration declaration;
+    std::size_t connections = 0;
+  };
+
   void add_component(const PortGraph::Component& component) {
     core::ComponentDeclaration& declared = flat_.declaration.components.emplace_back();
     declared.name = component.path;
@@ -63,6 +75,11 @@ class Flattener {
   }
   static ViaDeclaration via(const Port& port, const core::PathSegment& segment) {
     return {port.path_connector, segment, port.dimensions, port.where};
+  }
+  /// Likewise, with a type where SSP 1.0 leaves the width open.
+  static ViaDeclaration typed(ViaDeclaration via, const Port& port) {
+    if (!via.connector.type) via.connector.type = port.kin;
+    return via;
   }
 
   void add_connection(const PortGraph::Way& way) {
@@ -81,21 +98,66 @@ class Flattener {
     flat_.declaration.connections.push_back(std::move(connection));
   }
 
-  /// What comes out of the root system.
+  /// What comes out of the root system, and the connectors of the systems in it.
   void add_outputs() {
     for (const Connector& connector : root_.connectors) {
-      if (connector.flow != Flow::Out) continue;
-      const PortGraph::Way way =
-          graph_.way_to(graph_.connectors(root_).at(connector.declared.name));
-      if (way.empty() || !ports_[connections_[way.front()].from].is_component()) continue;
-      const Port& from = ports_[connections_[way.front()].from];
-      core::OutputDeclaration output;
-      output.component = flat_.declaration.components[from.component].name;
-      output.variable = from.connector;
-      output.where = connector.declared.where;
-      for (const std::size_t connection : way) output.via.push_back(via(connection));
-      flat_.declaration.outputs.push_back(std::move(output));
+      if (connector.flow == Flow::Out) add_output(root_, connector, false);
     }
+    add_inner_outputs(root_);
+  }
+
+  void add_inner_outputs(const SystemNode& node) {
+    for (const ElementNode& element : node.elements) {
+      if (!element.system) continue;
+      for (const Connector& connector : element.system->connectors) {
+        add_output(*element.system, connector, true);
+      }
+      add_inner_outputs(*element.system);
+    }
+  }
+
+  void add_output(const SystemNode& node, const Connector& connector, bool is_inner) {
+    const std::size_t port = graph_.connectors(node).at(connector.declared.name);
+    const std::optional<PortGraph::Way> found =
+        is_inner ? graph_.find_way_to(port) : graph_.way_to(port);
+    if (!found) return;  // an error where it is connected to something
+    const PortGraph::Way& way = *found;
+    const std::size_t origin = way.empty() ? port : connections_[way.front()].from;
+    core::OutputDeclaration output;
+    output.where = connector.declared.where;
+    output.is_inner = is_inner;
+    if (!ports_[origin].is_component()) return add_constant(origin, way, std::move(output));
+    output.component = flat_.declaration.components[ports_[origin].component].name;
+    output.variable = ports_[origin].connector;
+    for (const std::size_t connection : way) output.via.push_back(via(connection));
+    flat_.declaration.outputs.push_back(std::move(output));
+  }
+
+  /// Of a connector that no component feeds: the value that is given to it, or to one before it.
+  void add_constant(std::size_t origin, const PortGraph::Way& way, core::OutputDeclaration output) {
+    std::vector<std::size_t> ports{origin};
+    for (const std::size_t connection : way) ports.push_back(connections_[connection].to);
+    const auto first = deciding(ports);
+    if (first == ports.end()) return;
+    const ParameterValue& value = *given_.at(*first);
+    output.value = value.value;
+    output.unit = value.unit;
+    output.via.push_back(typed(via(ports_[*first], value.segment), ports_[*first]));
+    for (auto i = static_cast<std::size_t>(first - ports.begin()); i < way.size(); ++i) {
+      output.via.push_back(typed(via(way[i]), ports_[ports[i + 1]]));
+    }
+    flat_.declaration.outputs.push_back(std::move(output));
+  }
+
+  /// The first of the ports, one behind the other, that has a value, by the command line or else by
+  /// the file.
+  std::vector<std::size_t>::const_iterator deciding(const std::vector<std::size_t>& ports) const {
+    const auto is_given = [&](std::size_t port) { return given_.contains(port); };
+    const auto is_required = [&](std::size_t port) {
+      return is_given(port) && given_.at(port)->is_required;
+    };
+    const auto required = std::ranges::find_if(ports, is_required);
+    return required != ports.end() ? required : std::ranges::find_if(ports, is_given);
   }
 
   /// What no component feeds, such as the inputs of the root system.
@@ -129,7 +191,7 @@ class Flattener {
       }
     }
     for (const ParameterValue& value : node.parameters) {
-      const std::size_t first = flat_.declaration.start_values.size();
+      const std::size_t first = starts_.size();
       if (!apply(value, node, value.name)) report_unmatched(value, node);
       group(first);
     }
@@ -166,10 +228,9 @@ class Flattener {
 
   /// Values that one name is for.
   void group(std::size_t first) {
-    auto& values = flat_.declaration.start_values;
-    if (values.size() < first + 2) return;
+    if (starts_.size() < first + 2) return;
     ++groups_;
-    for (std::size_t i = first; i < values.size(); ++i) values[i].group = groups_;
+    for (std::size_t i = first; i < starts_.size(); ++i) starts_[i].declaration.group = groups_;
   }
 
   core::StartDeclaration start(const ParameterValue& value, std::size_t component,
@@ -183,18 +244,20 @@ class Flattener {
     start.suppress_unit_conversion = value.segment.suppress_unit_conversion;
     start.transformation = value.segment.transformation;
     start.is_optional = !value.is_required;
+    start.dimensions = value.dimensions;
     return start;
   }
 
   void add_start(const ParameterValue& value, std::size_t component, const std::string& variable) {
-    flat_.declaration.start_values.push_back(start(value, component, variable));
+    starts_.push_back({start(value, component, variable)});
   }
 
   /// To whatever a connector of a system leads: an input to all that it feeds, an output to what
   /// feeds it. `indices`: those behind its name.
   void apply(const ParameterValue& value, std::size_t port, const std::string& indices = "") {
     if (ports_[port].flow == Flow::Out) return apply_backward(value, port, indices);
-    const std::size_t before = flat_.declaration.start_values.size();
+    if (indices.empty()) given_[port] = &value;
+    const std::size_t before = starts_.size();
     graph_.follow(port, [&](const PortGraph::Way& found) {
       const PortConnection& last = connections_[found.back()];
       const Port& to = ports_[last.to];
@@ -203,9 +266,20 @@ class Flattener {
       for (std::size_t i = 0; i + 1 < found.size(); ++i) start.via.push_back(via(found[i]));
       start.suppress_unit_conversion = last.segment.suppress_unit_conversion;
       start.transformation = last.segment.transformation;
-      flat_.declaration.start_values.push_back(std::move(start));
+      starts_.push_back({std::move(start), found.size()});
     });
-    if (flat_.declaration.start_values.size() == before) report_open(value, port);
+    if (starts_.size() == before && !leads_out(port)) report_open(value, port);
+  }
+
+  /// Whether an output of the root system has the value of the port.
+  bool leads_out(std::size_t port) const {
+    const auto& connectors = graph_.connectors(root_);
+    return std::ranges::any_of(root_.connectors, [&](const Connector& connector) {
+      if (connector.flow != Flow::Out) return false;
+      const PortGraph::Way way = graph_.way_to(connectors.at(connector.declared.name));
+      return std::ranges::any_of(
+          way, [&](std::size_t connection) { return connections_[connection].from == port; });
+    });
   }
 
   void apply_backward(const ParameterValue& value, std::size_t port, const std::string& indices) {
@@ -231,7 +305,40 @@ class Flattener {
     start.transformation = via.back().segment.transformation;
     via.pop_back();
     start.via = std::move(via);
-    flat_.declaration.start_values.push_back(std::move(start));
+    starts_.push_back({std::move(start)});
+  }
+
+  /// A later one replaces an earlier one. A connector decides the value of what it is connected to,
+  /// so the connector comes after it, and the command line after the file.
+  void add_start_values() {
+    std::ranges::stable_sort(starts_, {}, [](const Start& start) {
+      return std::pair(!start.declaration.is_optional, start.connections);
+    });
+    note_overruled();
+    for (Start& start : starts_) {
+      flat_.declaration.start_values.push_back(std::move(start.declaration));
+    }
+  }
+
+  /// Values of the command line that another one replaces through a connection.
+  void note_overruled() {
+    std::map<std::pair<std::string, std::string>, const Start*> deciding;
+    for (const Start& start : starts_) {
+      const core::StartDeclaration& value = start.declaration;
+      if (!value.is_optional) deciding[{value.component, value.variable}] = &start;
+    }
+    for (const Start& start : starts_) {
+      const core::StartDeclaration& value = start.declaration;
+      if (value.is_optional) continue;
+      const Start& last = *deciding.at({value.component, value.variable});
+      if (last.connections == start.connections) continue;
+      warnings_.push_back(
+          core::to_text({.where = value.where}) +
+          fmt::format("the value is not used, since '{}.{}' is connected to '{}', which has one "
+                      "by {}",
+                      value.component, value.variable, last.declaration.via.front().connector.name,
+                      last.declaration.where.file));
+    }
   }
 
   static std::string warning(const ParameterValue& value, const std::string& message) {
@@ -287,8 +394,11 @@ class Flattener {
   PortGraph graph_;
   const std::vector<Port>& ports_;
   const std::vector<PortConnection>& connections_;
+  std::vector<std::string>& warnings_;
   core::LimitedWarnings unmatched_, open_;
   FlatSystem flat_;
+  std::vector<Start> starts_;
+  std::map<std::size_t, const ParameterValue*> given_;  ///< by port, the last one
   std::size_t groups_ = 0;
 };
 

@@ -18,10 +18,10 @@ struct FlatSystem {
 
 /// A component is named by its path from the root system, which is left out itself:
 /// "arm.motor.controller". Connections lead from component to component, by way of the connectors
-/// of systems and the signals of dictionaries in between. Values bound to a system come after
-/// those bound to what is in it, so they replace them, and one for a connector of a system, or for
-/// an element of one ("u[2]"), goes to all that it leads to. What leads nowhere is listed in
-/// `warnings`. Throws core::Error (Input).
+/// of systems and the signals of dictionaries in between. A value for a connector of a system, or
+/// for an element of one ("u[2]"), goes to all that it leads to, and replaces the values given
+/// there. Otherwise values bound to a system replace those bound to what is in it, and required
+/// ones all others. What leads nowhere is listed in `warnings`. Throws core::Error (Input).
 FlatSystem flatten(const SystemNode& root, std::vector<std::string>& warnings);
 
 }  // namespace stride::ssp

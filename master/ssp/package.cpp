@@ -6,6 +6,7 @@
 #include <string>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -23,15 +24,27 @@ namespace fs = std::filesystem;
 
 enum class Kind { Fmu, System, File };
 
+bool is_in_component(const xml::Element& element) {
+  return element.attribute_or("sourceBase", "SSD") == "component";
+}
+
+/// Where sources that are relative to a component are: in the folder of its .ssd, which becomes
+/// another one. Empty for those that are in the component's archive, which stays as it is.
+std::vector<fs::path> component_folders(const xml::Element& component,
+                                        std::span<const fs::path> folders) {
+  if (source_text(component).starts_with('#')) return {folders.begin(), folders.end()};
+  const fs::path source = source_of(component, folders).path;
+  return source.extension() == ".ssd" ? source_folders(source) : std::vector<fs::path>{};
+}
+
 bool names_a_file(const xml::Element& element) {
   const xml::Name name = element.name();
   const bool may =
       name == xml::Name{kSsd, "Component"} || name == xml::Name{kSsd, "ParameterBinding"} ||
       name == xml::Name{kSsd, "ParameterMapping"} || name == xml::Name{kSsd, "SignalDictionary"} ||
       name == xml::Name{kSsc, "MetaData"} || name == xml::Name{kSsc, "Signature"};
-  const std::string base = element.attribute_or("sourceBase", "SSD");
   const std::string source = element.attribute_or("source");
-  return may && (base == "SSD" || base == "file") && !source.empty() && !source.starts_with('#');
+  return may && !source.empty() && !source.starts_with('#');
 }
 
 Kind kind_of(const xml::Element& element, const fs::path& source) {
@@ -62,22 +75,33 @@ class Packer {
   std::string packed(const fs::path& path, const std::string& resources) {
     const xml::Document document = files_.document(path);
     xml::Editor editor(document.text());
-    replace_sources(document.root(), source_folders(path), resources, editor);
+    replace_sources(document.root(), {source_folders(path), {}}, resources, editor);
     return editor.result();
   }
 
-  void replace_sources(const xml::Element& element, std::span<const fs::path> folders,
-                       const std::string& resources, xml::Editor& editor) {
-    if (names_a_file(element)) {
+  /// What sources are relative to: the .ssd, or the component around them.
+  struct Bases {
+    std::vector<fs::path> folders, of_component;
+  };
+
+  void replace_sources(const xml::Element& element, Bases bases, const std::string& resources,
+                       xml::Editor& editor) {
+    const bool is_inside = is_in_component(element);
+    const std::vector<fs::path>& folders = is_inside ? bases.of_component : bases.folders;
+    if (names_a_file(element) && !folders.empty()) {
       const auto [source, fragment, warning] = source_of(element, folders);
       const std::string name = add(element, source);
       const std::string uri = name == "SystemStructure.ssd" ? "../" + name : resources + name;
       editor.set_attribute(
           element.index(), "source",
           core::uri_path(uri) + (fragment.empty() ? "" : "#" + core::uri_path(fragment)));
+      if (is_inside) editor.set_attribute(element.index(), "sourceBase", "SSD");
+    }
+    if (element.is(kSsd, "Component")) {
+      bases.of_component = component_folders(element, bases.folders);
     }
     for (const xml::Element& child : element.children()) {
-      replace_sources(child, folders, resources, editor);
+      replace_sources(child, bases, resources, editor);
     }
   }
 

@@ -3,14 +3,18 @@
 #include <algorithm>
 #include <array>
 #include <iterator>
+#include <map>
 #include <optional>
 #include <set>
 #include <string_view>
+#include <utility>
 
 #include <fmt/format.h>
 
+#include "master/ssp/connectors.h"
 #include "master/ssp/ssp.h"
 #include "master/ssp/transformation.h"
+#include "master/ssp/unique_names.h"
 #include "master/ssp/uri.h"
 #include "master/ssp/version.h"
 #include "master/util/input_file.h"
@@ -30,7 +34,9 @@ std::string listed_value(const xml::Element& type, const std::vector<xml::Elemen
     value.allow_attributes({"value"});
     const auto text = value.attribute("value");
     if (!text) value.fail(fmt::format("{} needs the attribute 'value'", value.tag()));
-    if (values.size() > 1 && (text->empty() || text->find_first_of(" \t\r\n") != text->npos)) {
+    const bool may_have_blanks = type.name().local == "Enumeration";  // its items are known by name
+    const bool has_blanks = text->find_first_of(" \t\r\n") != text->npos;
+    if (values.size() > 1 && (text->empty() || (has_blanks && !may_have_blanks))) {
       type.fail_unsupported(
           fmt::format("an array with an element that is empty or has blanks: \"{}\"", *text));
     }
@@ -75,10 +81,14 @@ ParameterValue read_parameter(const xml::Element& parameter, const Definitions& 
   }
   parameter.allow_attributes({"name"});
   std::optional<ParameterValue> result;
+  std::vector<core::DimensionDeclaration> dimensions;
   for (const xml::Element& child : parameter.children()) {
     if (child.is(kSsc, "Annotations") || child.is(kSsv, "Annotations")) continue;
     if (child.is(kSsc, "MetaData") || child.is(kSsc, "Signature")) continue;
-    if (child.is(kSsc, "Dimension")) continue;  // the unit's own dimensions hold
+    if (child.is(kSsc, "Dimension")) {
+      dimensions.push_back(read_dimension(child));
+      continue;
+    }
     if (result) child.fail(fmt::format("{} has two values", parameter.tag()));
     result = read_value(child, inside, around);
   }
@@ -87,7 +97,12 @@ ParameterValue read_parameter(const xml::Element& parameter, const Definitions& 
                    "write one such as <ssv:Float64 value=\"…\"/> into it");
   }
   result->name = parameter.required("name");
+  result->dimensions = std::move(dimensions);
   return *result;
+}
+
+bool is_same(const ParameterValue& a, const ParameterValue& b) {
+  return a.value == b.value && a.unit.name == b.unit.name;
 }
 
 std::vector<ParameterValue> read_set(const xml::Element& set, const Definitions& around,
@@ -110,10 +125,27 @@ std::vector<ParameterValue> read_set(const xml::Element& set, const Definitions&
   parameters->allow_children({{kSsv, "Parameter"}});
   const Definitions inside = read_definitions(set, kSsv, warnings);
   std::vector<ParameterValue> values;
+  std::map<std::string, std::size_t> places;
+  UniqueNames names("parameters", warnings);
   for (const xml::Element& parameter : parameters->children()) {
-    values.push_back(read_parameter(parameter, inside, around));
+    ParameterValue value = read_parameter(parameter, inside, around);
+    const std::size_t place = places.emplace(value.name, values.size()).first->second;
+    if (names.add(parameter, value.name, [&] { return is_same(values[place], value); })) {
+      values.push_back(std::move(value));
+    }
   }
   return values;
+}
+
+/// The folders that sources with sourceBase="component" are relative to.
+std::vector<std::filesystem::path> component_folders(const xml::Element& owner,
+                                                     const BindingContext& context) {
+  if (!context.component_folders.empty()) return context.component_folders;
+  if (context.component.empty()) {
+    owner.fail("only a component can hold its own parameters",
+               "name a file relative to this one, without sourceBase");
+  }
+  return {context.files.unit_folder(context.component, owner.where())};
 }
 
 /// What a binding or its mapping names, in a file or in a component.
@@ -123,14 +155,8 @@ xml::Document open(const xml::Element& owner, const BindingContext& context, con
     owner.fail(fmt::format("the sourceBase '{}' is not known", base),
                "it is SSD, or component for what is inside the component's FMU");
   }
-  std::vector<std::filesystem::path> folders = context.folders;
-  if (base == "component") {
-    if (context.component.empty()) {
-      owner.fail("only a component that is an FMU can hold its own parameters",
-                 "name a file relative to this one, without sourceBase");
-    }
-    folders = {context.files.unit_folder(context.component, owner.where())};
-  }
+  const std::vector<std::filesystem::path> folders =
+      base == "component" ? component_folders(owner, context) : context.folders;
   const std::filesystem::path path = source_path(owner, folders, context.warnings);
   if (context.files.is_ahead(path)) return context.files.document(path);
   if (const std::string reason = core::why_unreachable(path); !reason.empty()) {
@@ -140,15 +166,22 @@ xml::Document open(const xml::Element& owner, const BindingContext& context, con
   if (!core::path_exists(path)) {
     owner.fail(fmt::format("the {} '{}' does not exist", what, context.files.shown(path)),
                base == "SSD" ? "its path is relative to this file"
-                             : "its path is relative to the top of the component's FMU");
+                             : "its path is relative to the top of the component's FMU or package");
   }
   return context.files.document(path);
+}
+
+/// Likewise, what the command line names.
+xml::Document open(const std::filesystem::path& file, std::vector<std::string>& warnings) {
+  xml::Document document(file, "", kPrefixes);
+  warnings.insert(warnings.end(), document.warnings().begin(), document.warnings().end());
+  return document;
 }
 
 std::vector<ParameterValue> read_values(const xml::Element& binding,
                                         const BindingContext& context) {
   const auto inline_values = binding.child({kSsd, "ParameterValues"});
-  if (binding.attribute("source")) {
+  if (has_source(binding)) {
     if (inline_values) {
       inline_values->fail("a binding with a source cannot have values of its own, too",
                           "split it into two bindings");
@@ -202,11 +235,11 @@ bool map_values_of(const xml::Element& entry, const std::vector<ParameterValue>&
 /// names, and no name two parameters.
 std::vector<ParameterValue> map_values(const xml::Element& mapping,
                                        const std::vector<ParameterValue>& values,
-                                       const BindingContext& context) {
-  check_mapping(mapping, context.warnings);
+                                       std::vector<std::string>& warnings) {
+  check_mapping(mapping, warnings);
   std::vector<ParameterValue> mapped;
   std::set<std::string> targets;
-  core::LimitedWarnings missing(context.warnings, "entries whose parameter the set does not have");
+  core::LimitedWarnings missing(warnings, "entries whose parameter the set does not have");
   for (const xml::Element& entry : mapping.children({kSsm, "MappingEntry"})) {
     check_entry(entry);
     const std::string source = entry.given("source");
@@ -215,7 +248,7 @@ std::vector<ParameterValue> map_values(const xml::Element& mapping,
       entry.fail(fmt::format("two parameters are mapped to '{}'", target),
                  "keep one of the two entries");
     }
-    if (map_values_of(entry, values, context.warnings, mapped)) continue;
+    if (map_values_of(entry, values, warnings, mapped)) continue;
     if (!missing.count()) continue;
     missing.add(core::to_text({.where = entry.where()}) +
                 fmt::format("the parameter set has no '{}' to be mapped to '{}'", source, target));
@@ -235,14 +268,14 @@ std::vector<ParameterValue> read_mapped(const xml::Element& mapping,
                              fmt::format("the type '{}' is read", kMappingType));
   }
   const auto inside = mapping.child({kSsm, "ParameterMapping"});
-  if (mapping.attribute("source")) {
+  if (has_source(mapping)) {
     if (inside) inside->fail("a mapping with a source cannot have entries of its own, too");
-    return map_values(open(mapping, context, "parameter mapping").root(), values, context);
+    return map_values(open(mapping, context, "parameter mapping").root(), values, context.warnings);
   }
   if (!inside) {
     mapping.fail(fmt::format("{} has neither a source nor <ssm:ParameterMapping>", mapping.tag()));
   }
-  return map_values(*inside, values, context);
+  return map_values(*inside, values, context.warnings);
 }
 
 std::vector<ParameterValue> read_binding(const xml::Element& binding,
@@ -290,9 +323,13 @@ std::vector<ParameterValue> read_parameters(const xml::Element& owner,
 
 std::vector<ParameterValue> read_parameter_set(const std::filesystem::path& file,
                                                std::vector<std::string>& warnings) {
-  const xml::Document document(file, "", kPrefixes);
-  warnings.insert(warnings.end(), document.warnings().begin(), document.warnings().end());
-  return read_set(document.root(), {}, warnings);
+  return read_set(open(file, warnings).root(), {}, warnings);
+}
+
+std::vector<ParameterValue> map_parameters(const std::filesystem::path& mapping,
+                                           const std::vector<ParameterValue>& values,
+                                           std::vector<std::string>& warnings) {
+  return map_values(open(mapping, warnings).root(), values, warnings);
 }
 
 }  // namespace stride::ssp

@@ -18,8 +18,9 @@ struct BindingContext {
   Files& files;
   std::vector<std::filesystem::path> folders;  ///< of the .ssd
   const Definitions& definitions;              ///< of the .ssd
-  std::filesystem::path component{};           ///< the source of the component, if it is an FMU
   std::vector<std::string>& warnings;
+  std::filesystem::path component{};  ///< the source of the component, if it is an FMU
+  std::vector<std::filesystem::path> component_folders{};  ///< of its .ssd, if it is a system
 };
 
 /// The values of all bindings of a component or system, in the order of the file: a later one
@@ -32,6 +33,11 @@ std::vector<ParameterValue> read_parameters(const xml::Element& owner,
 /// is odd, but no mistake, is added to `warnings`. Throws core::Error (Input).
 std::vector<ParameterValue> read_parameter_set(const std::filesystem::path& file,
                                                std::vector<std::string>& warnings);
+/// Those of these values that a file which is a parameter mapping (.ssm) names, by their new names;
+/// a name that it maps and no value has is warned of. Throws core::Error (Input).
+std::vector<ParameterValue> map_parameters(const std::filesystem::path& mapping,
+                                           const std::vector<ParameterValue>& values,
+                                           std::vector<std::string>& warnings);
 
 }  // namespace stride::ssp
 

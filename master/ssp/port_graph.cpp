@@ -37,7 +37,7 @@ bool does_the_same(const core::PathSegment& a, const core::PathSegment& b) {
 PortGraph::PortGraph(const SystemNode& root) {
   add_system(root, "", nullptr);
   for (std::size_t i = 0; i < connections_.size(); ++i) check_connection(i);
-  for (const auto& [key, port] : shared_) warn_without_source(ports_[port]);
+  for (std::size_t i = root.connectors.size(); i < ports_.size(); ++i) warn_of_dead_end(ports_[i]);
 }
 
 // ---- Ports ----
@@ -52,6 +52,7 @@ void PortGraph::add_system(const SystemNode& node, const std::string& prefix,
     Port port{joined(prefix, declared.name), connector.flow, Port::kNone, declared.name, {}};
     port.path_connector = {port.path, declared.type, declared.unit, declared.items,
                            connector.flow == Flow::In};
+    port.kin = declared.kin;
     port.dimensions = declared.dimensions;
     port.where = declared.where;
     system.ports.emplace(declared.name, ports_.size());
@@ -252,15 +253,29 @@ void PortGraph::fail_direction(std::size_t start, std::size_t end, Role role,
                    "to its outputs");
 }
 
-/// Of a signal of a dictionary, which has no kind that would say so.
-void PortGraph::warn_without_source(const Port& port) {
-  if (port.is_component() || port.outgoing.empty() || !port.incoming.empty()) return;
-  const PortConnection& first = connections_[port.outgoing.front()];
-  warnings_.push_back(
-      core::to_text({.where = first.where}) +
-      fmt::format("the signal '{}' has no source, so '{}' gets no value from it\n  hint: end the "
-                  "connection of its source at it, or declare the connectors with their kinds",
-                  port.path, ports_[first.to].path));
+/// Of a connection that begins or ends at a connector of a system, or at a signal of a dictionary,
+/// on whose other side there is none. An input without a source has its start value, and an output
+/// may be of no use.
+void PortGraph::warn_of_dead_end(const Port& port) {
+  if (port.is_component() || port.incoming.empty() == port.outgoing.empty()) return;
+  if (port.incoming.empty() && port.flow != Flow::In) {
+    const PortConnection& first = connections_[port.outgoing.front()];
+    const bool is_connector = port.flow == Flow::Out;
+    warnings_.push_back(
+        core::to_text({.where = first.where}) +
+        fmt::format("the {} '{}' has no source, so '{}' gets no value from it\n  hint: {}",
+                    is_connector ? "connector" : "signal", port.path, ports_[first.to].path,
+                    is_connector ? "connect an output inside of the system to it"
+                                 : "end the connection of its source at it, or declare the "
+                                   "connectors with their kinds"));
+  } else if (port.outgoing.empty() && port.flow == Flow::In) {
+    const PortConnection& last = connections_[port.incoming.front()];
+    warnings_.push_back(
+        core::to_text({.where = last.where}) +
+        fmt::format("the connector '{}' is connected to nothing inside of its system, so the value "
+                    "of '{}' goes nowhere\n  hint: connect it to an input inside of the system",
+                    port.path, ports_[last.from].path));
+  }
 }
 
 void PortGraph::check_connection(std::size_t connection) const {
@@ -299,15 +314,26 @@ void PortGraph::follow(std::size_t port, Way& way,
 }
 
 PortGraph::Way PortGraph::way_to(std::size_t port) const {
+  auto [way, round] = trace(port);
+  if (round) fail_round(connections_[*round]);
+  return std::move(way);
+}
+
+std::optional<PortGraph::Way> PortGraph::find_way_to(std::size_t port) const {
+  auto [way, round] = trace(port);
+  return round ? std::nullopt : std::optional(std::move(way));
+}
+
+std::pair<PortGraph::Way, std::optional<std::size_t>> PortGraph::trace(std::size_t port) const {
   Way way;
   std::set<std::size_t> seen;
   while (!ports_[port].is_component() && !ports_[port].incoming.empty()) {
     const std::size_t connection = ports_[port].incoming.front();
-    if (!seen.insert(connection).second) fail_round(connections_[connection]);
+    if (!seen.insert(connection).second) return {std::move(way), connection};
     way.insert(way.begin(), connection);
     port = connections_[connection].from;
   }
-  return way;
+  return {std::move(way), std::nullopt};
 }
 
 void PortGraph::fail_round(const PortConnection& connection) const {

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -23,6 +24,7 @@ struct Port {
   std::size_t component = kNone;  ///< of a component's connector
   std::string connector;
   core::PathConnector path_connector{};  ///< of another
+  std::optional<core::ValueType> kin{};  ///< where its type leaves the width open
   std::vector<core::DimensionDeclaration> dimensions{};
   core::Location where{};               ///< where another than a component's is declared
   std::vector<std::size_t> outgoing{};  ///< connections
@@ -55,7 +57,7 @@ class PortGraph {
   const std::vector<Component>& components() const { return components_; }
   const std::vector<Port>& ports() const { return ports_; }
   const std::vector<PortConnection>& connections() const { return connections_; }
-  /// Of what is there twice, and of signals without a source, as text.
+  /// Of what is there twice, and of connections that lead nowhere, as text.
   const std::vector<std::string>& warnings() const { return warnings_; }
   /// The index of an FMU of the tree.
   std::size_t component(const ElementNode& node) const { return places_.at(&node); }
@@ -72,6 +74,8 @@ class PortGraph {
   void follow(std::size_t port, const std::function<void(const Way&)>& found) const;
   /// The way from what feeds the port, another than a component's connector; empty if nothing does.
   Way way_to(std::size_t port) const;
+  /// Likewise; nothing if it leads back to itself, where way_to() throws core::Error (Input).
+  std::optional<Way> find_way_to(std::size_t port) const;
 
  private:
   /// The part that a port plays within a system.
@@ -99,8 +103,10 @@ class PortGraph {
   bool is_there(const PortConnection& connection);
   [[noreturn]] void fail_direction(std::size_t start, std::size_t end, Role role,
                                    const core::Location& where) const;
-  void warn_without_source(const Port& port);
+  void warn_of_dead_end(const Port& port);
   void check_connection(std::size_t connection) const;
+  /// The way, and the connection that leads back to it, if one does.
+  std::pair<Way, std::optional<std::size_t>> trace(std::size_t port) const;
   void follow(std::size_t port, Way& way, const std::function<void(const Way&)>& found) const;
   [[noreturn]] static void fail_unknown(const System& system, const std::string& path,
                                         const std::string& connector, const core::Location& where);

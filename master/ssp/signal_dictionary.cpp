@@ -24,7 +24,7 @@ core::ConnectorDeclaration read_entry(const xml::Element& element, const SspFile
     if (child.is(kSsb, "Annotations")) continue;
     if (child.is(kSsc, "MetaData") || child.is(kSsc, "Signature")) continue;
     if (child.is(kSsc, "Dimension")) {
-      read_dimension(child, entry);
+      entry.dimensions.push_back(read_dimension(child));
       continue;
     }
     if (read_type(child, file, entry, warnings)) continue;
@@ -76,7 +76,7 @@ SignalDictionary read_dictionary(const xml::Element& element, const DictionaryCo
     element.fail_unsupported(fmt::format("signal dictionaries of the type '{}'", type),
                              fmt::format("the type '{}' is read", kDictionaryType));
   }
-  if (element.attribute("source")) {
+  if (has_source(element)) {
     const std::filesystem::path path = source_path(element, context.folders, context.warnings);
     return read_entries(context.files.document(path).root(), context);
   }

@@ -105,14 +105,12 @@ class SystemReader {
         system.connections.push_back(read_connection(connection));
       }
     }
-    system.parameters = read_bindings(element, {});
+    system.parameters = read_parameters(element, binding_context());
     return system;
   }
 
-  std::vector<ParameterValue> read_bindings(const xml::Element& owner,
-                                            const std::filesystem::path& component) const {
-    return read_parameters(
-        owner, {reading_.files, folders_, file_.definitions, component, reading_.warnings});
+  BindingContext binding_context() const {
+    return {reading_.files, folders_, file_.definitions, reading_.warnings};
   }
 
   void read_elements(const xml::Element& elements, SystemNode& system) {
@@ -168,22 +166,21 @@ class SystemReader {
   ElementNode read_component(const xml::Element& element) {
     element.allow_attributes({"name", "type", "source", "implementation"});
     ElementNode node = read_leaf(element);
-    if (!element.attribute("source")) {
+    if (!has_source(element)) {
       element.fail(fmt::format("the component '{}' has no source", node.name),
                    "name its FMU: source=\"unit.fmu\"");
     }
     if (is_system(element)) {
-      node.system = std::make_unique<SystemNode>(read_component_system(element));
-      for (ParameterValue& value : read_bindings(element, {})) {
-        node.system->parameters.push_back(std::move(value));
-      }
+      read_component_system(element, node);
       return node;
     }
     check_implementation(element);
     check_kinds(element, node);
     node.source = source_path(element, folders_, reading_.warnings);
     check_package(element, node.source);
-    node.parameters = read_bindings(element, node.source);
+    BindingContext context = binding_context();
+    context.component = node.source;
+    node.parameters = read_parameters(element, context);
     node.units_of_measure = units_of_measure_;
     return node;
   }
@@ -249,7 +246,20 @@ class SystemReader {
                      implementation));
   }
 
-  SystemNode read_component_system(const xml::Element& component) {
+  void read_component_system(const xml::Element& component, ElementNode& node) {
+    const bool is_own = source_text(component).starts_with('#');
+    const std::filesystem::path file = is_own ? path_ : find_system_file(component);
+    node.system = std::make_unique<SystemNode>(read_nested(
+        component, [&] { return is_own ? read_own_system(component) : read_file(file); }));
+    BindingContext context = binding_context();
+    context.component_folders = source_folders(file);
+    for (ParameterValue& value : read_parameters(component, context)) {
+      node.system->parameters.push_back(std::move(value));
+    }
+  }
+
+  template <class Read>
+  SystemNode read_nested(const xml::Element& component, Read&& read_inside) {
     if (reading_.open.size() >= kMostNested) {
       const core::Location& first = reading_.open.front();
       component.fail(fmt::format("more than {} systems inside each other, begun in {}:{}; one of "
@@ -258,8 +268,7 @@ class SystemReader {
                      "take the component out that leads back");
     }
     reading_.open.push_back(component.where());
-    SystemNode system = source_text(component).starts_with('#') ? read_own_system(component)
-                                                                : read_other_file(component);
+    SystemNode system = read_inside();
     reading_.open.pop_back();
     return system;
   }
@@ -267,7 +276,7 @@ class SystemReader {
   /// A system in this file, used once more: source="#id".
   SystemNode read_own_system(const xml::Element& component) {
     const std::string id = source_text(component).substr(1);
-    if (own_systems_.empty()) collect_systems(root_);
+    if (own_systems_.empty()) own_systems_ = systems_by_id(root_);
     const auto found = own_systems_.find(id);
     if (found == own_systems_.end()) {
       component.fail(fmt::format("no <ssd:System> of this file has the id '{}'", id),
@@ -276,24 +285,18 @@ class SystemReader {
     return read_system(found->second);
   }
 
-  void collect_systems(const xml::Element& below) {
-    for (const xml::Element& child : below.children()) {
-      const auto id = child.attribute("id");
-      if (id && child.is(kSsd, "System")) own_systems_.emplace(*id, child);
-      collect_systems(child);
-    }
-  }
-
-  SystemNode read_other_file(const xml::Element& component) {
+  std::filesystem::path find_system_file(const xml::Element& component) {
     const auto [source, variant, warning] = source_of(component, folders_);
     if (!warning.empty()) reading_.warnings.push_back(warning);
     if (!reading_.files.is_ahead(source) && !core::path_exists(source)) {
       component.fail(fmt::format("the system '{}' does not exist", reading_.files.shown(source)),
                      "its path is relative to this file");
     }
-    const std::filesystem::path path =
-        variant.empty() ? reading_.files.system_file(source, component.where())
-                        : reading_.files.system_file(source, variant, component.where());
+    return variant.empty() ? reading_.files.system_file(source, component.where())
+                           : reading_.files.system_file(source, variant, component.where());
+  }
+
+  SystemNode read_file(const std::filesystem::path& path) {
     const xml::Document document = reading_.files.document(path);
     const xml::Element root = document.root();
     check_system_description(root);
@@ -345,7 +348,21 @@ class SystemReader {
   std::map<std::string, xml::Element> own_systems_;  ///< by id, when one of them was referred to
 };
 
+void collect_systems(const xml::Element& below, std::map<std::string, xml::Element>& systems) {
+  for (const xml::Element& child : below.children()) {
+    const auto id = child.attribute("id");
+    if (id && child.is(kSsd, "System")) systems.emplace(*id, child);
+    collect_systems(child, systems);
+  }
+}
+
 }  // namespace
+
+std::map<std::string, xml::Element> systems_by_id(const xml::Element& root) {
+  std::map<std::string, xml::Element> systems;
+  collect_systems(root, systems);
+  return systems;
+}
 
 void check_system_description(const xml::Element& root) {
   if (!root.is(kSsd, "SystemStructureDescription")) {

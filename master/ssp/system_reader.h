@@ -3,6 +3,7 @@
 #define STRIDE_MASTER_SSP_SYSTEM_READER_H
 
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -16,6 +17,9 @@ namespace stride::ssp {
 /// Checks the root element of a .ssd. Throws core::Error (Input), also for a file of another kind,
 /// which it calls by its name.
 void check_system_description(const xml::Element& root);
+
+/// The <ssd:System> elements below a root element, by their ids, which source="#id" names.
+std::map<std::string, xml::Element> systems_by_id(const xml::Element& root);
 
 /// Reads the system below a root element that was checked, and the .ssd and .ssp files that are
 /// components of it. `path` is its file; what is odd, but no mistake, is listed in

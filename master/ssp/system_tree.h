@@ -29,6 +29,7 @@ struct ParameterValue {
   core::Location where;
   core::PathSegment segment{};  ///< of its parameter mapping
   bool is_required = false;     ///< a mistake, if it has no target; SSP's are ignored then
+  std::vector<core::DimensionDeclaration> dimensions{};  ///< none: not checked
 };
 
 /// The signals that all references to a signal dictionary share, by name.

@@ -139,6 +139,10 @@ Source source_in(const fs::path& folder, const xml::Element& element) {
 
 }  // namespace
 
+bool has_source(const xml::Element& element) {
+  return !xml::without_blanks(element.attribute_or("source")).empty();
+}
+
 std::string source_text(const xml::Element& element) {
   return xml::without_blanks(element.required("source"));
 }

@@ -18,6 +18,9 @@ struct Source {
   std::string warning{};  ///< where a file is named in another way than it should be
 };
 
+/// Whether there is an attribute `source`. One that is empty counts as absent.
+bool has_source(const xml::Element& element);
+
 /// The attribute `source`, which must be there, as it is written but for blanks around it.
 std::string source_text(const xml::Element& element);
 

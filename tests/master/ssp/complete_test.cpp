@@ -202,3 +202,28 @@ TEST_CASE("further connections are added where they are missing, in the outermos
   CHECK_THAT(text, !Contains("cell.a"));
   CHECK(add(text) == text);
 }
+
+TEST_CASE("a system that is used more than once is completed, without the sizes that differ") {
+  const auto of_size = [](std::size_t size) {
+    auto description = std::make_shared<core::UnitDescription>();
+    description->variables.push_back(variable("y", 1, ValueType::Float64));
+    description->variables.push_back(variable("z", 2, ValueType::Float64));
+    for (core::Variable& array : description->variables) array.dimensions = {3};
+    description->variables[0].dimensions = {size};
+    return description;
+  };
+  const std::string text = ssd_with(
+      "<ssd:System name='s' id='s'><ssd:Elements><ssd:Component name='c' source='c.fmu'/>"
+      "</ssd:Elements></ssd:System>\n<ssd:Component name='t' source='#s'/>");
+  const TemporaryFolder folder;
+  const auto file = folder.write("x.ssd", text);
+  const auto with = [&](std::size_t second) {
+    return complete(file, {{"s.c", of_size(2)}, {"t.c", of_size(second)}});
+  };
+  CHECK_THAT(with(2), Contains("<ssd:Connector name=\"y\" kind=\"output\"><ssc:Float64/>"
+                               "<ssc:Dimension size=\"2\"/></ssd:Connector>"));
+  CHECK_THAT(with(4), Contains("<ssd:Connector name=\"y\" kind=\"output\"><ssc:Float64/>"
+                               "</ssd:Connector>") &&
+                          Contains("<ssd:Connector name=\"z\" kind=\"output\"><ssc:Float64/>"
+                                   "<ssc:Dimension size=\"3\"/></ssd:Connector>"));
+}

@@ -67,6 +67,32 @@ TEST_CASE("what a file does not define another may") {
   CHECK(inside.unit("b", around).meaning->exponents[2] == 1);
 }
 
+TEST_CASE(
+    "a name that is defined twice is an error, or a warning if the definitions are the same") {
+  const auto units = [](const std::string& second) {
+    return "<ssd:Units><ssc:Unit name='L'><ssc:BaseUnit m='1' factor='10'/></ssc:Unit>\n"
+           "<ssc:Unit name='L'><ssc:BaseUnit m='1' factor='" +
+           second + "'/></ssc:Unit></ssd:Units>";
+  };
+  const auto enumerations = [](const std::string& second) {
+    return "<ssd:Enumerations><ssc:Enumeration name='E'><ssc:Item name='a' value='1'/>"
+           "</ssc:Enumeration>\n<ssc:Enumeration name='E'>" +
+           second + "</ssc:Enumeration></ssd:Enumerations>";
+  };
+  const std::string a1 = "<ssc:Item name='a' value='1'/>", a2 = "<ssc:Item name='a' value='2'/>";
+  CHECK_THROWS_WITH(read_inside(units("100")),
+                    Contains("x.ssd:4: two units of measure are named 'L'; the first is in line 3, "
+                             "and they differ"));
+  CHECK_THROWS_WITH(read_inside(enumerations(a2)), Contains("x.ssd:4: two enumerations are named"));
+  CHECK_THROWS_WITH(read_inside(enumerations(a1 + a2)), Contains("x.ssd:4: two items are named"));
+  for (const std::string& same : {units("10"), enumerations(a1)}) {
+    std::vector<std::string> warnings;
+    read_inside(same, warnings);
+    REQUIRE(warnings.size() == 1);
+    CHECK_THAT(warnings[0], Contains("x.ssd:4: two ") && Contains("they are the same"));
+  }
+}
+
 TEST_CASE("malformed definitions are refused") {
   const auto unit = [](const std::string& base) {
     return "<ssd:Units><ssc:Unit name='a'>\n<ssc:BaseUnit " + base + "/></ssc:Unit></ssd:Units>";

@@ -172,6 +172,72 @@ TEST_CASE(
   CHECK(values(scenario) == Strings{"s.c.k = 2", "s.c.k = 3"});
 }
 
+TEST_CASE("a connection from a system's connector decides, whatever is given to the element") {
+  const auto value = [](const std::string& text) { return "<ssv:Real value='" + text + "'/>"; };
+  const std::string of_component =
+      "<ssd:Component name='c' source='c.fmu'>" + parameters("k", value("1")) + "</ssd:Component>";
+  const std::string inner = system("s", connector("p", "parameter"), of_component, wire("p", "c.k"),
+                                   "", parameters("p", value("2")) + parameters("c.k", value("3")));
+  const auto decided = [&](const std::string& of_root) {
+    return values(read(ssd(system("root", connector("q", "parameter"), inner, wire("q", "s.p"), "",
+                                  of_root))))
+        .back();
+  };
+  const std::string direct = parameters("s.c.k", value("4"));
+  const std::string nested = parameters("s.p", value("5"));
+  const std::string outermost = parameters("q", value("6"));
+  CHECK(decided("") == "s.c.k = 2");
+  CHECK(decided(direct) == "s.c.k = 2");
+  CHECK(decided(nested + direct) == "s.c.k = 5");
+  CHECK(decided(outermost + nested + direct) == "s.c.k = 6");
+}
+
+TEST_CASE("the command line decides over the file, and a connector among its values") {
+  const TemporaryFolder folder;
+  const auto file = folder.write(
+      "x.ssd", ssd(system("root", connector("q", "parameter"), component("c"), wire("q", "c.k"), "",
+                          parameters("q", "<ssv:Real value='1'/>"))));
+  const ParameterValue direct{"c.k", "2", {}, {"--set c.k=2", 0}, {}, true};
+  const ParameterValue decisive{"q", "3", {}, {"--set q=3", 0}, {}, true};
+  CHECK(values(read_scenario(file, {{}, {direct}})).back() == "c.k = 2");
+  const Scenario scenario = read_scenario(file, {{}, {decisive, direct}});
+  CHECK(values(scenario).back() == "c.k = 3");
+  REQUIRE(scenario.warnings.size() == 1);
+  CHECK_THAT(scenario.warnings[0], Contains("--set c.k=2: the value is not used") &&
+                                       Contains("connected to 'q', which has one by --set q=3"));
+}
+
+TEST_CASE("connectors of systems can be recorded: those of the root, and on demand of others") {
+  const Scenario scenario =
+      read(ssd(system("root", connector("y", "output"), component("a") + filter("s"),
+                      wire("a.y", "s.u") + wire("s.y", "y"))));
+  Strings outputs;
+  for (const core::OutputDeclaration& output : scenario.system.outputs) {
+    outputs.push_back(output.via.back().connector.name + " = " + output.component + "." +
+                      output.variable + (output.is_inner ? " inside" : ""));
+  }
+  CHECK(outputs == Strings{"y = s.core.y", "s.u = a.y inside", "s.y = s.core.y inside"});
+}
+
+TEST_CASE("an output that an input of the root leads to has the value that is given to it") {
+  const Scenario scenario = read(
+      ssd(system("root",
+                 connector("i", "input", "<ssc:Real/>") + connector("o", "output", "<ssc:Real/>") +
+                     connector("open", "input") + connector("p", "output"),
+                 component("a"), wire("i", "o") + wire("open", "p"), "",
+                 parameters("i", "<ssv:Real value='4'/>")),
+          "1.0"));
+  CHECK(scenario.warnings.empty());
+  REQUIRE(scenario.system.outputs.size() == 1);
+  const core::OutputDeclaration& output = scenario.system.outputs[0];
+  CHECK(output.component.empty());
+  CHECK(output.value == "4");
+  REQUIRE(output.via.size() == 2);
+  CHECK(output.via[0].connector.name == "i");
+  CHECK(output.via[1].connector.name == "o");
+  CHECK(output.via[1].connector.type == core::ValueType::Float64);
+}
+
 TEST_CASE("a value for a connector of a system goes where the connector leads") {
   const auto with = [](const std::string& name, const std::string& inner_wire) {
     const std::string s =

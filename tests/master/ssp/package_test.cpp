@@ -72,6 +72,20 @@ TEST_CASE("what a scenario names, at any depth, is packed once and named anew") 
   CHECK(scenario.warnings.empty());
 }
 
+TEST_CASE("parameters that are relative to a component in another file are packed") {
+  const TemporaryFolder folder;
+  std::filesystem::create_directories(folder / "sub");
+  folder.write("x.fmu", "one");
+  folder.write("sub/own.ssv", kSet);
+  folder.write("sub/s.ssd", ssd_with(component("x", "../x.fmu")));
+  const std::string binding =
+      "<ssd:ParameterBindings><ssd:ParameterBinding sourceBase='component' source='own.ssv'/>"
+      "</ssd:ParameterBindings>";
+  archive::write_zip(folder / "x.ssp",
+                     pack(folder.write("x.ssd", ssd_with(component("s", "sub/s.ssd", binding)))));
+  CHECK(read_scenario(folder / "x.ssp").warnings.empty());
+}
+
 TEST_CASE("the same scenario makes the same package") {
   const TemporaryFolder folder;
   folder.write("a.fmu", "one");

@@ -236,6 +236,24 @@ TEST_CASE("Many entries of a mapping without an effect are counted") {
   CHECK(warnings.back() == "… and 80 more entries whose parameter the set does not have");
 }
 
+TEST_CASE("a file that is a mapping renames the values of a set") {
+  const TemporaryFolder folder;
+  std::vector<std::string> warnings;
+  const auto values =
+      read_parameter_set(folder.write("x.ssv", set(parameter("p", "<ssv:Real value='2'/>") +
+                                                   parameter("q", "<ssv:Real value='3'/>"))),
+                         warnings);
+  const auto file = folder.write("x.ssm", mapping(entry("p", "a.k") + entry("r", "a.u")));
+  const auto mapped = map_parameters(file, values, warnings);
+  REQUIRE(mapped.size() == 1);
+  CHECK(mapped[0].name == "a.k");
+  CHECK(mapped[0].value == "2");
+  REQUIRE(warnings.size() == 1);
+  CHECK_THAT(warnings[0], Contains("x.ssm:1: the parameter set has no 'r'"));
+  CHECK_THROWS_WITH(map_parameters(folder / "x.ssv", values, warnings),
+                    Contains("is not a parameter mapping"));
+}
+
 TEST_CASE("The units of a set are those that it defines, or the scenario's if it is inside") {
   const auto unit = [](const std::string& name_space, const std::string& factor) {
     return "<" + name_space + ":Units><ssc:Unit name='in'><ssc:BaseUnit m='1' factor='" + factor +
@@ -272,7 +290,66 @@ TEST_CASE("A component can hold its own parameters") {
                     Contains("x.ssd:5: ") && Contains("b.fmu"));
   CHECK_THROWS_WITH(
       read_values(system_with("<ssd:ParameterBinding source='own.ssv' sourceBase='component'/>")),
-      Contains("x.ssd:3: only a component that is an FMU can hold its own parameters"));
+      Contains("x.ssd:3: only a component can hold its own parameters"));
+}
+
+TEST_CASE("A component that is a system in another file can hold its own parameters, too") {
+  const TemporaryFolder folder;
+  std::filesystem::create_directories(folder / "sub/resources");
+  folder.write("sub/resources/own.ssv", set(parameter("c.x", "<ssv:Real value='4'/>")));
+  folder.write("sub/s.ssd", ssd_with("<ssd:Component name='c' source='c.fmu'/>"));
+  const auto file =
+      folder.write("x.ssd", ssd_with("<ssd:Component name='s' source='sub/s.ssd'>" +
+                                     bindings("<ssd:ParameterBinding source='resources/own.ssv' "
+                                              "sourceBase='component'/>") +
+                                     "</ssd:Component>"));
+  const StartDeclaration value = read_scenario(file).system.start_values.at(0);
+  CHECK(value.component == "s.c");
+  CHECK(value.value == "4");
+}
+
+TEST_CASE("A source that is empty is absent") {
+  const auto values = read_values(
+      component_with(inline_binding(parameter("x", "<ssv:Real value='1'/>"), "source=' '") +
+                     "<ssd:ParameterBinding source=''><ssd:ParameterValues>" +
+                     set(parameter("y", "<ssv:Real value='2'/>")) +
+                     "</ssd:ParameterValues><ssd:ParameterMapping source=''>" +
+                     mapping(entry("y", "z")) + "</ssd:ParameterMapping></ssd:ParameterBinding>"));
+  REQUIRE(values.size() == 2);
+  CHECK(values[0].variable == "x");
+  CHECK(values[1].variable == "z");
+  CHECK_THROWS_WITH(read_values(component_with("<ssd:ParameterBinding source=''/>")),
+                    Contains("x.ssd:5: ") && Contains("has neither a source nor"));
+  CHECK_THROWS_WITH(read_values(ssd_with("<ssd:Component name='a' source=''/>")),
+                    Contains("the component 'a' has no source"));
+}
+
+TEST_CASE("Two parameters of one name in a set are an error, or a warning if they are the same") {
+  const auto twice = [](const std::string& second) {
+    return component_with(
+        inline_binding(parameter("x", "<ssv:Real value='1' unit='m'/>") + "\n" + second));
+  };
+  for (const char* other : {"<ssv:Real value='2' unit='m'/>", "<ssv:Real value='1' unit='mm'/>"}) {
+    CHECK_THROWS_WITH(
+        read_values(twice(parameter("x", other))),
+        Contains("x.ssd:6: two parameters are named 'x'; the first is in line 5, and they differ"));
+  }
+  const TemporaryFolder folder;
+  const Scenario scenario =
+      read_scenario(folder.write("x.ssd", twice(parameter("x", "<ssv:Real value='1' unit='m'/>"))));
+  CHECK(scenario.system.start_values.size() == 1);
+  REQUIRE(scenario.warnings.size() == 1);
+  CHECK_THAT(scenario.warnings[0], Contains("x.ssd:6: two parameters are named 'x'"));
+}
+
+TEST_CASE("The dimensions of a parameter are read") {
+  const auto values = read_values(component_with(inline_binding(
+      parameter("x",
+                "<ssv:Float64><ssv:Value value='1'/><ssv:Value value='2'/></ssv:Float64>"
+                "<ssc:Dimension size='2'/><ssc:Dimension sizeConnector='n'/>"))));
+  REQUIRE(values.at(0).dimensions.size() == 2);
+  CHECK(values[0].dimensions[0].size == 2);
+  CHECK(values[0].dimensions[1].size_connector == "n");
 }
 
 TEST_CASE("A set in a file of its own is read relative to the scenario") {

@@ -127,6 +127,19 @@ TEST_CASE("the error of two systems' clocks that both are inputs has the way out
                                          Contains("time-based clock") && Contains("kind output"));
 }
 
+TEST_CASE("a connection that leads nowhere is a warning with its place") {
+  SystemNode root = tree();
+  SystemNode& inner = *root.elements[1].system;
+  root.connections.push_back(wired({"s", "y"}, {"a", "u"}));
+  CHECK(PortGraph(root).warnings().empty());
+  inner.connections = {wired({"c", "y"}, {"d", "u"})};
+  const std::vector<std::string> warnings = PortGraph(root).warnings();
+  REQUIRE(warnings.size() == 2);
+  CHECK_THAT(warnings[0], Contains("x.ssd:1: the connector 's.u' is connected to nothing inside"));
+  CHECK_THAT(warnings[1], Contains("x.ssd:1: the connector 's.y' has no source, so 'a.u' gets no "
+                                   "value from it"));
+}
+
 TEST_CASE("two values cannot go to one connector of a system") {
   SystemNode root = tree();
   root.connections.push_back(wired({"a", "z"}, {"s", "u"}));
