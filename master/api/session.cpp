@@ -49,12 +49,13 @@ std::optional<recorders::ResultsLock> locked_folder(const results::ResultsTarget
 }
 
 scenario::InterventionDeclaration parse_intervention(const std::string& option,
-                                                     const std::string& text) {
-  if (option == "set-at") return scenario::parse_set_at(text);
-  if (option == "force") return scenario::parse_force(text);
-  if (option == "drop") return scenario::parse_drop(text);
-  if (option == "delay") return scenario::parse_delay(text);
-  if (option == "corrupt") return scenario::parse_corrupt(text);
+                                                     const std::string& text,
+                                                     const core::KnownNames& names) {
+  if (option == "set-at") return scenario::parse_set_at(text, names);
+  if (option == "force") return scenario::parse_force(text, names);
+  if (option == "drop") return scenario::parse_drop(text, names);
+  if (option == "delay") return scenario::parse_delay(text, names);
+  if (option == "corrupt") return scenario::parse_corrupt(text, names);
   const std::vector<std::string> known{"set-at", "force", "drop", "delay", "corrupt"};
   core::fail_input({}, fmt::format("there is no intervention '{}'", option),
                    core::suggestion(option, known));
@@ -307,6 +308,11 @@ void Session::require_value(core::VariableId id, const core::ValueBlock& value) 
   }
 }
 
+const core::KnownNames& Session::names() {
+  if (!names_) names_.emplace(system());
+  return *names_;
+}
+
 void Session::set(core::VariableId id, core::ValueBlock value) {
   require_under_way();
   if (system().is_output(id)) {
@@ -360,7 +366,7 @@ void Session::send(core::SentMessage message) {
 
 void Session::intervene(const std::string& option, const std::string& text) {
   require_under_way();
-  const scenario::InterventionDeclaration declared = parse_intervention(option, text);
+  const scenario::InterventionDeclaration declared = parse_intervention(option, text, names());
   if (declared.from < now()) {
     core::fail_input(
         {.where = declared.where, .time = now()},

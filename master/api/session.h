@@ -57,6 +57,8 @@ class Session {
   core::VariableId id(std::size_t index) const { return ids_.at(index); }
   std::size_t index(core::VariableId id) const;
   std::size_t find(const std::string& name) const;
+  /// That the texts of interventions may begin with.
+  const core::KnownNames& names();
   /// For an error about the variable.
   core::Context context(core::VariableId id) const;
 
@@ -107,6 +109,7 @@ class Session {
   std::vector<core::VariableId> ids_;
   std::vector<std::size_t> firsts_;  ///< of each component, and of the system's outputs, in `ids_`
   std::map<std::string, std::size_t, std::less<>> indices_;  ///< by name
+  std::optional<core::KnownNames> names_;                    ///< once they are asked for
   core::ChangesAtInstant changes_;                           ///< that are not made yet
   std::vector<scenario::InterventionDeclaration> interventions_;
   bool has_failed_ = false;

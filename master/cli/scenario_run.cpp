@@ -117,10 +117,12 @@ ProgressStyle progress_style(const RunArguments& arguments) {
   return arguments.progress.value_or(arguments.quiet ? ProgressStyle::None : ProgressStyle::Auto);
 }
 
-std::vector<capture::CaptureRequest> captures(const RunArguments& arguments) {
+std::vector<capture::CaptureRequest> captures(const RunArguments& arguments,
+                                              const core::KnownNames& components) {
   std::vector<capture::CaptureRequest> captures;
   for (const std::string& text : arguments.captures) {
-    auto [component, file] = scenario::component_file("--capture", text, "COMPONENT=FILE");
+    auto [component, file] =
+        scenario::component_file("--capture", text, "COMPONENT=FILE", components);
     captures.push_back({std::move(component), std::move(file)});
   }
   return captures;
@@ -366,7 +368,8 @@ ScenarioRun::ScenarioRun(const RunArguments& arguments, Records& records, LiveSe
 /// The files of the results, of which the first ones are those of captures.
 capture::Capture ScenarioRun::begin() const {
   results_.begin();
-  return {loaded_.system(), loaded_.scenario().name, options_, captures(arguments_),
+  return {loaded_.system(), loaded_.scenario().name, options_,
+          captures(arguments_, core::KnownNames(loaded_.component_names())),
           is_resumed() ? Existing::Kept : Existing::Emptied};
 }
 

@@ -71,7 +71,9 @@ class SourceReader {
   }
 
   void add_sources(const xml::Element& element, std::span<const fs::path> folders) {
-    if (!element.attribute_or("source").empty()) add_source(element, folders);
+    const std::string source = xml::without_blanks(element.attribute_or("source"));
+    const bool names_a_file = !source.empty() && !source.starts_with('#');  // a system of this one
+    if (names_a_file) add_source(element, folders);
     for (const xml::Element& child : element.children()) add_sources(child, folders);
   }
 
@@ -102,7 +104,7 @@ ScenarioFiles files_of_scenario(const fs::path& scenario, std::span<const std::s
   SourceReader reader;
   reader.add_scenario(scenario);
   for (const std::string& swap : swaps) {
-    if (const auto parts = scenario::split_component_file(swap)) reader.add_unit(parts->file);
+    if (const auto parts = scenario::split_existing_file(swap)) reader.add_unit(parts->file);
   }
   return std::move(reader).found();
 }

@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 #include <stdexcept>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -48,15 +49,16 @@ std::pair<std::string, std::string> split_time(const char* option, const std::st
 
 /// The form that all but --set-at have in common, without the kind.
 InterventionDeclaration parse_from_until(const char* option, const std::string& text,
-                                         const char* form) {
+                                         const char* form, const core::KnownNames& names) {
   const auto [assignment, times] = split_time(option, text, form);
   const std::size_t dots = times.find("..");
-  const std::size_t sign = assignment.find('=');
-  if (dots == std::string::npos || assignment.empty() || sign == 0) fail_form(option, text, form);
-  InterventionDeclaration declared{.variable = assignment.substr(0, sign),
+  if (dots == std::string::npos) fail_form(option, text, form);
+  auto [variable, value] = names.split(option, assignment, true);
+  if (variable.empty()) fail_form(option, text, form);
+  InterventionDeclaration declared{.variable = std::move(variable),
+                                   .value = std::move(value),
                                    .from = parse_time(option, text, times.substr(0, dots)),
                                    .where = {fmt::format("{} {}", option, text), 0}};
-  if (sign != std::string::npos) declared.value = assignment.substr(sign + 1);
   const std::string until = times.substr(dots + 2);
   if (!until.empty()) declared.until = parse_time(option, text, until);
   return declared;
@@ -305,40 +307,40 @@ void check_contradictions(const core::System& system, const Resolved& resolved) 
 
 }  // namespace
 
-InterventionDeclaration parse_set_at(const std::string& text) {
+InterventionDeclaration parse_set_at(const std::string& text, const core::KnownNames& names) {
   constexpr const char* kOption = "--set-at";
   const auto [assignment, time] = split_time(kOption, text, kSetForm);
-  const std::size_t sign = assignment.find('=');
-  if (sign == std::string::npos || sign == 0) fail_form(kOption, text, kSetForm);
+  auto [variable, value] = names.split(kOption, assignment, false);
+  if (!value || variable.empty()) fail_form(kOption, text, kSetForm);
   return {.kind = InterventionKind::Set,
-          .variable = assignment.substr(0, sign),
-          .value = assignment.substr(sign + 1),
+          .variable = std::move(variable),
+          .value = std::move(value),
           .from = parse_time(kOption, text, time),
           .where = {fmt::format("{} {}", kOption, text), 0}};
 }
 
-InterventionDeclaration parse_force(const std::string& text) {
-  InterventionDeclaration declared = parse_from_until("--force", text, kForceForm);
+InterventionDeclaration parse_force(const std::string& text, const core::KnownNames& names) {
+  InterventionDeclaration declared = parse_from_until("--force", text, kForceForm, names);
   declared.kind = declared.value ? InterventionKind::Force : InterventionKind::Hold;
   return declared;
 }
 
-InterventionDeclaration parse_drop(const std::string& text) {
-  InterventionDeclaration declared = parse_from_until("--drop", text, kDropForm);
+InterventionDeclaration parse_drop(const std::string& text, const core::KnownNames& names) {
+  InterventionDeclaration declared = parse_from_until("--drop", text, kDropForm, names);
   if (declared.value) fail_form("--drop", text, kDropForm);
   declared.kind = InterventionKind::Drop;
   return declared;
 }
 
-InterventionDeclaration parse_delay(const std::string& text) {
-  InterventionDeclaration declared = parse_from_until("--delay", text, kDelayForm);
+InterventionDeclaration parse_delay(const std::string& text, const core::KnownNames& names) {
+  InterventionDeclaration declared = parse_from_until("--delay", text, kDelayForm, names);
   if (!declared.value) fail_form("--delay", text, kDelayForm);
   declared.kind = InterventionKind::Delay;
   return declared;
 }
 
-InterventionDeclaration parse_corrupt(const std::string& text) {
-  InterventionDeclaration declared = parse_from_until("--corrupt", text, kCorruptForm);
+InterventionDeclaration parse_corrupt(const std::string& text, const core::KnownNames& names) {
+  InterventionDeclaration declared = parse_from_until("--corrupt", text, kCorruptForm, names);
   if (!declared.value) declared.value = "1";
   declared.kind = InterventionKind::Corrupt;
   const std::size_t header = declared.value->find(',');

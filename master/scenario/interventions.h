@@ -11,6 +11,7 @@
 #include <stride/time.h>
 
 #include "master/algorithm/intervention.h"
+#include "master/model/known_names.h"
 #include "master/model/system.h"
 #include "master/util/error.h"
 
@@ -29,18 +30,17 @@ struct InterventionDeclaration {
   core::Location where{};
 };
 
-/// Takes the text of `--set-at`, "COMPONENT.VARIABLE=VALUE@TIME". Throws core::Error (Input).
-InterventionDeclaration parse_set_at(const std::string& text);
-/// Takes the text of `--force`, "COMPONENT.VARIABLE[=VALUE]@FROM..[UNTIL]"; without a value it is
-/// held. Throws core::Error (Input).
-InterventionDeclaration parse_force(const std::string& text);
-/// Likewise of `--drop`, "COMPONENT.VARIABLE@FROM..[UNTIL]".
-InterventionDeclaration parse_drop(const std::string& text);
-/// Likewise of `--delay`, "COMPONENT.VARIABLE=SECONDS@FROM..[UNTIL]".
-InterventionDeclaration parse_delay(const std::string& text);
-/// Likewise of `--corrupt`, "COMPONENT.VARIABLE[=BITS[,HEADER[,SEED]]]@FROM..[UNTIL]"; one bit
-/// where none is given.
-InterventionDeclaration parse_corrupt(const std::string& text);
+/// Takes the text of an option that makes an intervention: of --set-at
+/// "COMPONENT.VARIABLE=VALUE@TIME", of --force "COMPONENT.VARIABLE[=VALUE]@FROM..[UNTIL]" (held
+/// without a value), of --drop "COMPONENT.VARIABLE@FROM..[UNTIL]", of --delay
+/// "COMPONENT.VARIABLE=SECONDS@FROM..[UNTIL]", and of --corrupt
+/// "COMPONENT.VARIABLE[=BITS[,HEADER[,SEED]]]@FROM..[UNTIL]" (one bit where none is given). `names`
+/// tell a '=' in a name from the one behind it. Throws core::Error (Input).
+InterventionDeclaration parse_set_at(const std::string& text, const core::KnownNames& names = {});
+InterventionDeclaration parse_force(const std::string& text, const core::KnownNames& names = {});
+InterventionDeclaration parse_drop(const std::string& text, const core::KnownNames& names = {});
+InterventionDeclaration parse_delay(const std::string& text, const core::KnownNames& names = {});
+InterventionDeclaration parse_corrupt(const std::string& text, const core::KnownNames& names = {});
 
 /// The run for which interventions are meant.
 struct RunTimes {

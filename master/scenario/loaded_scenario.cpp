@@ -51,18 +51,77 @@ Duration parse_option(const std::string& option, const std::string& text,
                    "startTime=\"…\"/>");
 }
 
-/// The parameters, and the values of --set, which have precedence.
-std::vector<ssp::ParameterValue> set_values(const ScenarioRequest& request) {
-  std::vector<ssp::ParameterValue> values = request.parameters;
-  for (const std::string& text : request.sets) {
-    const auto [name, value] = split_option("--set", text, "component.variable=value");
-    ssp::ParameterValue& added = values.emplace_back();
-    added.name = name;
-    added.value = value;
-    added.where = {fmt::format("--set {}", text), 0};
-    added.is_required = true;
+std::vector<std::string> names_of(std::span<const core::ComponentDeclaration> components) {
+  std::vector<std::string> names;
+  for (const core::ComponentDeclaration& component : components) names.push_back(component.name);
+  return names;
+}
+
+void swap(const std::string& text, Scenario& scenario) {
+  auto& components = scenario.system.components;
+  const std::vector<std::string> names = names_of(components);
+  const auto [name, file] =
+      component_file("--swap", text, "component=FILE.fmu", core::KnownNames(names));
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end()) {
+    core::fail_input({}, fmt::format("--swap {}: there is no component '{}'", text, name),
+                     core::suggestion(name, names));
   }
+  const auto i = static_cast<std::size_t>(found - names.begin());
+  scenario.sources[i] = file;
+  components[i].where = {fmt::format("--swap {}", text), 0};
+}
+
+ssp::ParameterValue set_value(const std::string& text, const core::KnownNames& names) {
+  const auto [name, value] = split_option("--set", text, "component.variable=value", names);
+  ssp::ParameterValue made;
+  made.name = name;
+  made.value = value;
+  made.where = {fmt::format("--set {}", text), 0};
+  made.is_required = true;
+  return made;
+}
+
+/// Whether a name holds a '=', or a value does.
+bool is_unclear(const std::string& text) { return std::ranges::count(text, '=') > 1; }
+
+/// The units may be loaded for it, since they know the names of their variables.
+core::KnownNames names_of_start_values(const ScenarioRequest& request, Scenario scenario) {
+  core::KnownNames names;
+  for (const core::InputDeclaration& input : scenario.system.inputs) {
+    names.add(input.via.front().connector.name, true);
+  }
+  for (const core::OutputDeclaration& output : scenario.system.outputs) {
+    names.add(output.via.back().connector.name, true);
+  }
+  for (const std::string& text : request.swaps) swap(text, scenario);
+  UnitStore own;
+  const auto fmus = load_fmus(scenario, request.units ? *request.units : own,
+                              hosts_for_loading(scenario, request.hosts));
+  for (std::size_t i = 0; i < fmus.size(); ++i) {
+    names.add(scenario.system.components[i].name + ".", *fmus[i]->description());
+  }
+  return names;
+}
+
+/// The parameters, and the values of --set, which have precedence.
+std::vector<ssp::ParameterValue> set_values(const ScenarioRequest& request,
+                                            const core::KnownNames& names) {
+  std::vector<ssp::ParameterValue> values = request.parameters;
+  for (const std::string& text : request.sets) values.push_back(set_value(text, names));
   return values;
+}
+
+ReadOptions read_options(const ScenarioRequest& request) {
+  ReadOptions options{find_unit, {}, request.files, nullptr};
+  if (std::ranges::any_of(request.sets, is_unclear)) {
+    options.late_parameters = [&](const Scenario& scenario) {
+      return set_values(request, names_of_start_values(request, scenario));
+    };
+  } else {
+    options.parameters = set_values(request, {});
+  }
+  return options;
 }
 
 ScenarioChanges changes_of(const ScenarioRequest& request) {
@@ -112,25 +171,33 @@ std::string assignment_hint(const std::string& option, const std::string& text) 
 }  // namespace
 
 std::pair<std::string, std::string> split_option(const std::string& option, const std::string& text,
-                                                 const std::string& form) {
-  const std::size_t at = text.find('=');
-  if (at == std::string::npos || at == 0) {
-    core::fail_input({}, fmt::format("{} {}: expected {}", option, text, form),
-                     assignment_hint(option, text));
-  }
-  return {text.substr(0, at), text.substr(at + 1)};
+                                                 const std::string& form,
+                                                 const core::KnownNames& names) {
+  auto [name, value] = names.split(option, text, false);
+  if (value && !name.empty()) return {std::move(name), *std::move(value)};
+  core::fail_input({}, fmt::format("{} {}: expected {}", option, text, form),
+                   assignment_hint(option, text));
 }
 
-std::optional<ComponentFile> split_component_file(const std::string& text) {
-  const std::size_t at = text.find('=');
-  if (at == std::string::npos || at == 0 || at + 1 == text.size()) return std::nullopt;
-  return ComponentFile{text.substr(0, at), text.substr(at + 1)};
+std::optional<ComponentFile> split_existing_file(const std::string& text) {
+  core::KnownNames names;
+  for (std::size_t end = text.find('='); end != text.npos; end = text.find('=', end + 1)) {
+    if (core::path_exists(text.substr(end + 1))) names.add(text.substr(0, end), true);
+  }
+  return split_component_file(text, names);
+}
+
+std::optional<ComponentFile> split_component_file(const std::string& text,
+                                                  const core::KnownNames& names) {
+  const auto [name, file] = names.split("", text, false);
+  if (name.empty() || !file || file->empty()) return std::nullopt;
+  return ComponentFile{name, *file};
 }
 
 ComponentFile component_file(const std::string& option, const std::string& text,
-                             const std::string& form) {
-  if (const auto parts = split_component_file(text)) return *parts;
-  split_option(option, text, form);  // there is one, unless this throws
+                             const std::string& form, const core::KnownNames& names) {
+  const auto [name, file] = split_option(option, text, form, names);
+  if (!file.empty()) return {name, file};
   core::fail_input({}, fmt::format("{} {}: no file is named", option, text));
 }
 
@@ -167,8 +234,8 @@ std::vector<std::shared_ptr<importer::Fmu>> load_fmus(const Scenario& scenario, 
 
 LoadedScenario::LoadedScenario(const ScenarioRequest& request)
     : changes_(changes_of(request)),
-      scenario_(read_scenario(request.scenario, {find_unit, set_values(request), request.files})) {
-  for (const std::string& text : request.swaps) swap(text);
+      scenario_(read_scenario(request.scenario, read_options(request))) {
+  for (const std::string& text : request.swaps) swap(text, scenario_);
   if (scenario_.system.components.empty()) {
     core::fail_input(of_file(), "the system has no component, so there is nothing to simulate");
   }
@@ -200,27 +267,12 @@ LoadedScenario::LoadedScenario(const ScenarioRequest& request)
 core::Context LoadedScenario::of_file() const { return {.where = {scenario_.path.string(), 0}}; }
 
 std::vector<std::string> LoadedScenario::component_names() const {
-  std::vector<std::string> names;
-  for (const auto& component : scenario_.system.components) names.push_back(component.name);
-  return names;
+  return names_of(scenario_.system.components);
 }
 
 bool LoadedScenario::stays_elsewhere(std::size_t component) const {
   const std::optional<Hosting>& hosting = hostings_[component];
   return hosting && hosting->remote && hosting->remote->sent.empty();
-}
-
-void LoadedScenario::swap(const std::string& text) {
-  const auto [name, file] = component_file("--swap", text, "component=FILE.fmu");
-  const std::vector<std::string> names = component_names();
-  const auto found = std::find(names.begin(), names.end(), name);
-  if (found == names.end()) {
-    core::fail_input({}, fmt::format("--swap {}: there is no component '{}'", text, name),
-                     core::suggestion(name, names));
-  }
-  const auto i = static_cast<std::size_t>(found - names.begin());
-  scenario_.sources[i] = file;
-  scenario_.system.components[i].where = {fmt::format("--swap {}", text), 0};
 }
 
 void LoadedScenario::load_units(const ScenarioRequest& request) {
@@ -306,7 +358,9 @@ std::vector<bool> LoadedScenario::permissions(std::span<const PermissionRule> ru
 
 void LoadedScenario::choose_times(const ScenarioRequest& request) {
   options_.start = chosen_start(request);
-  options_.stop = chosen_stop(request);
+  has_stop_ = !request.may_lack_stop || !request.stop.empty() || declared_stop();
+  const Time beyond_all(Time::max().time_since_epoch() / 2);  // no difference overflows
+  options_.stop = has_stop_ ? chosen_stop(request) : beyond_all;
   if (options_.stop == options_.start) {
     spdlog::warn("the run ends where it starts, at {} s, so it has initial values only",
                  core::to_text(options_.start));
@@ -418,7 +472,8 @@ void LoadedScenario::choose_steps(const StepSettings& request) {
 /// Their intervals are those of the scenario, also with --stop.
 void LoadedScenario::choose_checks(const ScenarioRequest& request) {
   if (request.no_checks) return;
-  const std::optional<Time> stop = request.stop.empty() ? options_.stop : scenario_.stop;
+  const std::optional<Time> stop =
+      request.stop.empty() && has_stop() ? options_.stop : scenario_.stop;
   checks_ = select_checks(*system_, scenario_.annotation.checks, {options_.start, stop});
   options_.watched = checks::Checks(checks_).signals();
 }
@@ -542,11 +597,16 @@ void LoadedScenario::choose_interventions(const ScenarioRequest& request) {
                              : std::max(options_.stop, scenario_.stop.value_or(Time{}));
   std::vector<InterventionDeclaration>& declared = further_interventions_;
   declared = request.interventions;
-  for (const std::string& text : request.set_at) declared.push_back(parse_set_at(text));
-  for (const std::string& text : request.forces) declared.push_back(parse_force(text));
-  for (const std::string& text : request.drops) declared.push_back(parse_drop(text));
-  for (const std::string& text : request.delays) declared.push_back(parse_delay(text));
-  for (const std::string& text : request.corruptions) declared.push_back(parse_corrupt(text));
+  const auto parse_all = [&](std::span<const std::string> texts, auto& parse) {
+    if (texts.empty()) return;
+    const core::KnownNames names(*system_);
+    for (const std::string& text : texts) declared.push_back(parse(text, names));
+  };
+  parse_all(request.set_at, parse_set_at);
+  parse_all(request.forces, parse_force);
+  parse_all(request.drops, parse_drop);
+  parse_all(request.delays, parse_delay);
+  parse_all(request.corruptions, parse_corrupt);
   for (const BranchReference& branch : request.branches) {
     const std::vector<InterventionDeclaration> further = find_branch(branch).interventions;
     declared.insert(declared.end(), further.begin(), further.end());
@@ -590,7 +650,7 @@ void LoadedScenario::choose_signals(const ScenarioRequest& request) {
 void LoadedScenario::warn_of_many_steps() const {
   constexpr std::uint64_t kMany = 10'000'000;
   const std::uint64_t steps = grid().index_at(options_.stop);
-  if (steps <= kMany) return;
+  if (steps <= kMany || !has_stop()) return;
   spdlog::warn(
       "up to {} steps of {} s are made, with a row of the results each; a longer step, "
       "--step SECONDS or <stride:Step size=\"…\"/>, makes fewer",
@@ -599,7 +659,7 @@ void LoadedScenario::warn_of_many_steps() const {
 
 /// A run with units that take steps of one size only ends with the last whole one.
 void LoadedScenario::end_with_whole_steps() {
-  if (grid().ends_at(options_.stop)) return;
+  if (!has_stop() || grid().ends_at(options_.stop)) return;
   const auto rigid = std::ranges::find_if(
       fmus_, [](const auto& fmu) { return !fmu->description()->can_vary_step; });
   if (rigid == fmus_.end()) return;

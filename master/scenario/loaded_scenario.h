@@ -18,6 +18,7 @@
 #include "master/coverage/demand.h"
 #include "master/importer/fmu.h"
 #include "master/model/grid.h"
+#include "master/model/known_names.h"
 #include "master/model/system.h"
 #include "master/scenario/branches.h"
 #include "master/scenario/coverage_selection.h"
@@ -52,6 +53,7 @@ struct ScenarioRequest {
   std::vector<std::string> signals;                    ///< globs that replace the scenario's
   std::string start;                                   ///< seconds; empty = the scenario's
   std::string stop;                                    ///< likewise
+  bool may_lack_stop = false;                          ///< for what runs nothing: see has_stop()
   StepSettings step;                                   ///< overrides the scenario
   bool no_idle_skip = false;
   std::string max_skip;  ///< seconds, for all components; empty = the scenario's
@@ -89,6 +91,8 @@ class LoadedScenario {
   /// description is known here.
   bool stays_elsewhere(std::size_t component) const;
   const core::RunOptions& options() const { return options_; }
+  /// Whether a stop time is known, without which a run cannot begin.
+  bool has_stop() const { return has_stop_; }
   const ScenarioChanges& changes() const { return changes_; }
   std::vector<std::string> component_names() const;
   /// Those that were requested.
@@ -125,7 +129,6 @@ class LoadedScenario {
  private:
   /// For mistakes that concern the scenario as a whole.
   core::Context of_file() const;
-  void swap(const std::string& text);
   void load_units(const ScenarioRequest& request);
   void connect_terminals();
   void add_twins();
@@ -168,6 +171,7 @@ class LoadedScenario {
   std::optional<core::System> system_;
   std::vector<std::optional<Hosting>> hostings_;
   core::RunOptions options_;
+  bool has_stop_ = true;
   Time latest_intervention_{};
   std::vector<recorders::Plot> plots_;
   std::vector<checks::Definition> checks_;
@@ -176,10 +180,11 @@ class LoadedScenario {
   std::vector<InterventionDeclaration> further_interventions_;  ///< than the scenario's
 };
 
-/// The two sides of an option's value "LEFT=RIGHT". Throws core::Error (Input) with the expected
-/// `form`.
+/// The two sides of an option's value "NAME=VALUE", see core::KnownNames::split(). Throws
+/// core::Error (Input) with the expected `form`.
 std::pair<std::string, std::string> split_option(const std::string& option, const std::string& text,
-                                                 const std::string& form);
+                                                 const std::string& form,
+                                                 const core::KnownNames& names);
 
 /// The sides of "COMPONENT=FILE".
 struct ComponentFile {
@@ -188,10 +193,13 @@ struct ComponentFile {
 };
 
 /// Nothing if a side is missing.
-std::optional<ComponentFile> split_component_file(const std::string& text);
+std::optional<ComponentFile> split_component_file(const std::string& text,
+                                                  const core::KnownNames& names = {});
+/// Likewise, where the file is there.
+std::optional<ComponentFile> split_existing_file(const std::string& text);
 /// Likewise of an option; throws core::Error (Input) with the expected `form`.
 ComponentFile component_file(const std::string& option, const std::string& text,
-                             const std::string& form);
+                             const std::string& form, const core::KnownNames& names);
 
 /// The FMUs of a scenario's components, in their order; for `complete`, which needs no system. Of
 /// units on other machines these are descriptions.

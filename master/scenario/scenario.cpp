@@ -66,6 +66,23 @@ void read_default_experiment(const xml::Element& root, Scenario& scenario) {
   }
 }
 
+void flatten(const ssp::SystemNode& system, std::vector<std::string>& warnings,
+             Scenario& scenario) {
+  ssp::FlatSystem flat = ssp::flatten(system, warnings);
+  scenario.system = std::move(flat.declaration);
+  scenario.sources = std::move(flat.sources);
+}
+
+/// As it is without the parameters that are still unknown.
+std::vector<ssp::ParameterValue> late_parameters(const ReadOptions& options,
+                                                 const ssp::SystemNode& system,
+                                                 Scenario& scenario) {
+  if (!options.late_parameters) return {};
+  std::vector<std::string> said_later;
+  flatten(system, said_later, scenario);
+  return options.late_parameters(scenario);
+}
+
 }  // namespace
 
 std::string stem(const std::filesystem::path& path) {
@@ -89,13 +106,13 @@ Scenario read_scenario(const std::filesystem::path& path, const ReadOptions& opt
   ssp::SystemNode system = ssp::read_system(root, file, *scenario.files, scenario.warnings);
   system.parameters.insert(system.parameters.end(), options.parameters.begin(),
                            options.parameters.end());
-  ssp::FlatSystem flat = ssp::flatten(system, scenario.warnings);
-  scenario.system = std::move(flat.declaration);
-  scenario.sources = std::move(flat.sources);
+  scenario.annotation = read_annotation(root);
+  const std::vector<ssp::ParameterValue> late = late_parameters(options, system, scenario);
+  system.parameters.insert(system.parameters.end(), late.begin(), late.end());
+  flatten(system, scenario.warnings, scenario);
   const std::vector<std::string>& of_files = scenario.files->warnings();
   scenario.warnings.insert(scenario.warnings.begin(), of_files.begin(), of_files.end());
   read_default_experiment(root, scenario);
-  scenario.annotation = read_annotation(root);
   if (!scenario.vendor_step) scenario.vendor_step = find_vendor_step(root);
   return scenario;
 }

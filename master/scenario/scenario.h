@@ -3,6 +3,7 @@
 #define STRIDE_MASTER_SCENARIO_SCENARIO_H
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -42,6 +43,8 @@ struct ReadOptions {
   ssp::UnitFinder find_unit{};                    ///< finds the FMUs that hold parameters
   std::vector<ssp::ParameterValue> parameters{};  ///< bound to the root system behind all others
   std::shared_ptr<ssp::Files> files{};            ///< that have read some of it ahead; null: none
+  /// Further ones, whose names the scenario without them tells; null: none.
+  std::function<std::vector<ssp::ParameterValue>(const Scenario&)> late_parameters{};
 };
 
 /// Reads a system of SSP 1.0 or 2.0: a .ssd, a package (.ssp), or the folder that one unpacks to;

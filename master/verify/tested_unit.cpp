@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "master/model/known_names.h"
 #include "master/util/time_text.h"
 
 namespace stride::verify {
@@ -36,14 +37,16 @@ std::string fmi1_name(const std::string& name) {
 core::SystemDeclaration declaration(const VerifyRequest& request, const importer::Fmu& fmu) {
   core::SystemDeclaration system{"verify", {}, {}, {}};
   system.components.push_back({"unit", fmu.description(), {}, {}});
+  core::KnownNames names;
+  names.add("", *fmu.description());
   for (const std::string& text : request.settings) {
-    const std::size_t equals = text.find('=');
-    if (equals == std::string::npos || equals == 0) {
+    const auto [variable, value] = names.split("--set", text, false);
+    if (!value || variable.empty()) {
       core::fail_input({}, fmt::format("--set {}: expected variable=value", text));
     }
     system.start_values.push_back({.component = "unit",
-                                   .variable = text.substr(0, equals),
-                                   .value = text.substr(equals + 1),
+                                   .variable = variable,
+                                   .value = *value,
                                    .unit = {},
                                    .where = {fmt::format("--set {}", text), 0}});
   }

@@ -71,6 +71,13 @@ TEST_CASE("interventions are sorted by their instants") {
 TEST_CASE("an instant counts picoseconds, and a value may contain the sign before it") {
   CHECK(parse_set_at("a.text=me@home@0.000000000001").from == Time(Duration(1)));
   CHECK(parse_set_at("a.text=me@home@2").value == "me@home");
+  KnownNames names;
+  for (const char* name : {"a.x", "a.x=y", "a.b=c"}) names.add(name, false);
+  CHECK(parse_set_at("a.x=y=5@2", names).variable == "a.x=y");
+  CHECK(parse_force("a.x=y=5@1..2", names).value == "5");
+  CHECK(parse_force("a.b=c@1..2", names).kind == Intervention::Kind::Hold);
+  CHECK(parse_drop("a.b=c@1..2", names).variable == "a.b=c");
+  CHECK(parse_corrupt("a.b=c=3,4@1..", names).value == "3,4");
   CHECK(parse_force("a.text=@1..2").kind == Intervention::Kind::Force);
 }
 
