@@ -16,6 +16,7 @@
 #include "master/cli/output.h"
 #include "master/cli/remote_check.h"
 #include "master/cli/table.h"
+#include "master/cli/variants.h"
 #include "master/model/array_element.h"
 #include "master/scenario/loaded_scenario.h"
 #include "master/settings/scenario_options.h"
@@ -112,6 +113,11 @@ std::string steps(const core::RunOptions& options) {
                      options.extrapolation == core::Extrapolation::Hold
                          ? "held"
                          : fmt::format("extrapolated ({})", name(options.extrapolation)));
+}
+
+std::string stop_text(const scenario::LoadedScenario& loaded) {
+  if (!loaded.has_stop()) return "on, without a stop time (a run needs --stop SECONDS)";
+  return fmt::format("to {} s", core::to_text(loaded.options().stop));
 }
 
 std::string order_table(const scenario::LoadedScenario& loaded) {
@@ -234,8 +240,8 @@ void check(const scenario::ScenarioRequest& request) {
   const core::RunOptions& options = loaded.options();
   print_text("{}: {} components, {} connections, {} recorded signals\n", system.name(),
              system.components().size(), system.connections().size(), options.recorded.size());
-  print_text("from {} s to {} s, {}\n", core::to_text(options.start), core::to_text(options.stop),
-             steps(options));
+  print_text("from {} s {}, {}\n", core::to_text(options.start), stop_text(loaded), steps(options));
+  print_text("{}", variant_table(*loaded.scenario().files, loaded.scenario().path));
   print_text("\nUnits\n{}{}{}\nConnections\n{}", unit_table(loaded), host_table(loaded),
              remote_table(loaded), connection_table(system));
   print_text("{}", unconnected_elements_text(system));
@@ -254,6 +260,7 @@ void add_check(CLI::App& app) {
                                          "Load a scenario and its units, print units, connections, "
                                          "orders and algebraic loops; run nothing");
   const auto request = std::make_shared<scenario::ScenarioRequest>();
+  request->may_lack_stop = true;
   settings::add_scenario_options(*command, *request);
   command->callback([request] { check(*request); });
 }

@@ -50,12 +50,17 @@ void check_output_path_of(const CompleteArguments& arguments) {
   results::refuse_kept_paths({&output, 1}, kept);
 }
 
-/// The components of the scenario with what their FMUs declare.
+/// The components of the scenario with what their FMUs declare, in the sizes that the scenario
+/// gives their arrays.
 std::vector<core::ComponentDeclaration> with_descriptions(
     const scenario::Scenario& scenario, const std::vector<std::shared_ptr<importer::Fmu>>& fmus) {
-  std::vector<core::ComponentDeclaration> components = scenario.system.components;
-  for (std::size_t i = 0; i < fmus.size(); ++i) components[i].description = fmus[i]->description();
-  return components;
+  core::SystemDeclaration system = scenario.system;
+  for (std::size_t i = 0; i < fmus.size(); ++i) {
+    system.components[i].description = fmus[i]->description();
+  }
+  const auto descriptions = core::System::sized_descriptions(system);
+  for (std::size_t i = 0; i < fmus.size(); ++i) system.components[i].description = descriptions[i];
+  return std::move(system.components);
 }
 
 void complete(const CompleteArguments& arguments) {
@@ -63,17 +68,15 @@ void complete(const CompleteArguments& arguments) {
   const CrashGuard guard;
   const scenario::Scenario scenario =
       scenario::read_scenario(arguments.scenario, {scenario::find_unit, {}});
-  ssp::Descriptions descriptions;
   const auto fmus = scenario::load_fmus(scenario);
   const LimitedEnd end;
-  for (std::size_t i = 0; i < fmus.size(); ++i) {
-    descriptions[scenario.system.components[i].name] = fmus[i]->description();
-  }
+  const std::vector<core::ComponentDeclaration> components = with_descriptions(scenario, fmus);
+  ssp::Descriptions descriptions;
+  for (const auto& component : components) descriptions[component.name] = component.description;
   const std::filesystem::path file = scenario.files->system_file(arguments.scenario);
   const std::string text =
       ssp::complete(file, descriptions, scenario.files->shown(file),
-                    scenario::connect_terminals(scenario.annotation.terminals,
-                                                with_descriptions(scenario, fmus), fmus));
+                    scenario::connect_terminals(scenario.annotation.terminals, components, fmus));
   const auto archive = scenario.files->archive_of(file);
   if (archive) return write_package(arguments, *archive, file, text);
   core::Replacement output(arguments.output.empty() ? file : arguments.output);

@@ -1,4 +1,4 @@
-// stride inspect: the description of a unit.
+// stride inspect: the description of a unit or a system.
 #include <memory>
 #include <string>
 #include <utility>
@@ -11,10 +11,14 @@
 #include "master/cli/crash_guard.h"
 #include "master/cli/output.h"
 #include "master/cli/table.h"
+#include "master/cli/variants.h"
 #include "master/importer/fmu.h"
 #include "master/importer/terminals.h"
 #include "master/scenario/file_units.h"
+#include "master/scenario/scenario.h"
 #include "master/scenario/unit_path.h"
+#include "master/util/input_file.h"
+#include "master/util/lower_case.h"
 #include "master/util/time_text.h"
 
 namespace stride::cli {
@@ -107,7 +111,28 @@ std::string terminal_table(const importer::Fmu& fmu) {
   return table.size() == 0 ? "" : "\n" + table.text();
 }
 
+/// Whether it is a system file, or a package of them.
+bool is_system(const std::filesystem::path& file) {
+  const std::string extension = core::lower_case(file.extension().string());
+  return extension == ".ssd" || extension == ".ssp" ||
+         core::path_exists(file / "SystemStructure.ssd");
+}
+
+void inspect_system(const std::filesystem::path& file) {
+  const scenario::Scenario scenario = scenario::read_scenario(file, {scenario::find_unit, {}});
+  print_warnings(scenario.warnings);
+  print_text("{}: SSP {}, {} components, {} connections\n", scenario.name, scenario.ssp_version,
+             scenario.system.components.size(), scenario.system.connections.size());
+  print_text("{}", variant_table(*scenario.files, file));
+  Table table({{"component"}, {"source"}});
+  for (std::size_t i = 0; i < scenario.sources.size(); ++i) {
+    table.add({scenario.system.components[i].name, scenario.files->shown(scenario.sources[i])});
+  }
+  print_text("\n{}", table.text());
+}
+
 void inspect(const std::filesystem::path& file) {
+  if (is_system(file)) return inspect_system(file);
   const CrashGuard guard;
   const auto fmu = scenario::load_unit(scenario::find_unit(file, {}));
   const LimitedEnd end;
@@ -132,11 +157,14 @@ void inspect(const std::filesystem::path& file) {
 
 void add_inspect(CLI::App& app) {
   CLI::App* command =
-      app.add_subcommand("inspect", "Show a unit's variables and terminals in tables");
+      app.add_subcommand("inspect",
+                         "Show a unit's variables and terminals, or a system's components and "
+                         "variants, in tables");
   const auto file = std::make_shared<std::filesystem::path>();
   command
       ->add_option("FILE", *file,
-                   "A .fmu, its unpacked folder, a .so of the unit kit, or a table (.csv)")
+                   "A .fmu, its unpacked folder, a .so of the unit kit, a table (.csv), or an SSP "
+                   "system file (.ssd) or package (.ssp)")
       ->required()
       ->type_name("");
   command->callback([file] { inspect(*file); });

@@ -1,5 +1,7 @@
 #include "master/settings/scenario_options.h"
 
+#include <cstddef>
+#include <filesystem>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -13,6 +15,7 @@
 #include "master/scenario/scenario_path.h"
 #include "master/settings/parse_option.h"
 #include "master/ssp/parameters.h"
+#include "master/util/input_file.h"
 #include "master/util/message_text.h"
 
 namespace stride::settings {
@@ -93,12 +96,32 @@ void add_host_options(CLI::App& command, scenario::HostRequest& request) {
                    "Run units in processes of their own without a sandbox; overrides the scenario");
 }
 
+struct ParameterFiles {
+  std::filesystem::path set, mapping;
+};
+
+/// "FILE.ssv:MAPPING.ssm", unless a file has this name.
+ParameterFiles parameter_files(const std::string& text) {
+  const std::size_t colon = text.rfind(':');
+  if (colon == std::string::npos || core::path_exists(text)) return {text, {}};
+  return {text.substr(0, colon), text.substr(colon + 1)};
+}
+
+std::vector<ssp::ParameterValue> read_parameters(scenario::ScenarioRequest& request,
+                                                 const ParameterFiles& files,
+                                                 std::vector<std::string>& warnings) {
+  request.parameter_files.push_back(files.set);
+  std::vector<ssp::ParameterValue> values = ssp::read_parameter_set(files.set, warnings);
+  if (files.mapping.empty()) return values;
+  request.parameter_files.push_back(files.mapping);
+  return ssp::map_parameters(files.mapping, values, warnings);
+}
+
 /// A value for what is not there is a mistake, as it is of --set.
-void add_parameters(scenario::ScenarioRequest& request, const std::vector<std::string>& files) {
-  for (const std::string& file : files) {
-    request.parameter_files.emplace_back(file);
+void add_parameters(scenario::ScenarioRequest& request, const std::vector<std::string>& texts) {
+  for (const std::string& text : texts) {
     std::vector<std::string> warnings;
-    for (ssp::ParameterValue& value : ssp::read_parameter_set(file, warnings)) {
+    for (ssp::ParameterValue& value : read_parameters(request, parameter_files(text), warnings)) {
       value.is_required = true;
       request.parameters.push_back(std::move(value));
     }
@@ -165,9 +188,9 @@ void add_scenario_options(CLI::App& command, scenario::ScenarioRequest& request)
   command
       .add_option_function<std::vector<std::string>>(
           "--parameters",
-          [&request](const std::vector<std::string>& files) { add_parameters(request, files); },
-          "Parameter set (.ssv) whose values replace those of the scenario; may be given several "
-          "times")
+          [&request](const std::vector<std::string>& texts) { add_parameters(request, texts); },
+          "Parameter set (.ssv) whose values replace those of the scenario; FILE.ssv:MAPPING.ssm "
+          "applies a parameter mapping to it; may be given several times")
       ->type_name("FILE.ssv")
       ->allow_extra_args(false);
   command

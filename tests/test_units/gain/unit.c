@@ -1,0 +1,90 @@
+/* y = k * u, with variables of each kind that a connection may begin or end at: a fixed parameter,
+ * which is set before the end of the initialisation only, a parameter that is calculated from it, a
+ * constant, an enumeration whose items have blanks in their names, and a parameter and an output
+ * whose names hold a '='.
+ */
+#include <stride/fmi3.h>
+
+#define fmi3GetFloat64 raw_get_float64
+#define fmi3SetFloat64 raw_set_float64
+#define fmi3GetInt64 raw_get_int64
+#define fmi3SetInt64 raw_set_int64
+#define fmi3InstantiateCoSimulation raw_instantiate
+#define fmi3ExitInitializationMode raw_exit_initialization_mode
+#include "tests/test_units/raw/unit.c"
+#undef fmi3GetFloat64
+#undef fmi3SetFloat64
+#undef fmi3GetInt64
+#undef fmi3SetInt64
+#undef fmi3InstantiateCoSimulation
+#undef fmi3ExitInitializationMode
+
+enum { K = 1, U = 4 };
+
+typedef struct {
+  bool is_initialized;
+  double k, u, tuned;
+  fmi3Int64 mode;
+} Gain;
+
+static Gain all[sizeof instances / sizeof *instances];
+
+static Gain* gain(fmi3Instance handle) { return &all[(Instance*)handle - instances]; }
+
+fmi3Instance fmi3InstantiateCoSimulation(fmi3String name, fmi3String token, fmi3String resources,
+                                         fmi3Boolean visible, fmi3Boolean logging,
+                                         fmi3Boolean event_mode, fmi3Boolean early_return,
+                                         const fmi3ValueReference required[], size_t n_required,
+                                         fmi3InstanceEnvironment environment,
+                                         fmi3LogMessageCallback log,
+                                         fmi3IntermediateUpdateCallback update) {
+  const fmi3Instance handle =
+      raw_instantiate(name, token, resources, visible, logging, event_mode, early_return, required,
+                      n_required, environment, log, update);
+  if (handle == NULL) return NULL;
+  *gain(handle) = (Gain){.k = 1, .mode = 1};
+  return handle;
+}
+
+fmi3Status fmi3ExitInitializationMode(fmi3Instance handle) {
+  gain(handle)->is_initialized = true;
+  return fmi3OK;
+}
+
+fmi3Status fmi3SetFloat64(fmi3Instance handle, const fmi3ValueReference references[], size_t count,
+                          const fmi3Float64 values[], size_t size) {
+  Gain* g = gain(handle);
+  for (size_t i = 0; i < count && size == count; ++i) {
+    if (references[i] == K && g->is_initialized) {
+      Instance* instance = handle;
+      instance->log(instance->environment, fmi3Error, "logStatusError", "k is fixed");
+      return fmi3Error;
+    }
+    *(references[i] == K ? &g->k : references[i] == U ? &g->u : &g->tuned) = values[i];
+  }
+  return fmi3OK;
+}
+
+fmi3Status fmi3GetFloat64(fmi3Instance handle, const fmi3ValueReference references[], size_t count,
+                          fmi3Float64 values[], size_t size) {
+  const Gain* g = gain(handle);
+  for (size_t i = 0; i < count && size == count; ++i) {
+    const double all_values[] = {0, g->k, 2 * g->k, 7, g->u, g->k * g->u, g->tuned, g->tuned};
+    values[i] = all_values[references[i]];
+  }
+  return fmi3OK;
+}
+
+fmi3Status fmi3SetInt64(fmi3Instance handle, const fmi3ValueReference references[], size_t count,
+                        const fmi3Int64 values[], size_t size) {
+  (void)references;
+  for (size_t i = 0; i < count && size == count; ++i) gain(handle)->mode = values[i];
+  return fmi3OK;
+}
+
+fmi3Status fmi3GetInt64(fmi3Instance handle, const fmi3ValueReference references[], size_t count,
+                        fmi3Int64 values[], size_t size) {
+  (void)references;
+  for (size_t i = 0; i < count && size == count; ++i) values[i] = gain(handle)->mode;
+  return fmi3OK;
+}
