@@ -36,8 +36,9 @@ const char* name(Extrapolation extrapolation) {
 
 std::optional<Duration> IdleOptions::longest_suspension(const System& system,
                                                         std::size_t component) const {
-  const bool promises = system.components()[component].description->promises_idle;
-  return promises && component < max_skip.size() ? max_skip[component] : std::nullopt;
+  const Component& of = system.components()[component];
+  const bool may = of.description->promises_idle && !of.keeps_own_step();
+  return may && component < max_skip.size() ? max_skip[component] : std::nullopt;
 }
 
 std::optional<double> IdleOptions::tolerance(const System& system, VariableId output) const {

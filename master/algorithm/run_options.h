@@ -97,7 +97,8 @@ struct IdleSetting {
 
 /// Which units may be suspended while they promise to be idle (org.stride.idle).
 struct IdleOptions {
-  /// For how long at most the component may be suspended; nothing: it never is.
+  /// For how long at most the component may be suspended; nothing: it never is, as one that keeps
+  /// its own step.
   std::optional<Duration> longest_suspension(const System& system, std::size_t component) const;
   /// That of an output, if it has one, and of an input.
   std::optional<double> tolerance(const System& system, VariableId output) const;

@@ -21,6 +21,7 @@
 #include "master/algorithm/step_policies/step_policy.h"
 #include "master/algorithm/stepping/coasting_unit.h"
 #include "master/algorithm/stepping/input_extrapolator.h"
+#include "master/algorithm/stepping/own_steps.h"
 #include "master/algorithm/stepping/step_order.h"
 #include "master/algorithm/stepping/stepper.h"
 #include "master/algorithm/stretch.h"
@@ -47,11 +48,11 @@ class Simulation::Run {
                  std::move(options)},  // in this order, hence the braces
         step_policy_(make_step_policy(system_, options_)),
         inputs_(make_input_extrapolator()),
+        own_steps_(make_own_steps()),
         idle_(make_idle_scheduler()),
-        event_handler_(context_, idle_.get()),
-        interventions_(context_, event_handler_, idle_.get()),
-        stepper_(context_, order_, coasting_, sets_inputs_in_steps() ? inputs_.get() : nullptr,
-                 idle_.get()),
+        event_handler_(context_, idle_.get(), own_steps_.get()),
+        interventions_(context_, event_handler_, idle_.get(), own_steps_.get()),
+        stepper_(context_, order_, coasting_, inputs_in_steps(), idle_.get(), own_steps_.get()),
         counters_(context_, coasting_, stepper_) {
     if (sets_inputs_in_steps()) connect_input_updates();
   }
@@ -164,6 +165,9 @@ class Simulation::Run {
  private:
   std::size_t count() const { return units_.size(); }
   bool sets_inputs_in_steps() const { return options_.sets_inputs_in_steps(); }
+  InputExtrapolator* inputs_in_steps() const {
+    return sets_inputs_in_steps() ? inputs_.get() : nullptr;
+  }
 
   /// The part before the first step. `begin` leaves the units in Step Mode.
   template <class Begin>
@@ -204,6 +208,7 @@ class Simulation::Run {
     try {
       steps();
       if (idle_) idle_->catch_up_all(time_);
+      if (own_steps_) own_steps_->catch_up_all(time_);
       if (statistics_.end != RunEnd::Interrupted) verdicts_ = read_verdicts(system_, units_);
     } catch (...) {
       failure = std::current_exception();
@@ -336,6 +341,13 @@ class Simulation::Run {
     return std::make_unique<InputExtrapolator>(context_);
   }
 
+  std::unique_ptr<OwnSteps> make_own_steps() {
+    auto own_steps = std::make_unique<OwnSteps>(context_, inputs_in_steps());
+    if (own_steps->is_trivial()) return nullptr;
+    if (inputs_) inputs_->set_own_steps(*own_steps);
+    return own_steps;
+  }
+
   std::unique_ptr<IdleScheduler> make_idle_scheduler() {
     if (!options_.may_skip_idle_time()) return nullptr;
     auto idle = std::make_unique<IdleScheduler>(context_);
@@ -393,6 +405,7 @@ class Simulation::Run {
     exchange_.persist(state);
     event_handler_.persist(state, options_.start, time_);
     if (idle_) idle_->persist(state, options_.start, time_);
+    if (own_steps_) own_steps_->persist(state, options_.start, time_);
     if (inputs_) inputs_->persist(state, options_.start, time_);
     step_policy_->persist(state);
     stepper_.persist(state);
@@ -469,6 +482,10 @@ class Simulation::Run {
     }
   }
 
+  bool are_steps_on_grid() const {
+    return own_steps_ == nullptr || own_steps_->are_multiples_of(options_.step.size);
+  }
+
   /// Steps all units to the next communication point; repeated while the policy does not accept the
   /// error.
   Time advance() {
@@ -486,11 +503,15 @@ class Simulation::Run {
   /// The point that the step policy chooses, or the next event if that is earlier.
   Time next_target() {
     Time target = time_;
+    const Time own_end = own_steps_ ? own_steps_->next(time_) : Time::max();
     if (idle_) {
       const auto quiet_until = idle_->all_suspended_until(time_);
-      if (quiet_until) target = step_policy_->next_while_idle(time_, *quiet_until);
+      if (quiet_until) {
+        target = step_policy_->next_while_idle(time_, std::min(*quiet_until, own_end));
+      }
     }
     if (target == time_) target = step_policy_->next(time_);
+    target = std::min(target, own_end);
     return std::min(interventions_.next(event_handler_.next_event(target)), context_.until);
   }
 
@@ -547,6 +568,7 @@ class Simulation::Run {
 
   std::unique_ptr<StepPolicy> step_policy_;
   std::unique_ptr<InputExtrapolator> inputs_;  ///< nothing where inputs are held
+  std::unique_ptr<OwnSteps> own_steps_;        ///< nothing where no component has its own step
   std::unique_ptr<IdleScheduler> idle_;        ///< nothing where no unit may be suspended
   EventHandler event_handler_;
   Interventions interventions_;
@@ -566,7 +588,7 @@ class Simulation::Run {
   Pauses pauses_;
   Stretch stretch_{context_,
                    {*step_policy_, event_handler_, interventions_, pauses_, stepper_, sampling_},
-                   inputs_ == nullptr&& idle_ == nullptr};
+                   inputs_ == nullptr&& idle_ == nullptr&& are_steps_on_grid()};
 };
 
 Simulation::Simulation(const System& system, std::vector<std::unique_ptr<Unit>> units,

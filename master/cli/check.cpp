@@ -105,11 +105,23 @@ std::string unconnected_elements_text(const core::System& system) {
                       : "\nElements without connection, which keep their start values\n" + text;
 }
 
-std::string steps(const core::RunOptions& options) {
+/// Those of components that have their own; empty if there are none.
+std::string own_steps(const core::System& system) {
+  std::string text;
+  for (const core::Component& component : system.components()) {
+    if (!component.own_step) continue;
+    text += fmt::format("\n{}: steps of {} s{}", component.name, core::to_text(*component.own_step),
+                        component.keeps_own_step() ? "" : " at most, since it may return early");
+  }
+  return text;
+}
+
+std::string steps(const core::System& system, const core::RunOptions& options) {
   const core::StepOptions& step = options.step;
   std::string steps = step.policy->describe(step);
   if (step.maximum) steps += fmt::format(", of {} s at most", seconds(*step.maximum));
-  return fmt::format("{}\ncoupling {}, inputs {}", steps, name(options.coupling),
+  return fmt::format("{}{}\ncoupling {}, inputs {}", steps, own_steps(system),
+                     name(options.coupling),
                      options.extrapolation == core::Extrapolation::Hold
                          ? "held"
                          : fmt::format("extrapolated ({})", name(options.extrapolation)));
@@ -240,7 +252,8 @@ void check(const scenario::ScenarioRequest& request) {
   const core::RunOptions& options = loaded.options();
   print_text("{}: {} components, {} connections, {} recorded signals\n", system.name(),
              system.components().size(), system.connections().size(), options.recorded.size());
-  print_text("from {} s {}, {}\n", core::to_text(options.start), stop_text(loaded), steps(options));
+  print_text("from {} s {}, {}\n", core::to_text(options.start), stop_text(loaded),
+             steps(system, options));
   print_text("{}", variant_table(*loaded.scenario().files, loaded.scenario().path));
   print_text("\nUnits\n{}{}{}\nConnections\n{}", unit_table(loaded), host_table(loaded),
              remote_table(loaded), connection_table(system));

@@ -118,7 +118,12 @@ Named settings_of(const RunRecord& run) {
   const Json& step = json_member(run.json, "step");
   if (!step.is_object()) return settings;
   for (const auto& [name, value] : step.items()) {
-    add("step." + name, json_word(step, name.c_str()));
+    if (!value.is_object()) add("step." + name, json_word(step, name.c_str()));
+  }
+  const Json& components = json_member(step, "components");
+  if (!components.is_object()) return settings;
+  for (const auto& [name, value] : components.items()) {
+    add("step of " + name, json_word(components, name.c_str()));
   }
   return settings;
 }

@@ -438,7 +438,7 @@ std::string FmuInstance::step_hint() const {
   const core::UnitDescription& unit = *parts_.description;
   const bool may_be_the_reason = !unit.can_vary_step || present_step_.from == start_;
   const Duration size = present_step_.to - present_step_.from;
-  return may_be_the_reason ? core::own_step_hint(unit, size) : "";
+  return may_be_the_reason ? core::own_step_hint(name_, unit, size) : "";
 }
 
 Time FmuInstance::checked_time(double seconds, const char* what) const {

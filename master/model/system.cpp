@@ -113,7 +113,8 @@ void System::add_components(const SystemDeclaration& declaration) {
     }
     check_clocks(component);
     components_.push_back({component.name, component.description, component.early_return_allowed,
-                           component.has_snapshots, component.units_of_measure});
+                           component.has_snapshots, component.units_of_measure,
+                           component.own_step});
   }
 }
 

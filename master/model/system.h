@@ -14,6 +14,7 @@
 #include "master/model/connector_elements.h"
 #include "master/model/conversion.h"
 #include "master/model/description.h"
+#include "master/model/interval.h"
 #include "master/model/name_index.h"
 #include "master/model/system_declaration.h"
 #include "master/model/values.h"
@@ -33,7 +34,12 @@ struct Component {
   bool has_snapshots = false;
   /// Those that the scenario defines; may be null.
   std::shared_ptr<const UnitsOfMeasure> units_of_measure{};
+  /// The step that it is called with, whatever the other components' steps are.
+  std::optional<Interval> own_step{};
 
+  /// Whether it is called at the ends of its own steps only. What may return early is called at
+  /// each communication point, so that its events are exact; its own step is its longest one.
+  bool keeps_own_step() const { return own_step && !may_return_early(); }
   bool may_return_early() const { return early_return_allowed && description->may_return_early; }
   bool can_save_state() const { return description->can_save_state || has_snapshots; }
 };

@@ -10,6 +10,7 @@
 
 #include "master/model/conversion.h"
 #include "master/model/description.h"
+#include "master/model/interval.h"
 #include "master/model/values.h"
 #include "master/util/error.h"
 
@@ -41,6 +42,7 @@ struct ComponentDeclaration {
   bool has_snapshots = false;
   /// For names that the description does not define; may be null.
   std::shared_ptr<const UnitsOfMeasure> units_of_measure{};
+  std::optional<Interval> own_step{};
 };
 /// A connector of an enclosing or nested system on a connection, and the conversion before it.
 struct ViaDeclaration {

@@ -70,7 +70,16 @@ void add(Json& entry, const core::UnitStatistics& unit) {
   if (unit.host) entry["host"] = host_entry(*unit.host);
 }
 
-Json step_entry(const core::RunOptions& options) {
+/// Of the components that have one of their own.
+Json component_steps(const core::System& system) {
+  Json steps = Json::object();
+  for (const core::Component& component : system.components()) {
+    if (component.own_step) steps[component.name] = component.own_step->seconds();
+  }
+  return steps;
+}
+
+Json step_entry(const core::System& system, const core::RunOptions& options) {
   Json entry = {{"policy", name(options.step.policy)},
                 {"size", options.step.size.seconds()},
                 {"minimum", to_seconds(options.step.minimum)}};
@@ -81,6 +90,7 @@ Json step_entry(const core::RunOptions& options) {
   }
   entry["coupling"] = name(options.coupling);
   entry["extrapolation"] = name(options.extrapolation);
+  if (Json steps = component_steps(system); !steps.empty()) entry["components"] = std::move(steps);
   return entry;
 }
 
@@ -287,9 +297,9 @@ void write(const std::filesystem::path& file, const Json& run) {
 void write_run_json(const std::filesystem::path& file, const RunRecord& record) {
   const auto& [scenario, system, options, provenance, statistics, verdicts, error, is_over, files,
                plots, coverage] = record;
-  Json run = {{"scenario", scenario.string()},      {"system", system.name()},
-              {"start", to_seconds(options.start)}, {"stop", to_seconds(options.stop)},
-              {"step", step_entry(options)},        {"outcome", outcome(record)}};
+  Json run = {{"scenario", scenario.string()},       {"system", system.name()},
+              {"start", to_seconds(options.start)},  {"stop", to_seconds(options.stop)},
+              {"step", step_entry(system, options)}, {"outcome", outcome(record)}};
   if (error) run["error"] = *error;
   add_verdicts(run, verdicts);
   if (!coverage.empty()) run["coverage"] = coverage_entries(coverage);

@@ -157,8 +157,8 @@ class ReplayWriter {
   void write_steps() {
     const core::StepOptions& step = request_.loaded.options().step;
     if (!component_.description->can_vary_step) {
-      return write_element("stride:Step",
-                           {{"policy", "fixed"}, {"size", core::to_text(step.size)}});
+      const core::Interval size = component_.own_step.value_or(step.size);
+      return write_element("stride:Step", {{"policy", "fixed"}, {"size", core::to_text(size)}});
     }
     const std::string run = core::to_text(run_length());
     if (is_bounded_skip()) {

@@ -71,6 +71,26 @@ void read_settings(const xml::Element& element, StepSettings& settings,
   }
 }
 
+std::vector<ComponentPattern> read_components(const xml::Element& element) {
+  std::vector<ComponentPattern> patterns;
+  std::istringstream words(element.required("components"));
+  for (std::string word; words >> word;) patterns.push_back({word, element.where()});
+  return patterns;
+}
+
+/// A step of some components alone.
+void read_component_step(const xml::Element& element, StepSettings& settings) {
+  element.allow_attributes({"components", "size"});
+  element.allow_children({});
+  element.required("size");
+  StepSettings own;
+  read_settings(element, own, {{"size", &StepSettings::set_size}});
+  for (auto& pattern : read_components(element)) {
+    settings.of_components.push_back({std::move(pattern), *own.size});
+  }
+}
+
+/// That of the run.
 void read_step(const xml::Element& element, StepSettings& settings) {
   element.allow_attributes(
       {"policy", "size", "maximum", "minimum", "relativeTolerance", "absoluteTolerance"});
@@ -82,6 +102,17 @@ void read_step(const xml::Element& element, StepSettings& settings) {
                  {"minimum", &StepSettings::set_minimum},
                  {"relativeTolerance", &StepSettings::set_relative_tolerance},
                  {"absoluteTolerance", &StepSettings::set_absolute_tolerance}});
+}
+
+void read_step_element(const xml::Element& element, ScenarioAnnotation& annotation) {
+  if (element.attribute("components")) return read_component_step(element, annotation.step);
+  if (annotation.step_where) {
+    element.fail(fmt::format("a second {}; the first is in line {}", element.tag(),
+                             annotation.step_where->line),
+                 "join them, or name the components of one, components=\"…\"");
+  }
+  annotation.step_where = element.where();
+  read_step(element, annotation.step);
 }
 
 void read_exchange(const xml::Element& element, StepSettings& settings) {
@@ -112,13 +143,6 @@ void read_plot(const xml::Element& element, ScenarioAnnotation& annotation) {
   PlotPattern plot{element.required("title"), read_signals(element)};
   if (plot.signals.empty()) element.fail("the plot shows nothing", "name its signals");
   annotation.plots.push_back(std::move(plot));
-}
-
-std::vector<ComponentPattern> read_components(const xml::Element& element) {
-  std::vector<ComponentPattern> patterns;
-  std::istringstream words(element.required("components"));
-  for (std::string word; words >> word;) patterns.push_back({word, element.where()});
-  return patterns;
 }
 
 void read_main_thread(const xml::Element& element, ScenarioAnnotation& annotation) {
@@ -276,7 +300,7 @@ struct ScenarioElement {
 };
 
 constexpr ScenarioElement kElements[] = {
-    {"Step", false, [](const auto& element, auto& to) { read_step(element, to.step); }},
+    {"Step", true, [](const auto& element, auto& to) { read_step_element(element, to); }},
     {"Exchange", false, [](const auto& element, auto& to) { read_exchange(element, to.step); }},
     {"Record", true, read_record},
     {"Checks", false,

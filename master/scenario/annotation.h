@@ -2,6 +2,7 @@
 #ifndef STRIDE_MASTER_SCENARIO_ANNOTATION_H
 #define STRIDE_MASTER_SCENARIO_ANNOTATION_H
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -40,7 +41,8 @@ struct PermissionRule {
 /// All of it is optional.
 struct ScenarioAnnotation {
   StepSettings step;
-  std::vector<SignalPattern> record;  ///< none: every output
+  std::optional<core::Location> step_where{};  ///< of that of the run
+  std::vector<SignalPattern> record;           ///< none: every output
   std::vector<PlotPattern> plots;
   std::vector<CheckDeclaration> checks;
   std::vector<GroupDeclaration> coverage;

@@ -19,6 +19,7 @@
 #include "master/recorders/unit_folders.h"
 #include "master/scenario/check_selection.h"
 #include "master/scenario/component_selection.h"
+#include "master/scenario/component_steps.h"
 #include "master/scenario/default_step.h"
 #include "master/scenario/file_units.h"
 #include "master/scenario/recordings.h"
@@ -439,10 +440,13 @@ Duration LoadedScenario::declared_length() const {
 }
 
 void LoadedScenario::choose_steps(const StepSettings& request) {
+  const auto set = set_component_steps(request);
+  const bool are_all_set =
+      std::ranges::all_of(set, [](const auto& step) { return step.has_value(); });
   std::optional<core::Interval> unit_step;
-  for (const auto& fmu : fmus_) {
-    const core::UnitDescription& unit = *fmu->description();
-    const auto& step = unit.default_step ? unit.default_step : unit.fixed_internal_step;
+  for (std::size_t i = 0; i < fmus_.size(); ++i) {
+    if (set[i] && !are_all_set) continue;
+    const auto step = set[i] ? set[i] : declared_step(*fmus_[i]->description());
     if (step) unit_step = std::min(unit_step.value_or(*step), *step);
   }
   options_.step.size = unit_step.value_or(default_step(declared_length()));
@@ -467,6 +471,62 @@ void LoadedScenario::choose_steps(const StepSettings& request) {
     core::fail_input(of_file(), "both tolerances are 0, so no step is good enough",
                      "give a relative or an absolute tolerance above 0");
   }
+  choose_component_steps(set, has_own_step || vendor);
+}
+
+/// Those of the request replace those of the scenario.
+ComponentSteps LoadedScenario::set_component_steps(const StepSettings& request) const {
+  const std::vector<std::string> names = selection_names();
+  auto steps = request.component_steps(names);
+  const auto own = scenario_.annotation.step.component_steps(names);
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    if (!steps[i]) steps[i] = own[i];
+  }
+  return steps;
+}
+
+void LoadedScenario::choose_component_steps(const ComponentSteps& set, bool is_size_set) {
+  auto& components = scenario_.system.components;
+  const auto steps = scenario::choose_component_steps(components, set, options_, is_size_set);
+  bool is_changed = false;
+  for (std::size_t i = 0; i < components.size(); ++i) {
+    if (!steps[i]) continue;
+    components[i].own_step = steps[i];
+    is_changed = true;
+    check_internal_step(components[i]);
+    if (set[i]) warn_of_early_returns(components[i]);
+  }
+  if (is_changed) system_.emplace(scenario_.system);
+}
+
+/// A unit that takes steps of its internal size only cannot have others.
+void LoadedScenario::check_internal_step(const core::ComponentDeclaration& component) const {
+  const auto& internal = component.description->fixed_internal_step;
+  const bool is_rigid = !component.description->can_vary_step;
+  if (!is_rigid || !internal || component.own_step->is_multiple_of(*internal)) return;
+  core::fail_input({component.where, component.name, {}, {}},
+                   fmt::format("its step of {} s is not a multiple of its unit's fixed internal "
+                               "step of {} s, and the unit takes steps of one size only",
+                               core::to_text(*component.own_step), core::to_text(*internal)),
+                   fmt::format("use --step {}={}, or <stride:Step components=\"{}\" size=\"{}\"/>",
+                               component.name, core::to_text(*internal), component.name,
+                               core::to_text(*internal)));
+}
+
+void LoadedScenario::warn_of_early_returns(const core::ComponentDeclaration& component) const {
+  const bool may = component.early_return_allowed && component.description->may_return_early;
+  if (!may) return;
+  spdlog::warn(
+      "{}its unit may return early, so it is called at the points of the others, too, and its own "
+      "step of {} s is its longest one; <stride:EarlyReturn components=\"{}\" "
+      "allowed=\"false\"/> lets it make whole steps only",
+      core::to_text({component.where, component.name, {}, {}}), core::to_text(*component.own_step),
+      component.name);
+}
+
+/// That of its regular steps.
+core::Interval LoadedScenario::step_of(std::size_t component) const {
+  return scenario_.system.components[component].own_step.value_or(options_.step.size);
 }
 
 /// Their intervals are those of the scenario, also with --stop.
@@ -532,11 +592,13 @@ void LoadedScenario::choose_hosts(const HostRequest& request) {
 void LoadedScenario::check_steps() {
   core::check_step_policy(*system_, options_);
   if (core::has_unlimited_steps(*system_, options_)) warn_of_unlimited_steps();
-  if (!options_.step.policy->has_grid) return;
-  warn_of_many_steps();
-  end_with_whole_steps();
-  warn_of_other_steps();
-  warn_of_internal_steps();
+  if (options_.step.policy->has_grid) {
+    warn_of_many_steps();
+    end_with_whole_steps();
+    warn_of_other_steps();
+    warn_of_internal_steps();
+  }
+  warn_of_last_own_steps();
 }
 
 void LoadedScenario::choose_idle_skips(const ScenarioRequest& request) {
@@ -559,24 +621,35 @@ void LoadedScenario::choose_idle_skips(const ScenarioRequest& request) {
 
 core::Grid LoadedScenario::grid() const { return {options_.start, options_.step.size}; }
 
+core::Grid LoadedScenario::grid_of(std::size_t component) const {
+  return {options_.start, step_of(component)};
+}
+
 /// A unit that takes steps of one size only cannot have one that ends in between.
 void LoadedScenario::check_instants(std::span<const core::Intervention> interventions) const {
-  const auto rigid = std::ranges::find_if(
-      fmus_, [](const auto& fmu) { return !fmu->description()->can_vary_step; });
-  if (rigid == fmus_.end() || !options_.step.policy->has_grid) return;
-  const auto& component =
-      scenario_.system.components[static_cast<std::size_t>(rigid - fmus_.begin())];
-  for (const core::Intervention& intervention : interventions) {
-    for (const Time time : {intervention.from, intervention.until.value_or(intervention.from)}) {
-      if (grid().has(time)) continue;
-      core::fail_input(
-          {component.where, component.name, {}, {}},
-          fmt::format("the unit takes steps of one size only, and none of {} s ends at "
-                      "{} s, the instant of an intervention on '{}'",
-                      core::to_text(options_.step.size), core::to_text(time),
-                      system_->full_name(intervention.id)),
-          "choose a multiple of the step for it");
+  for (std::size_t i = 0; i < fmus_.size(); ++i) {
+    const core::Component& component = system_->components()[i];
+    if (component.description->can_vary_step) continue;
+    const bool is_alone = component.keeps_own_step();
+    if (!is_alone && !options_.step.policy->has_grid) continue;
+    for (const core::Intervention& intervention : interventions) {
+      if (!is_alone || intervention.id.component == i) check_instants(i, intervention);
     }
+  }
+}
+
+/// Whether they are ends of steps of this component.
+void LoadedScenario::check_instants(std::size_t component,
+                                    const core::Intervention& intervention) const {
+  const core::ComponentDeclaration& rigid = scenario_.system.components[component];
+  for (const Time time : {intervention.from, intervention.until.value_or(intervention.from)}) {
+    if (grid_of(component).has(time)) continue;
+    core::fail_input({rigid.where, rigid.name, {}, {}},
+                     fmt::format("the unit takes steps of one size only, and none of {} s ends at "
+                                 "{} s, the instant of an intervention on '{}'",
+                                 core::to_text(step_of(component)), core::to_text(time),
+                                 system_->full_name(intervention.id)),
+                     "choose a multiple of the step for it");
   }
 }
 
@@ -657,14 +730,16 @@ void LoadedScenario::warn_of_many_steps() const {
       steps, core::to_text(options_.step.size));
 }
 
-/// A run with units that take steps of one size only ends with the last whole one.
+/// A run with units that take steps of its own size only ends with the last whole one.
 void LoadedScenario::end_with_whole_steps() {
   if (!has_stop() || grid().ends_at(options_.stop)) return;
-  const auto rigid = std::ranges::find_if(
-      fmus_, [](const auto& fmu) { return !fmu->description()->can_vary_step; });
-  if (rigid == fmus_.end()) return;
-  const auto& component =
-      scenario_.system.components[static_cast<std::size_t>(rigid - fmus_.begin())];
+  std::size_t rigid = 0;
+  const auto is_bound = [&](std::size_t i) {
+    return !fmus_[i]->description()->can_vary_step && step_of(i) == options_.step.size;
+  };
+  while (rigid < fmus_.size() && !is_bound(rigid)) ++rigid;
+  if (rigid == fmus_.size()) return;
+  const core::ComponentDeclaration& component = scenario_.system.components[rigid];
   const core::Context context{component.where, component.name, {}, {}};
   const std::string reason = fmt::format(
       "the unit takes steps of one size only, and the run to {} s is not a whole number of steps "
@@ -683,30 +758,53 @@ void LoadedScenario::end_with_whole_steps() {
                                                     core::to_text(options_.stop))));
 }
 
+/// A component that takes steps of one size only has made its last one before the end of the run.
+void LoadedScenario::warn_of_last_own_steps() const {
+  for (std::size_t i = 0; i < fmus_.size(); ++i) {
+    const core::Component& component = system_->components()[i];
+    if (component.description->can_vary_step || !component.keeps_own_step()) continue;
+    const core::Grid grid = grid_of(i);
+    if (grid.ends_at(options_.stop)) continue;
+    const Time last = grid.last_point(options_.stop);
+    const core::Context context{scenario_.system.components[i].where, component.name, {}, {}};
+    const std::string reason =
+        fmt::format("the unit takes steps of one size only, {} s, none of which ends at {} s",
+                    core::to_text(step_of(i)), core::to_text(options_.stop));
+    if (last == options_.start) {
+      core::fail_input(context, reason,
+                       fmt::format("stop at a multiple of them, at {} s or later",
+                                   core::to_text(grid.point(1))));
+    }
+    spdlog::warn("{}{}: its last one ends at {} s, and its outputs hold from there on",
+                 core::to_text(context), reason, core::to_text(last));
+  }
+}
+
 /// Some units count their steps, and not the time.
 void LoadedScenario::warn_of_other_steps() const {
   for (std::size_t i = 0; i < fmus_.size(); ++i) {
     const core::UnitDescription& unit = *fmus_[i]->description();
-    if (unit.can_vary_step || !unit.default_step || *unit.default_step == options_.step.size) {
+    if (unit.can_vary_step || !unit.default_step || *unit.default_step == step_of(i)) {
       continue;
     }
     const std::string step = core::to_text(*unit.default_step);
-    log_->write(scenario_.system.components[i].name, importer::Status::Warning, "stride",
-                fmt::format("it takes steps of one size only, and its DefaultExperiment has {} s, "
-                            "but its steps are of {} s; if its times or values are wrong then, use "
-                            "--step {}",
-                            step, core::to_text(options_.step.size), step));
+    log_->write(
+        scenario_.system.components[i].name, importer::Status::Warning, "stride",
+        fmt::format("it takes steps of one size only, and its DefaultExperiment has {} s, "
+                    "but its steps are of {} s; if its times or values are wrong then, use "
+                    "--step {}={}",
+                    step, core::to_text(step_of(i)), scenario_.system.components[i].name, step));
   }
 }
 
 void LoadedScenario::warn_of_internal_steps() const {
   for (std::size_t i = 0; i < fmus_.size(); ++i) {
     const auto& internal = fmus_[i]->description()->fixed_internal_step;
-    if (!internal || options_.step.size.is_multiple_of(*internal)) continue;
+    if (!internal || step_of(i).is_multiple_of(*internal)) continue;
     log_->write(scenario_.system.components[i].name, importer::Status::Warning, "stride",
                 fmt::format("its internal step of {} s is not part of the communication step of "
                             "{} s, so it is not always where the others are",
-                            core::to_text(*internal), core::to_text(options_.step.size)));
+                            core::to_text(*internal), core::to_text(step_of(i))));
   }
 }
 
@@ -731,7 +829,7 @@ importer::InstanceOptions LoadedScenario::instance_options(
   options.early_return_allowed = declared.early_return_allowed;
   options.intermediate_update = options_.sets_inputs_in_steps();
   options.where = declared.where;
-  if (options_.step.policy->has_grid) options.step = options_.step.size;
+  if (declared.own_step || options_.step.policy->has_grid) options.step = step_of(component);
   options.interrupted = interrupted;
   if (!results.empty()) options.results = recorders::unit_folder(results, declared.name);
   options.description = system_->components()[component].description;

@@ -144,6 +144,12 @@ class LoadedScenario {
   std::optional<Time> declared_stop() const;
   Duration declared_length() const;
   void choose_steps(const StepSettings& request);
+  ComponentSteps set_component_steps(const StepSettings& request) const;
+  void choose_component_steps(const ComponentSteps& set, bool is_size_set);
+  void check_internal_step(const core::ComponentDeclaration& component) const;
+  void warn_of_early_returns(const core::ComponentDeclaration& component) const;
+  core::Interval step_of(std::size_t component) const;
+  core::Grid grid_of(std::size_t component) const;
   void choose_checks(const ScenarioRequest& request);
   void choose_coverage(const ScenarioRequest& request);
   void check_demand_names() const;
@@ -153,9 +159,11 @@ class LoadedScenario {
   void choose_interventions(const ScenarioRequest& request);
   core::Grid grid() const;
   void check_instants(std::span<const core::Intervention> interventions) const;
+  void check_instants(std::size_t component, const core::Intervention& intervention) const;
   void choose_signals(const ScenarioRequest& request);
   void warn_of_many_steps() const;
   void end_with_whole_steps();
+  void warn_of_last_own_steps() const;
   void warn_of_other_steps() const;
   void warn_of_internal_steps() const;
   void warn_of_unlimited_steps() const;

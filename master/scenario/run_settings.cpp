@@ -4,6 +4,7 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -39,12 +40,23 @@ Duration parse_above_zero(std::string_view text, const char* what) {
   return duration;
 }
 
+core::Interval parse_size(std::string_view text) {
+  const auto size = core::Interval::parse(text);
+  if (size.is_below_picosecond()) fail_below_resolution("a step");
+  return size;
+}
+
 Duration parse_step(std::string_view text) { return parse_above_zero(text, "a step"); }
 
 /// Replaces what is set already, if the other value is set.
 template <class T, class U>
 void take(T& mine, const std::optional<U>& other) {
   if (other) mine = *other;
+}
+
+/// ", in line 7"
+std::string shown_line(const core::Location& where) {
+  return where.line == 0 ? "" : fmt::format(", in line {}", where.line);
 }
 
 constexpr std::uint64_t kMebibyte = 1024 * 1024;
@@ -85,10 +97,7 @@ std::vector<std::optional<Duration>> max_skips(const std::vector<IdleRule>& rule
 void StepSettings::set_policy(std::string_view text) {
   policy = parse_word(text, core::kStepPolicies);
 }
-void StepSettings::set_size(std::string_view text) {
-  size = core::Interval::parse(text);
-  if (size->is_below_picosecond()) fail_below_resolution("a step");
-}
+void StepSettings::set_size(std::string_view text) { size = parse_size(text); }
 void StepSettings::set_maximum(std::string_view text) { maximum = parse_step(text); }
 void StepSettings::set_minimum(std::string_view text) { minimum = parse_step(text); }
 void StepSettings::set_relative_tolerance(std::string_view text) {
@@ -102,6 +111,37 @@ void StepSettings::set_coupling(std::string_view text) {
 }
 void StepSettings::set_extrapolation(std::string_view text) {
   extrapolation = parse_word(text, core::kExtrapolations);
+}
+
+void StepSettings::set_step(std::string_view text) {
+  const std::size_t at = text.rfind('=');
+  if (at == text.npos) {
+    if (size) throw std::invalid_argument("a second step for all components; expected one");
+    return set_size(text);
+  }
+  if (at == 0) throw std::invalid_argument("expected COMPONENT=SECONDS");
+  const core::Location where{fmt::format("--step {}", text), 0};
+  of_components.push_back(
+      {{std::string(text.substr(0, at)), where}, parse_size(text.substr(at + 1))});
+}
+
+ComponentSteps StepSettings::component_steps(std::span<const std::string> names) const {
+  std::vector<const ComponentStep*> found(names.size());
+  ComponentSteps steps(names.size());
+  const ComponentSelector selector(names);
+  for (const ComponentStep& step : of_components) {
+    for (const std::size_t i : selector.select(step.components)) {
+      if (const ComponentStep* const first = std::exchange(found[i], &step)) {
+        core::fail_input({step.components.where, names[i], {}, {}},
+                         fmt::format("a second step for this component, {} s; the first is {} s{}",
+                                     core::to_text(step.size), core::to_text(first->size),
+                                     shown_line(first->components.where)),
+                         "give it one of them");
+      }
+      steps[i] = step.size;
+    }
+  }
+  return steps;
 }
 
 void StepSettings::apply(core::RunOptions& options) const {

@@ -21,6 +21,15 @@
 
 namespace stride::scenario {
 
+/// The step of the components that match.
+struct ComponentStep {
+  ComponentPattern components;
+  core::Interval size{};
+};
+
+/// By component; nothing: it has none of its own.
+using ComponentSteps = std::vector<std::optional<core::Interval>>;
+
 /// What is set of the stepping; nothing where it is not set.
 struct StepSettings {
   std::optional<const core::StepPolicyType*> policy;
@@ -31,6 +40,7 @@ struct StepSettings {
   std::optional<double> absolute_tolerance;
   std::optional<core::Coupling> coupling;
   std::optional<core::Extrapolation> extrapolation;
+  std::vector<ComponentStep> of_components;
 
   /// Each takes a text into its place. Throws std::invalid_argument whose text contains what was
   /// expected. Times are above 0 s, tolerances at least 0.
@@ -42,9 +52,14 @@ struct StepSettings {
   void set_absolute_tolerance(std::string_view text);
   void set_coupling(std::string_view text);
   void set_extrapolation(std::string_view text);
+  /// "SECONDS", once, or "COMPONENT=SECONDS", of the option --step.
+  void set_step(std::string_view text);
 
   /// What is set here replaces the value in the options.
   void apply(core::RunOptions& options) const;
+  /// Of each component the step that is set for it alone. Throws core::Error (Input) for a pattern
+  /// that matches none, and where two of them match one component.
+  ComponentSteps component_steps(std::span<const std::string> names) const;
 };
 
 /// Of a component whose unit runs on another machine.

@@ -46,9 +46,19 @@ CLI::Option* add_setting(CLI::App& command, const std::string& name,
 
 void add_step_options(CLI::App& command, scenario::StepSettings& settings) {
   using scenario::StepSettings;
-  add_setting(command, "--step", settings, &StepSettings::set_size,
-              "Communication step size; that of the first step with error control")
-      ->type_name("SECONDS");
+  command
+      .add_option_function<std::vector<std::string>>(
+          "--step",
+          [&settings](const std::vector<std::string>& texts) {
+            for (const std::string& text : texts) {
+              parse_option("--step", text,
+                           [&](std::string_view value) { settings.set_step(value); });
+            }
+          },
+          "Communication step size; that of the first step with error control; or the step of some "
+          "components alone, COMPONENT a glob; may be given several times")
+      ->type_name("[COMPONENT=]SECONDS")
+      ->allow_extra_args(false);
   add_setting(command, "--policy", settings, &StepSettings::set_policy,
               "How the next communication point is chosen")
       ->type_name(alternatives(core::kStepPolicies));

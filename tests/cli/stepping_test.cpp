@@ -214,3 +214,58 @@ TEST_CASE("the error of a unit in a step of another size than its own has that s
                               Contains(words) &&
                               Contains("use --step 0.1, or <stride:Step size=\"0.1\"/>"));
 }
+
+TEST_CASE("units of one step size each run side by side, each with its own") {
+  const Workspace workspace(Parts{component("fast", "fmi2_fast_rigid_stickler.fmu") +
+                                  component("slow", "fmi2_rigid_stickler.fmu")});
+  const auto hosting = GENERATE(as<std::string>(), "--no-report", "--isolate");
+  const Outcome outcome = workspace.run({"--quiet", hosting});
+  INFO(outcome.err);
+  REQUIRE(outcome.exit_code == 0);
+  CHECK(workspace.signals().numbers("fast.n").back() == 100);
+  CHECK(workspace.signals().numbers("slow.n").back() == 10);
+  CHECK(workspace.signals().numbers("time").size() == 101);
+  CHECK_THAT(workspace.stride({"check", "test.ssd"}).out,
+             Contains("\nfast: steps of 0.01 s\nslow: steps of 0.1 s\n"));
+  CHECK_THAT(read(workspace / "out/run.json"),
+             Contains("\"components\": {\n      \"fast\": 0.01,\n      \"slow\": 0.1\n"));
+  CHECK_THAT(workspace.run({"--quiet", "--step", "0.1"}).err, Contains("--step fast=0.01"));
+  CHECK(workspace.run({"--quiet", "--step", "0.1", "--step", "fast=0.01"}).exit_code == 0);
+  const Outcome shorter = workspace.run({"--quiet", "--stop", "0.55"});
+  CHECK(shorter.exit_code == 0);
+  CHECK_THAT(shorter.err, Contains("none of which ends at 0.55 s: its last one ends at 0.5 s"));
+}
+
+TEST_CASE("a unit of one step size runs beside one that returns early, or the error has the way") {
+  const Workspace workspace(
+      Parts{component("stops", "early.fmu") + component("rigid", "fmi2_rigid_stickler.fmu")});
+  const Arguments arguments{"--quiet", "--stop", "1", "--set",
+                            "stops.instants=0.05 -1 -1 -1 -1 -1 -1 -1"};
+  const Outcome outcome = workspace.run(arguments);
+  INFO(outcome.err);
+  CHECK(outcome.exit_code == 0);
+  CHECK(workspace.signals().numbers("rigid.n").back() == 10);
+  CHECK(workspace.signals().numbers("time").size() == 12);
+  Arguments in_sequence = arguments;
+  in_sequence.insert(in_sequence.end(), {"--coupling", "gauss-seidel"});
+  CHECK_THAT(workspace.run(in_sequence).err,
+             Contains("<stride:EarlyReturn components=\"stops\" allowed=\"false\"/>"));
+}
+
+TEST_CASE("steps of components that cannot be are refused") {
+  const auto with = [](const std::string& steps) {
+    return Workspace(
+        Parts{component("fast", "fmi2_relaxation.fmu") + component("slow", "fmi2_relaxation.fmu"),
+              "", steps});
+  };
+  const auto step = [](const std::string& of, const std::string& size) {
+    return "<stride:Step components=\"" + of + "\" size=\"" + size + "\"/>\n";
+  };
+  CHECK_THAT(input_error_of(with(step("slaw", "0.1")).run()), Contains("'slow'"));
+  CHECK_THAT(input_error_of(with(step("slow", "0")).run()), Contains("a step must be above 0 s"));
+  CHECK_THAT(input_error_of(with(step("slow", "0.1") + step("s*", "0.2")).run()),
+             Contains("a second step for this component, 0.2 s; the first is 0.1 s, in line"));
+  CHECK_THAT(input_error_of(with("").run({"--step", "0.1", "--step", "0.2"})),
+             Contains("a second step"));
+  CHECK_THAT(input_error_of(with("").run({"--step", "slow=0"})), Contains("a step must be above"));
+}

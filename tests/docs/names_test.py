@@ -28,7 +28,7 @@ PLACEHOLDER = "Class::function"
 # what only builds or reports an error.
 SHOWN = {
     "Run": "abandon note_requested_end add_observer statistics suspended_time was_suspended verdicts count "
-           "sets_inputs_in_steps "
+           "sets_inputs_in_steps inputs_in_steps make_own_steps are_steps_on_grid "
            "coasting add_wall_time finish_suspensions finish_observers start make_part check_between_parts conclude "
            "value read_value read_output "
            "set_control run_rest end_behind persist add_interventions persist_all persist_statistics "
@@ -38,18 +38,19 @@ SHOWN = {
                "may_be_regular advance_regularly make_further_passes "
                "form_stages form_rows row_members coasting_row step_rows note_plain_ones note_outcome note_step "
                "note_whole_rows count_whole_rows "
-               "batches interval step_one_by_one step_plainly save_and_step reached_by attempt_timed begin_timed "
+               "batches interval step_one_by_one step_plainly make_step save_and_step reached_by attempt_timed begin_timed "
                "finish persist prepare conclude report record_time index name rethrow_failure reason hint_for_final fail_final plan pool",
     "IdleScheduler": "add_candidate all_suspended_until catch_up_and_report check_promise covers drop_tangents find_sources "
                      "is_disturbed is_suspended is_trivial leaves_deadband may_suspend persist persist_tangents report_suspension "
                      "report_unfinished suspended_time was_suspended",
     "OrderedEvaluation": "check_nan find_direct_inputs is_trivial plan report sweep takes_part",
     "AlgebraicLoop": "collect fail has_converged have_held_values_converged hint inputs put sweep values_text",
-    "InputExtrapolator": "persist sample set_targets signal_of undo_step within_step",
+    "InputExtrapolator": "persist sample set_targets signal_of undo_step within_step "
+                         "set_own_steps keeps_own_step is_behind",
     "StepPolicy": "persist regular_grid",
     "EventHandler": "had_event has_announced count description activate activate_announced update_announced "
                     "notify_observers receive report content_of described_by check_sent fail_nan fail_ticking fail_sample_loop "
-                    "takes_part find_discontinuities quiet_until pass_quietly persist set_in_event make_assignments disturb release report_disturbed",
+                    "takes_part find_discontinuities quiet_until pass_quietly persist must_wait next_receipt set_in_event make_assignments disturb release report_disturbed",
 }
 
 

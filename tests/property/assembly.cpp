@@ -1,6 +1,7 @@
 #include "tests/property/assembly.h"
 
 #include <algorithm>
+#include <iterator>
 #include <random>
 #include <sstream>
 #include <stdexcept>
@@ -10,6 +11,7 @@
 #include "master/recorders/csv_recorder.h"
 #include "master/recorders/event_recorder.h"
 #include "master/remote/remote_unit.h"
+#include "master/util/time_text.h"
 #include "tests/master/importer/support.h"
 
 namespace stride::tests {
@@ -147,6 +149,40 @@ Assembly Assembly::served() const {
   return other;
 }
 
+Assembly Assembly::with_own_steps(unsigned seed) const {
+  Assembly other = with_any_own_steps(seed);
+  for (core::ComponentDeclaration& component : other.declaration_.components) {
+    if (!component.description->has_event_mode) component.own_step.reset();
+  }
+  return other;
+}
+
+Assembly Assembly::with_strict_own_steps(unsigned seed) const {
+  Assembly other = with_any_own_steps(seed);
+  std::mt19937 random(seed);
+  for (core::ComponentDeclaration& component : other.declaration_.components) {
+    if (!component.own_step) continue;
+    component.early_return_allowed = random() % 2 == 0;
+    const std::string& unit = component.description->model_identifier;
+    if (random() % 2 == 0 || (unit != "linear" && unit != "listener")) continue;
+    auto description = std::make_shared<core::UnitDescription>(*component.description);
+    description->can_vary_step = false;
+    component.description = std::move(description);
+  }
+  return other;
+}
+
+Assembly Assembly::with_any_own_steps(unsigned seed) const {
+  const core::Interval kSteps[] = {std::chrono::microseconds(700), std::chrono::milliseconds(2),
+                                   std::chrono::milliseconds(3), std::chrono::milliseconds(5)};
+  Assembly other = *this;
+  std::mt19937 random(seed);
+  for (core::ComponentDeclaration& component : other.declaration_.components) {
+    if (random() % 3 > 0) component.own_step = kSteps[random() % std::size(kSteps)];
+  }
+  return other;
+}
+
 Assembly Assembly::shuffled(unsigned seed) const {
   Assembly other = *this;
   std::mt19937 random(seed);
@@ -157,10 +193,10 @@ Assembly Assembly::shuffled(unsigned seed) const {
 }
 
 std::vector<std::unique_ptr<core::Unit>> Assembly::instantiate() const {
-  const importer::InstanceOptions options{.early_return_allowed = true,
-                                          .intermediate_update = true};
   std::vector<std::unique_ptr<core::Unit>> units;
   for (const core::ComponentDeclaration& component : declaration_.components) {
+    const importer::InstanceOptions options{.early_return_allowed = component.early_return_allowed,
+                                            .intermediate_update = true};
     const std::shared_ptr<importer::Fmu>& fmu = units_.at(component.name);
     if (hosted_.count(component.name) == 0) {
       units.push_back(fmu->instantiate(component.name, options));
@@ -181,7 +217,9 @@ std::string Assembly::text() const {
   std::string text;
   for (const auto& component : declaration_.components) {
     text += component.name + ": " + component.description->model_name +
-            (hosted_.count(component.name) > 0 ? " in a process of its own\n" : "\n");
+            (hosted_.count(component.name) > 0 ? " in a process of its own" : "");
+    if (component.own_step) text += " steps of " + core::to_text(*component.own_step) + " s";
+    text += component.early_return_allowed ? "\n" : ", no early return\n";
   }
   for (const auto& wire : declaration_.connections) {
     text += wire.from_component + "." + wire.from_connector + " -> " + wire.to_component + "." +

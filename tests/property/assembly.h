@@ -40,6 +40,11 @@ class Assembly {
   Assembly hosted() const;
   /// The same system, whose components that have processes of their own run behind `stride serve`.
   Assembly served() const;
+  /// The same system, of which some components with Event Mode have steps of their own.
+  Assembly with_own_steps(unsigned seed) const;
+  /// The same system, of which some components have steps of their own. Some of these must not
+  /// return early, and some take steps of one size only.
+  Assembly with_strict_own_steps(unsigned seed) const;
   /// The same system with its components and connections in another order.
   Assembly shuffled(unsigned seed) const;
 
@@ -49,6 +54,8 @@ class Assembly {
   std::string text() const;
 
  private:
+  Assembly with_any_own_steps(unsigned seed) const;
+
   core::SystemDeclaration declaration_;
   std::map<std::string, std::shared_ptr<importer::Fmu>> units_;  ///< by component
   std::set<std::string> hosted_;                                 ///< components

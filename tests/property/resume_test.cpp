@@ -57,7 +57,7 @@ Assembly clocks_and_loops(unsigned seed) {
   return system.wire("f.y", "g.u").wire("g.y", "f.u");
 }
 
-Assembly system_of(unsigned seed) {
+Assembly system_without_own_steps(unsigned seed) {
   switch (seed % 8) {
     case 0:
       return idle_units(seed / 8);
@@ -70,6 +70,11 @@ Assembly system_of(unsigned seed) {
     default:
       return random_system(seed, Wiring::Continuous);
   }
+}
+
+Assembly system_of(unsigned seed) {
+  const Assembly assembly = system_without_own_steps(seed);
+  return seed % 3 == 0 ? assembly.with_strict_own_steps(seed) : assembly;
 }
 
 bool can_all_go_back(const Assembly& assembly) {

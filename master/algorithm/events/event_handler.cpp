@@ -22,7 +22,7 @@ void bring_forward(Time& time, const std::optional<Time>& event) {
 
 }  // namespace
 
-EventHandler::EventHandler(RunContext& context, IdleScheduler* idle)
+EventHandler::EventHandler(RunContext& context, IdleScheduler* idle, OwnSteps* own_steps)
     : system_(context.system),
       units_(context.units),
       exchange_(context.exchange),
@@ -34,6 +34,7 @@ EventHandler::EventHandler(RunContext& context, IdleScheduler* idle)
       statistics_(context.statistics),
       clock_(context.clock),
       idle_(idle),
+      own_steps_(own_steps),
       active_(units_.size()),
       in_event_mode_(units_.size()),
       had_event_(units_.size()),
@@ -138,6 +139,7 @@ void EventHandler::leave_event_mode() {
 void EventHandler::update_announced() {
   announced_.reset();
   for (const std::size_t i : event_units_) {
+    if (own_steps_ != nullptr) own_steps_->set_event(i, next_event_[i]);
     if (!next_event_[i]) continue;
     announced_ = std::min(*next_event_[i], announced_.value_or(*next_event_[i]));
   }
@@ -148,7 +150,7 @@ void EventHandler::update_announced() {
 bool EventHandler::prepare_events() {
   for (const std::size_t i : clocks_.due(time_)) activate(i);
   for (const std::size_t i : discrete_units_) {
-    if (exchange_.has_discrete_change(i)) activate(i);
+    if (exchange_.has_discrete_change(i) && !must_wait(i)) activate(i);
   }
   const bool has_delivery = messages_.has_delivery(time_);
   if (!has_active_ && !has_event_ && !has_delivery) return false;
@@ -171,10 +173,16 @@ void EventHandler::make_assignments() {
 
 void EventHandler::enter_event_mode(std::size_t i) {
   if (in_event_mode_[i]) return;
-  if (idle_ != nullptr && idle_->is_suspended(i)) idle_->catch_up_and_report(i, time_);
+  catch_up(i);
   units_[i]->enter_event_mode();
   in_event_mode_[i] = has_event_ = true;
   exchange_.write_inputs(i, *units_[i]);
+}
+
+void EventHandler::catch_up(std::size_t i) {
+  if (idle_ != nullptr && idle_->is_suspended(i)) idle_->catch_up_and_report(i, time_);
+  if (own_steps_ == nullptr || !own_steps_->is_behind(i, time_)) return;
+  if (own_steps_->catch_up(i, time_).terminate_simulation) statistics_.end = RunEnd::EndedByUnit;
 }
 
 /// One super-dense instant: ticks with the values sampled at them, messages, then the units'
@@ -253,6 +261,7 @@ void EventHandler::find_discontinuities() {
 /// FMI requires Event Mode where a continuous input is discontinuous; at once if an output depends
 /// on the input.
 void EventHandler::on_discontinuity(VariableId input, bool is_followed) {
+  if (must_wait(input.component)) return;
   if (is_followed) include(input.component);
   activate(input.component);
 }

@@ -17,6 +17,7 @@
 #include "master/algorithm/idle/idle_scheduler.h"
 #include "master/algorithm/loops/ordered_evaluation.h"
 #include "master/algorithm/run_context.h"
+#include "master/algorithm/stepping/own_steps.h"
 
 namespace stride::core {
 
@@ -26,8 +27,9 @@ class StateArchive;
 class EventHandler : private OrderedEvaluation::Participants,
                      private MessageExchange::Participants {
  public:
-  /// Both must outlive this object. `idle`: optional idle scheduler.
-  explicit EventHandler(RunContext& context, IdleScheduler* idle = nullptr);
+  /// All must outlive this object. `idle`, `own_steps`: optional.
+  explicit EventHandler(RunContext& context, IdleScheduler* idle = nullptr,
+                        OwnSteps* own_steps = nullptr);
 
   /// Before the end of Initialization Mode: determines the first ticks of the time-based clocks.
   void begin_clocks(Time start) { clocks_.begin(start); }
@@ -101,6 +103,10 @@ class EventHandler : private OrderedEvaluation::Participants,
   bool prepare_events();
   void leave_event_mode();
   void enter_event_mode(std::size_t i);
+  void catch_up(std::size_t i);
+  bool must_wait(std::size_t i) const {
+    return own_steps_ != nullptr && own_steps_->must_wait(i, time_);
+  }
   bool event_iteration();
   void tick_clocks();
   bool exchange_samples(std::span<const std::size_t> ticking);
@@ -121,6 +127,9 @@ class EventHandler : private OrderedEvaluation::Participants,
   void on_discontinuity(VariableId input, bool is_followed) override;
   bool include(std::size_t i) override;
 
+  Time next_receipt(std::size_t receiver, Time time) override {
+    return own_steps_ != nullptr ? own_steps_->next_event_from(receiver, time) : time;
+  }
   void receive(std::size_t receiver) override;
   void report(VariableId id, bool received, const ValueBlock* block) override;
   void report_disturbed(VariableId id, const std::string& text) override;
@@ -137,6 +146,7 @@ class EventHandler : private OrderedEvaluation::Participants,
   RunStatistics& statistics_;
   const WallClock& clock_;
   IdleScheduler* idle_;
+  OwnSteps* own_steps_;
 
   struct Assignment {
     VariableId id;

@@ -7,13 +7,15 @@
 
 namespace stride::core {
 
-Interventions::Interventions(RunContext& context, EventHandler& event_handler, IdleScheduler* idle)
+Interventions::Interventions(RunContext& context, EventHandler& event_handler, IdleScheduler* idle,
+                             OwnSteps* own_steps)
     : system_(context.system),
       units_(context.units),
       exchange_(context.exchange),
       observers_(context.observers),
       event_handler_(event_handler),
-      idle_(idle) {
+      idle_(idle),
+      own_steps_(own_steps) {
   for (const Intervention& intervention : context.options.interventions) plan(intervention);
   sort();
 }
@@ -100,6 +102,9 @@ void Interventions::end(const Intervention& intervention, Time time) {
 void Interventions::resume(std::size_t component, Time time) {
   if (idle_ != nullptr && idle_->is_suspended(component)) {
     idle_->catch_up_and_report(component, time);
+  }
+  if (own_steps_ != nullptr && own_steps_->is_behind(component, time)) {
+    own_steps_->catch_up(component, time);
   }
 }
 

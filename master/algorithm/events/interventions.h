@@ -20,11 +20,12 @@ namespace stride::core {
 
 /// Makes the interventions of a run at their instants, which are communication points. A unit with
 /// Event Mode is in it where one of its variables changes; the others have new values from the next
-/// step on. A unit that is suspended goes on from the instant.
+/// step on. A unit that is suspended, or behind in a step of its own, goes on from the instant.
 class Interventions {
  public:
-  /// All must outlive this object. `idle`: optional idle scheduler.
-  Interventions(RunContext& context, EventHandler& event_handler, IdleScheduler* idle);
+  /// All must outlive this object. `idle`, `own_steps`: optional.
+  Interventions(RunContext& context, EventHandler& event_handler, IdleScheduler* idle,
+                OwnSteps* own_steps);
 
   /// At a communication point whose interventions are made: further ones, which begin at `earliest`
   /// or later. Throws std::logic_error for others.
@@ -76,6 +77,7 @@ class Interventions {
   const std::vector<Observer*>& observers_;
   EventHandler& event_handler_;
   IdleScheduler* idle_;
+  OwnSteps* own_steps_;
   std::deque<Intervention> added_;
   std::vector<Change> changes_;  ///< by time
   std::size_t made_ = 0;

@@ -187,6 +187,14 @@ void MessageExchange::forward(SourceClock& clock) {
   for (Target& target : clock.targets) {
     convert(target, clock.payloads);
     if (target.disturbance != nullptr && !passes(target)) continue;
+    if (const Time receipt = participants_.next_receipt(target.clock.component, time_);
+        receipt != time_) {
+      participants_.report_disturbed(
+          target.clock,
+          fmt::format("received at {} s, where the unit's step ends", to_text(receipt)));
+      delay(target, receipt);
+      continue;
+    }
     target.has_ticked ? delay(target, time_) : deliver(target);
   }
 }
@@ -245,7 +253,8 @@ void MessageExchange::corrupt(Target& target) {
       disturbance.id, fmt::format("{} bit{} inverted", inverted, inverted == 1 ? "" : "s"));
 }
 
-void MessageExchange::delay(Target& target, Time due) {
+void MessageExchange::delay(Target& target, Time earliest) {
+  const Time due = participants_.next_receipt(target.clock.component, earliest);
   std::vector<ValueBlock> values;
   for (const Receiver& receiver : target.receivers) values.push_back(receiver.block);
   const auto after = std::ranges::upper_bound(delayed_, due, {}, &Delayed::due);

@@ -31,6 +31,8 @@ class MessageExchange {
    public:
     /// Before anything is set in this component: it must be in Event Mode then.
     virtual void receive(std::size_t component) = 0;
+    /// The first instant not before `time` at which this component can receive something.
+    virtual Time next_receipt(std::size_t component, Time time) = 0;
     /// A message, or a tick without a value, was sent or received.
     virtual void report(VariableId id, bool received, const ValueBlock* block) = 0;
     /// A message was not received as it was sent.
@@ -125,7 +127,7 @@ class MessageExchange {
   void convert(Target& target, std::span<const Payload> payloads);
   bool passes(Target& target);
   void corrupt(Target& target);
-  void delay(Target& target, Time due);
+  void delay(Target& target, Time earliest);
   void deliver(Target& target);
   template <class Values>
   void deliver(VariableId clock, const Values& values);

@@ -93,7 +93,17 @@ class Exchange {
     return with_step_values(component, unit,
                             [&](const StepValues& values) { return unit.step(interval, values); });
   }
-  /// Begins such a step of a unit that makes it elsewhere. Its outputs are there when it is done.
+  /// A step of the unit with the inputs that it has.
+  StepResult step_with_held_inputs(std::size_t component, Unit& unit,
+                                   const StepInterval& interval) const {
+    return unit.step(interval, StepValues{{}, ports_[component].values.outputs});
+  }
+  void begin_step_with_held_inputs(std::size_t component, ConcurrentSteps& steps,
+                                   const StepInterval& interval,
+                                   const ConcurrentSteps::Extras& extras) const {
+    steps.begin_step(interval, StepValues{{}, ports_[component].values.outputs}, extras);
+  }
+  /// Begins step() of a unit that makes it elsewhere. Its outputs are there when it is done.
   void begin_step(std::size_t component, Unit& unit, ConcurrentSteps& steps,
                   const StepInterval& interval, const ConcurrentSteps::Extras& extras) {
     with_step_values(component, unit,

@@ -22,7 +22,11 @@ IdleScheduler::IdleScheduler(RunContext& context)
       options_(context.options.idle),
       states_(units_.size()) {
   for (std::size_t i = 0; i < units_.size(); ++i) {
-    if (const auto longest = options_.longest_suspension(system_, i)) add_candidate(i, *longest);
+    if (const auto longest = options_.longest_suspension(system_, i)) {
+      add_candidate(i, *longest);
+    } else {
+      are_others_own_ &= system_.components()[i].keeps_own_step();
+    }
   }
   find_sources();
 }
@@ -80,11 +84,11 @@ void IdleScheduler::enable() {
 }
 
 std::optional<Time> IdleScheduler::all_suspended_until(Time time) const {
-  if (candidates_.size() != states_.size()) return std::nullopt;
+  if (!are_others_own_) return std::nullopt;
   Time earliest = Time::max();
-  for (const IdleState& state : states_) {
-    if (!state.is_suspended) return std::nullopt;
-    earliest = std::min(earliest, state.end);
+  for (const std::size_t i : candidates_) {
+    if (!states_[i].is_suspended) return std::nullopt;
+    earliest = std::min(earliest, states_[i].end);
   }
   for (const std::size_t i : candidates_) {
     for (const WatchedInput& input : states_[i].inputs) {

@@ -44,9 +44,10 @@ class IdleScheduler {
   }
   /// Whether the unit, which is suspended, can stay so up to this time.
   bool covers(std::size_t component, Time time) const { return time <= states_[component].end; }
-  /// Up to when no unit has to be called: until a suspension ends, or the tangent of an output
-  /// takes an input out of its deadband. Nothing where a unit is not suspended. `time`: the current
-  /// communication point, with all values exchanged.
+  /// Up to when no unit has to be called, but for those that keep their own steps: until a
+  /// suspension ends, or the tangent of an output takes an input out of its deadband. Nothing where
+  /// another unit is not suspended. `time`: the current communication point, with all values
+  /// exchanged.
   std::optional<Time> all_suspended_until(Time time) const;
 
   /// The simulated time of all suspensions up to `time`, the current communication point, including
@@ -137,6 +138,7 @@ class IdleScheduler {
   const IdleOptions& options_;
   std::vector<IdleState> states_;  ///< by component
   std::vector<std::size_t> candidates_;
+  bool are_others_own_ = true;  ///< all others keep their own steps
   std::vector<std::size_t> events_;
 };
 

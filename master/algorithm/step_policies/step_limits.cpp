@@ -12,6 +12,7 @@ StepLimits::StepLimits(const System& system, const RunOptions& options,
       maximum_(options.step.maximum ? options.step.maximum : default_maximum),
       quantum_(start_, Duration(1)) {
   for (const Component& component : system.components()) {
+    if (component.keeps_own_step()) continue;
     const UnitDescription& unit = *component.description;
     if (unit.maximum_step)
       maximum_ = std::min(maximum_.value_or(stop_ - start_), *unit.maximum_step);

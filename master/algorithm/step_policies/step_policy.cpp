@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "master/algorithm/step_policies/step_limits.h"
+#include "master/util/time_text.h"
 
 namespace stride::core {
 namespace {
@@ -15,6 +16,18 @@ bool varies_steps(const System& system, const RunOptions& options) {
   const StepLimits limits(system, options);
   return !options.step.policy->has_grid ||
          (limits.maximum() && *limits.maximum() < options.step.size.rounded());
+}
+
+void check_own_step(const Component& component) {
+  if (!component.own_step) return;
+  const auto& maximum = component.description->maximum_step;
+  if (component.own_step->is_below_picosecond())
+    throw std::invalid_argument("a component's step must be positive");
+  if (!maximum || *component.own_step <= Interval(*maximum)) return;
+  fail_input({{}, component.name, {}, {}},
+             fmt::format("its own step of {} s is longer than its unit's maximum of {} s",
+                         to_text(*component.own_step), to_text(*maximum)),
+             "give it a shorter one");
 }
 
 }  // namespace
@@ -26,15 +39,19 @@ void check_step_policy(const System& system, const RunOptions& options) {
   std::vector<std::string> rigid;
   std::vector<std::string> final;
   for (const Component& component : system.components()) {
-    if (!component.description->can_vary_step) rigid.push_back(component.name);
+    check_own_step(component);
+    const bool is_rigid = !component.description->can_vary_step && !component.keeps_own_step();
+    if (is_rigid) rigid.push_back(component.name);
     if (!component.can_save_state()) final.push_back(component.name);
   }
   if (!rigid.empty() && varies_steps(system, options)) {
-    fail_input({},
-               fmt::format("these units take steps of one size only: {}; the policy '{}' with "
-                           "these step sizes needs various ones",
-                           quoted(rigid), policy.name),
-               "use the policy 'fixed', with a step no longer than any unit's maximum");
+    fail_input(
+        {},
+        fmt::format("these units take steps of one size only: {}; the policy '{}' with "
+                    "these step sizes needs various ones",
+                    quoted(rigid), policy.name),
+        "use the policy 'fixed', with a step no longer than any unit's maximum, or give these "
+        "units a step of their own, <stride:Step components=\"…\" size=\"…\"/>");
   }
   if (!final.empty() && policy.controls_error) {
     fail_input({},

@@ -1,5 +1,7 @@
 #include "master/algorithm/step_policies/unlimited_steps.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "master/algorithm/step_policies/step_limits.h"
@@ -19,6 +21,10 @@ bool changes_without_event(const System& system, VariableId id) {
 
 bool has_unlimited_steps(const System& system, const RunOptions& options) {
   if (options.step.policy->controls_error || StepLimits(system, options).maximum()) return false;
+  const auto has_own_step = [](const Component& component) {
+    return component.own_step.has_value();
+  };
+  if (std::ranges::any_of(system.components(), has_own_step)) return false;
   const Duration run = options.stop - options.start;
   return run > Duration{} && (!options.step.policy->has_grid || options.step.size >= Interval(run));
 }

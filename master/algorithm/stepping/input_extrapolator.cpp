@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "master/algorithm/stepping/own_steps.h"
 #include "master/util/state_archive.h"
 
 namespace stride::core {
@@ -45,10 +46,18 @@ void InputExtrapolator::sample(Source& source, Time time) {
   for (std::size_t i = 0; i < values.size(); ++i) values[i] = real(source.signals[i]);
 }
 
+bool InputExtrapolator::keeps_own_step(std::size_t component) const {
+  return own_steps_ != nullptr && own_steps_->keeps(component);
+}
+
+bool InputExtrapolator::is_behind(std::size_t component, Time time) const {
+  return own_steps_ != nullptr && own_steps_->is_behind(component, time);
+}
+
 void InputExtrapolator::accept(Time time, std::span<const char> had_event) {
   for (std::size_t i = 0; i < sources_.size(); ++i) {
     Source& source = sources_[i];
-    if (source.signals.empty()) continue;
+    if (source.signals.empty() || is_behind(i, time)) continue;
     SignalHistory& history = source.history;
     if (had_event[i]) history.clear();
     // what was read after a step may have changed since, and a step may end where it began
@@ -60,8 +69,9 @@ void InputExtrapolator::accept(Time time, std::span<const char> had_event) {
 
 void InputExtrapolator::persist(StateArchive& state, Time start, Time now) {
   state.mark("histories");
-  for (Source& source : sources_) {
-    if (!source.signals.empty()) source.history.persist(state, start, now);
+  for (std::size_t i = 0; i < sources_.size(); ++i) {
+    const Time newest = is_behind(i, now) ? own_steps_->reached(i) : now;
+    if (!sources_[i].signals.empty()) sources_[i].history.persist(state, start, newest);
   }
 }
 
@@ -119,7 +129,7 @@ ExtrapolationError InputExtrapolator::extrapolation_error(Time time, double abso
   ExtrapolationError worst;
   for (std::size_t i = 0; i < sources_.size(); ++i) {
     const Source& source = sources_[i];
-    if (source.signals.empty()) continue;
+    if (source.signals.empty() || keeps_own_step(i)) continue;
     undo_step(i);
     const SignalHistory& history = source.history;
     const SignalHistory::Weights weights = history.at(time, 0, time - history.newest());

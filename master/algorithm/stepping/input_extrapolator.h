@@ -15,6 +15,7 @@
 
 namespace stride::core {
 
+class OwnSteps;
 class StateArchive;
 
 /// The largest error of an input's extrapolation.
@@ -34,6 +35,8 @@ struct ExtrapolationError {
 class InputExtrapolator {
  public:
   explicit InputExtrapolator(RunContext& context);
+  /// Some components keep their own steps: their outputs have values at the ends of these only.
+  void set_own_steps(const OwnSteps& own_steps) { own_steps_ = &own_steps; }
 
   /// Sets a unit's inputs to their values within the step for which before_step() was called last.
   void within_step(std::size_t component, Unit& unit, double seconds_into_step);
@@ -53,7 +56,8 @@ class InputExtrapolator {
   /// The unit's step is undone.
   void undo_step(std::size_t component);
 
-  /// After a step of all units to `time`, with their outputs read: the largest difference
+  /// After a step of all units but those that keep their own steps to `time`, with their outputs
+  /// read: the largest difference
   /// between an output and its polynomial, as a multiple of absolute + relative * |value|.
   ExtrapolationError extrapolation_error(Time time, double absolute, double relative);
 
@@ -86,11 +90,14 @@ class InputExtrapolator {
   using SignalIndices = std::map<ValueSlice, std::size_t>;
   std::size_t signal_of(const ContinuousLink& link, SignalIndices& indices);
   void sample(Source& source, Time time);
+  bool keeps_own_step(std::size_t component) const;
+  bool is_behind(std::size_t component, Time time) const;
   /// Sets the targets that may change within a step, or the others.
   static void set_targets(const Feed& feed, const SignalHistory& history,
                           const SignalHistory::Weights& weights, bool within_step);
 
   Exchange& exchange_;
+  const OwnSteps* own_steps_ = nullptr;
   bool sequential_;
   std::vector<Source> sources_;           ///< by component
   std::vector<Step> steps_;               ///< the current or last one, by target component

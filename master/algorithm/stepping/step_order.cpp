@@ -9,11 +9,15 @@
 
 #include <fmt/format.h>
 
+#include "master/util/time_text.h"
+
 namespace stride::core {
 namespace {
 
+/// A component that keeps its own step stops nobody: others are not called for its steps.
 bool may_stop(const Component& component) {
-  return component.may_return_early() || component.description->may_reject;
+  return !component.keeps_own_step() &&
+         (component.may_return_early() || component.description->may_reject);
 }
 
 /// Of the units that may stop and have no state of their own, the one that steps when those that
@@ -45,6 +49,10 @@ std::string reason_to_go_back(const Component& component, bool saves_state) {
 
 std::string reason(const Component& component, StepRole role, bool saves_state) {
   const UnitDescription& unit = *component.description;
+  if (component.keeps_own_step()) {
+    return fmt::format("called each {} s, its own step; nothing waits for it, nothing is saved",
+                       to_text(*component.own_step));
+  }
   if (role == StepRole::CanRollBack) return reason_to_go_back(component, saves_state);
   if (role == StepRole::Follows && component.can_save_state() && !may_stop(component)) {
     return "never stops: follows the others, so nothing is saved";
@@ -132,8 +140,9 @@ void sort_along_connections(const std::vector<std::set<std::size_t>>& fed,
 void sort_along_connections(const System& system, std::vector<StepOrderEntry>& order) {
   const auto fed = fed_components(system);
   for (auto first = order.begin(); first != order.end();) {
-    const auto end = std::find_if(
-        first, order.end(), [&](const StepOrderEntry& entry) { return entry.role != first->role; });
+    const auto end = std::find_if(first, order.end(), [&](const StepOrderEntry& entry) {
+      return entry.role != first->role || entry.keeps_own_step != first->keeps_own_step;
+    });
     sort_along_connections(fed, {first, end});
     first = end;
   }
@@ -143,7 +152,8 @@ void form_stages(const System& system, std::vector<StepOrderEntry>& order) {
   std::size_t stage = 0;
   bool stage_may_stop = false;
   for (StepOrderEntry& entry : order) {
-    if (entry.role != StepRole::CanRollBack && stage_may_stop) {
+    const bool is_final = entry.role != StepRole::CanRollBack || entry.keeps_own_step;
+    if (is_final && stage_may_stop) {
       ++stage;
       stage_may_stop = false;
     }
@@ -180,12 +190,14 @@ std::vector<StepOrderEntry> step_order(const System& system, const StepPolicyTyp
     const StepRole role = role_of(components[i], i == final, policy);
     const std::ptrdiff_t others = stopping - (may_stop(components[i]) ? 1 : 0);
     const bool saves_state = role == StepRole::CanRollBack && (policy.controls_error || others > 0);
-    order.push_back(
-        {i, role, unit.can_vary_step, saves_state, reason(components[i], role, saves_state), 0});
+    const bool keeps = components[i].keeps_own_step();
+    order.push_back({i, role, unit.can_vary_step, saves_state,
+                     reason(components[i], role, saves_state), keeps});
   }
   std::stable_sort(order.begin(), order.end(),
                    [&](const StepOrderEntry& a, const StepOrderEntry& b) {
                      if (a.role != b.role) return a.role < b.role;
+                     if (a.keeps_own_step != b.keeps_own_step) return b.keeps_own_step;
                      if (a.role != StepRole::Follows) return false;
                      // the first of them can still reject, since nothing final has happened before
                      // it

@@ -25,8 +25,9 @@ struct StepOrderEntry {
   std::size_t component;
   StepRole role;
   bool can_vary_step;
-  bool saves_state;    ///< whether its state is saved before each step
-  std::string reason;  ///< of its position, human-readable
+  bool saves_state;             ///< whether its state is saved before each step
+  std::string reason;           ///< of its position, human-readable
+  bool keeps_own_step = false;  ///< it is called at the ends of its own steps only
   /// Counted from 0. All units of a stage make the same step, possibly at the same time; a stage
   /// begins when the one before it has completed its step.
   std::size_t stage = 0;
@@ -50,6 +51,9 @@ struct StepOrderEntry {
 /// that may stop and have no state of their own, the first of those that may return early, or if
 /// none may, of those that may reject a step, where units without snapshots precede those with
 /// them. Throws Error (Input) where two units may stop early and neither can be rolled back.
+///
+/// Components that keep their own steps are the last of their role: they stop nobody, and step when
+/// the others have agreed on where they are.
 ///
 /// A unit that cannot be rolled back begins a new stage where the stage before it has a unit that
 /// may stop: it must not go further than that one does.

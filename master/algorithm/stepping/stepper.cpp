@@ -36,7 +36,7 @@ Stepper::UnitStep::UnitStep(Unit& stepped, CoastingUnit* coasting, const StepOrd
 
 Stepper::Stepper(RunContext& context, const std::vector<StepOrderEntry>& order,
                  const std::vector<CoastingUnit*>& coasting, InputExtrapolator* inputs,
-                 IdleScheduler* idle)
+                 IdleScheduler* idle, OwnSteps* own_steps)
     : system_(context.system),
       unit_count_(context.units.size()),
       exchange_(context.exchange),
@@ -46,6 +46,7 @@ Stepper::Stepper(RunContext& context, const std::vector<StepOrderEntry>& order,
       step_clock_(context.clock),
       inputs_(inputs),
       idle_(idle),
+      own_steps_(own_steps),
       has_grid_(context.options.step.policy->has_grid),
       grid_(context.options.start, has_grid_ ? context.options.step.size : Interval(Duration(1))),
       stop_(context.options.stop),
@@ -60,10 +61,12 @@ Stepper::Stepper(RunContext& context, const std::vector<StepOrderEntry>& order,
     UnitStep& unit_step =
         unit_steps_.emplace_back(*context.units[entry.component], coasting[entry.component], entry);
     unit_step.may_suspend = idle != nullptr && idle->may_suspend(entry.component);
-    unit_step.is_plain = inputs == nullptr && entry.can_vary_step && !unit_step.may_suspend;
+    unit_step.keeps_own_step = entry.keeps_own_step;
+    unit_step.is_plain = inputs == nullptr && entry.can_vary_step && !unit_step.may_suspend &&
+                         !unit_step.keeps_own_step;
     if (is_main_only(context.options, entry.component)) unit_step.concurrent = nullptr;
     // inputs of a step that are not those of its beginning are no part of the state
-    unit_step.can_save_with_step = inputs == nullptr;
+    unit_step.can_save_with_step = inputs == nullptr && !unit_step.keeps_own_step;
   }
   form_stages();
   if (context.options.steps_in_rows) form_rows();
@@ -157,6 +160,7 @@ void Stepper::persist(StateArchive& state) {
 
 void Stepper::undo(Time from) {
   for (UnitStep& unit_step : unit_steps_) {
+    if (unit_step.keeps_own_step && unit_step.outcome == Outcome::Idle) continue;  // it waits
     report(unit_step, Activity::Kind::Undone, from, unit_step.result.reached);
     restore(unit_step, from);
     ++statistics_[unit_step.component].rollbacks;
@@ -273,7 +277,7 @@ bool Stepper::step_share(const ThreadShare& share, const StepInterval& interval)
     UnitStep& unit_step = unit_steps_[i];
     if (unit_step.outcome == Outcome::Failed && !failures_[i].is_consequence) return false;
     if (unit_step.outcome != Outcome::Pending) continue;
-    if (!succeeds(unit_step, [&] { return finish(unit_step); })) return false;
+    if (!succeeds(unit_step, [&] { return finish(unit_step, interval); })) return false;
   }
   return true;
 }
@@ -335,9 +339,13 @@ inline Stepper::Outcome Stepper::attempt_timed(UnitStep& unit_step, const StepIn
 inline Stepper::Outcome Stepper::attempt(UnitStep& unit_step, const StepInterval& interval) {
   const Outcome outcome = prepare(unit_step, interval);
   if (outcome != Outcome::Pending) return outcome;
-  return conclude(unit_step, unit_step.saves_with_step
-                                 ? save_and_step(unit_step, interval)
-                                 : exchange_.step(unit_step.component, *unit_step.unit, interval));
+  return conclude(unit_step, make_step(unit_step, interval));
+}
+
+inline StepResult Stepper::make_step(UnitStep& unit_step, const StepInterval& interval) {
+  if (unit_step.keeps_own_step) return own_steps_->step(unit_step.component, interval.to);
+  return unit_step.saves_with_step ? save_and_step(unit_step, interval)
+                                   : exchange_.step(unit_step.component, *unit_step.unit, interval);
 }
 
 Stepper::Outcome Stepper::begin_timed(UnitStep& unit_step, const StepInterval& interval) {
@@ -348,14 +356,22 @@ Stepper::Outcome Stepper::begin_timed(UnitStep& unit_step, const StepInterval& i
 Stepper::Outcome Stepper::begin(UnitStep& unit_step, const StepInterval& interval) {
   const Outcome outcome = prepare(unit_step, interval);
   if (outcome != Outcome::Pending) return outcome;
-  exchange_.begin_step(
-      unit_step.component, *unit_step.unit, *unit_step.concurrent, interval,
-      {.saves_state = unit_step.saves_with_step, .is_timed = step_clock_.measures()});
+  const ConcurrentSteps::Extras extras{.saves_state = unit_step.saves_with_step,
+                                       .is_timed = step_clock_.measures()};
+  if (unit_step.keeps_own_step) {
+    own_steps_->begin_step(unit_step.component, interval.to, *unit_step.concurrent, extras);
+  } else {
+    exchange_.begin_step(unit_step.component, *unit_step.unit, *unit_step.concurrent, interval,
+                         extras);
+  }
   return outcome;
 }
 
-Stepper::Outcome Stepper::finish(UnitStep& unit_step) {
-  const StepResult result = unit_step.concurrent->finish_step();
+Stepper::Outcome Stepper::finish(UnitStep& unit_step, const StepInterval& interval) {
+  StepResult result = unit_step.concurrent->finish_step();
+  if (unit_step.keeps_own_step) {
+    result = own_steps_->finish_step(unit_step.component, interval.to, result);
+  }
   if (step_clock_.measures()) times_[index(unit_step)] += unit_step.concurrent->step_time();
   return conclude(unit_step, result);
 }
@@ -364,6 +380,7 @@ Stepper::Outcome Stepper::finish(UnitStep& unit_step) {
 inline Stepper::Outcome Stepper::prepare(UnitStep& unit_step, const StepInterval& interval) {
   unit_step.rolled_back = unit_step.saves_with_step = false;
   if (unit_step.may_suspend && stays_suspended(unit_step, interval)) return Outcome::Idle;
+  if (unit_step.keeps_own_step && waits(unit_step, interval)) return Outcome::Idle;
   if (unit_step.communication_step != communication_step_) [[likely]] {
     unit_step.communication_step = communication_step_;
     unit_step.result = {.reached = interval.from};
@@ -374,6 +391,7 @@ inline Stepper::Outcome Stepper::prepare(UnitStep& unit_step, const StepInterval
     roll_back(unit_step, interval);
   }
   if (unit_step.result.reached == interval.to) return Outcome::Idle;
+  if (unit_step.keeps_own_step) return Outcome::Pending;
   if (!unit_step.can_vary_step && !grid_.is_regular(interval.to - interval.from))
     fail_size(unit_step, interval);
   if (inputs_ != nullptr) inputs_->before_step(unit_step.component, interval);
@@ -404,11 +422,22 @@ bool Stepper::stays_suspended(UnitStep& unit_step, const StepInterval& interval)
   return true;
 }
 
+/// Whether the unit's own step does not end here.
+bool Stepper::waits(UnitStep& unit_step, const StepInterval& interval) {
+  own_steps_->hold_inputs(unit_step.component, interval.from);
+  if (!own_steps_->waits(unit_step.component, interval.to)) return false;
+  unit_step.communication_step = communication_step_;
+  unit_step.result = {.reached = interval.to};
+  return true;
+}
+
 /// The inputs are part of the state.
 void Stepper::save(UnitStep& unit_step, const StepInterval& interval) {
   unit_step.saves_with_step = unit_step.can_save_with_step && interval.from != interval.to;
   if (unit_step.saves_with_step) return;
-  exchange_.write_routed_inputs(unit_step.component, *unit_step.unit);
+  if (!unit_step.keeps_own_step) {
+    exchange_.write_routed_inputs(unit_step.component, *unit_step.unit);
+  }
   unit_step.state->save_state();
 }
 
@@ -422,6 +451,7 @@ void Stepper::roll_back(UnitStep& unit_step, const StepInterval& interval) {
 void Stepper::restore(UnitStep& unit_step, Time from) {
   unit_step.state->restore_state();
   unit_step.result = {.reached = from};
+  if (unit_step.keeps_own_step) own_steps_->undo(unit_step.component);
   if (inputs_ != nullptr) inputs_->undo_step(unit_step.component);
 }
 
@@ -509,12 +539,17 @@ std::string Stepper::reason(const EarlyStop& stop) const {
 }
 
 void Stepper::fail_size(const UnitStep& unit_step, const StepInterval& interval) const {
-  const std::string hint =
-      "use a unit with canHandleVariableCommunicationStepSize, or none that has events or stops "
-      "early";
+  const bool is_early_return = early_stop_.by != nullptr && !early_stop_.is_rejection;
+  const std::string hint = fmt::format(
+      "{}use a unit with canHandleVariableCommunicationStepSize, or none that has events or stops "
+      "early",
+      is_early_return ? fmt::format("let '{0}' make whole steps, <stride:EarlyReturn components="
+                                    "\"{0}\" allowed=\"false\"/>, or ",
+                                    name(*early_stop_.by))
+                      : "");
   if (early_stop_.by == &unit_step) {
-    const std::string other_step =
-        own_step_hint(*system_.components()[unit_step.component].description, grid_.step());
+    const std::string other_step = own_step_hint(
+        name(unit_step), *system_.components()[unit_step.component].description, grid_.step());
     fail_run(
         {{}, name(unit_step), {}, interval.from},
         fmt::format("the unit rejected its step, and takes steps of one size only, {} s, so "

@@ -19,6 +19,7 @@
 #include "master/algorithm/run_context.h"
 #include "master/algorithm/stepping/coasting_unit.h"
 #include "master/algorithm/stepping/input_extrapolator.h"
+#include "master/algorithm/stepping/own_steps.h"
 #include "master/algorithm/stepping/step_order.h"
 #include "master/model/grid.h"
 #include "master/util/thread_pool.h"
@@ -45,10 +46,10 @@ class Stepper {
  public:
   /// All must outlive this object. `order` is that of step_order(), `coasting`, by component, has
   /// the units whose states it saves. `inputs` sets the inputs before each step; null if they keep
-  /// their values. `idle`: optional idle scheduler.
+  /// their values. `idle`, `own_steps`: optional.
   Stepper(RunContext& context, const std::vector<StepOrderEntry>& order,
           const std::vector<CoastingUnit*>& coasting, InputExtrapolator* inputs,
-          IdleScheduler* idle);
+          IdleScheduler* idle, OwnSteps* own_steps);
 
   /// Takes all units from `from` to `target`, or to the earlier instant, returned, at which one of
   /// them stopped, and reads their outputs. Throws Error (Run) naming the unit: a step shorter
@@ -76,6 +77,7 @@ class Stepper {
   /// How many steps the unit has made, redone ones included.
   std::uint64_t steps(std::size_t component) const {
     const UnitStep& unit_step = unit_steps_[index_of_[component]];
+    if (unit_step.keeps_own_step) return own_steps_->steps(component);
     return unit_step.steps + (unit_step.row != nullptr ? unit_step.row->whole_steps : 0);
   }
 
@@ -110,6 +112,7 @@ class Stepper {
     std::uint32_t rejections = 0;  ///< in the present communication step
 
     bool may_suspend = false;
+    bool keeps_own_step = false;
     bool can_save_with_step = false;
     Outcome outcome = Outcome::Idle;  ///< of the present pass, as the flags behind it
     bool saves_with_step = false;
@@ -172,12 +175,14 @@ class Stepper {
   void count_whole_rows();
   Outcome attempt_timed(UnitStep& unit_step, const StepInterval& interval);
   Outcome attempt(UnitStep& unit_step, const StepInterval& interval);
+  StepResult make_step(UnitStep& unit_step, const StepInterval& interval);
   Outcome begin_timed(UnitStep& unit_step, const StepInterval& interval);
   Outcome begin(UnitStep& unit_step, const StepInterval& interval);
-  Outcome finish(UnitStep& unit_step);
+  Outcome finish(UnitStep& unit_step, const StepInterval& interval);
   Outcome prepare(UnitStep& unit_step, const StepInterval& interval);
   Outcome conclude(UnitStep& unit_step, const StepResult& result);
   bool stays_suspended(UnitStep& unit_step, const StepInterval& interval);
+  bool waits(UnitStep& unit_step, const StepInterval& interval);
   void save(UnitStep& unit_step, const StepInterval& interval);
   void roll_back(UnitStep& unit_step, const StepInterval& interval);
   void restore(UnitStep& unit_step, Time from);
@@ -215,6 +220,7 @@ class Stepper {
   WallClock step_clock_;  ///< measures while the load balancer decides, too
   InputExtrapolator* inputs_;
   IdleScheduler* idle_;
+  OwnSteps* own_steps_;
   bool has_grid_;     ///< whether regular steps end on a grid
   Grid grid_;         ///< that one, to which units are bound that take steps of one size only
   Time stop_;         ///< of the run

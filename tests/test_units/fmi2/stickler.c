@@ -1,5 +1,5 @@
-/* n counts steps. Each must be of exactly 0.1 s and end at the stop time at the latest, as doubles
- * compare: units of several tools are as strict. The state cannot be saved. */
+/* n counts steps. Each must be of exactly STEP seconds and end at the stop time at the latest, as
+ * doubles compare: units of several tools are as strict. The state cannot be saved. */
 #include "tests/test_units/fmi2/unit.h"
 
 enum { kN = FIRST_OTHER };
@@ -8,7 +8,7 @@ static void unit_start(Unit* unit) { unit->model.x = 0; }
 static void unit_outputs(Unit* unit) { unit->model.real[kN] = unit->model.x; }
 
 static fmi2Status unit_step(Unit* unit, double begin, double size) {
-  if (size != 0.1) {
+  if (size != STEP) {
     LOG(unit, fmi2Error, "the step is %.17g", size);
     return fmi2Error;
   }
