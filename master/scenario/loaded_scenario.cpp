@@ -730,7 +730,7 @@ void LoadedScenario::warn_of_many_steps() const {
       steps, core::to_text(options_.step.size));
 }
 
-/// A run with units that take steps of its own size only ends with the last whole one.
+/// A run with units that takes steps of one size only ends with the last whole one.
 void LoadedScenario::end_with_whole_steps() {
   if (!has_stop() || grid().ends_at(options_.stop)) return;
   std::size_t rigid = 0;

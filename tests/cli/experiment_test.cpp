@@ -30,7 +30,7 @@ Outcome run_unit(const Workspace& workspace, const std::string& experiment,
   return workspace.stride(arguments);
 }
 
-std::vector<std::string> times(const Workspace& workspace) {
+std::vector<std::string> recorded_times(const Workspace& workspace) {
   const Csv signals = workspace.signals();
   std::vector<std::string> times;
   for (std::size_t i = 0; i < signals.size(); ++i) times.push_back(signals.row(i).front());
@@ -42,11 +42,11 @@ std::vector<std::string> times(const Workspace& workspace) {
 TEST_CASE("a run begins and ends at the times of its unit") {
   const Workspace workspace("");
   REQUIRE(run_unit(workspace, "startTime='3600' stopTime='3601' stepSize='0.5'").exit_code == 0);
-  CHECK(times(workspace) == std::vector<std::string>{"3600", "3600.5", "3601"});
+  CHECK(recorded_times(workspace) == std::vector<std::string>{"3600", "3600.5", "3601"});
   REQUIRE(
       run_unit(workspace, "startTime='3600' stopTime='3601' stepSize='0.5'", {"--start", "3600.5"})
           .exit_code == 0);
-  CHECK(times(workspace) == std::vector<std::string>{"3600.5", "3601"});
+  CHECK(recorded_times(workspace) == std::vector<std::string>{"3600.5", "3601"});
 }
 
 TEST_CASE("a run begins at the earliest start time of its units, and says so") {
@@ -56,11 +56,11 @@ TEST_CASE("a run begins at the earliest start time of its units, and says so") {
   write_unit(workspace, "early", "startTime='2' stepSize='1'");
   write_unit(workspace, "late", "startTime='3'");
   const Outcome outcome = workspace.run({"--quiet"});
-  CHECK(times(workspace) == std::vector<std::string>{"2", "3", "4"});
+  CHECK(recorded_times(workspace) == std::vector<std::string>{"2", "3", "4"});
   CHECK_THAT(outcome.err, Contains("the run begins at 2 s, the start time of 'early'; that of "
                                    "'late' is 3 s"));
   REQUIRE(workspace.run({"--quiet", "--start", "3"}).err == "");
-  CHECK(times(workspace) == std::vector<std::string>{"3", "4"});
+  CHECK(recorded_times(workspace) == std::vector<std::string>{"3", "4"});
 }
 
 TEST_CASE("a start time of a unit before 0 s is refused") {
@@ -81,7 +81,8 @@ TEST_CASE("a stop time of a unit beyond what can be counted is refused as that")
 TEST_CASE("a unit that asks for steps of a third of a second gets three in a second") {
   const Workspace workspace("");
   REQUIRE(run_unit(workspace, "stopTime='1' stepSize='0.3333333333333333'").exit_code == 0);
-  CHECK(times(workspace) == std::vector<std::string>{"0", "0.333333333333", "0.666666666667", "1"});
+  CHECK(recorded_times(workspace) ==
+        std::vector<std::string>{"0", "0.333333333333", "0.666666666667", "1"});
   CHECK(nlohmann::json::parse(workspace.result("run.json"))["step"]["size"] == 1.0 / 3);
 }
 

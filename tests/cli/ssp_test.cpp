@@ -31,14 +31,18 @@ std::string system_connector(const std::string& name, const std::string& kind) {
   return "<ssd:Connector name=\"" + name + "\" kind=\"" + kind +
          "\"><ssc:Float64/></ssd:Connector>\n";
 }
-std::string wire(const std::string& attributes) { return "<ssd:Connection " + attributes + "/>\n"; }
-std::string start(const std::string& connector) { return "startConnector=\"" + connector + "\" "; }
-std::string start(const std::string& element, const std::string& connector) {
-  return "startElement=\"" + element + "\" " + start(connector);
+std::string connection_element(const std::string& attributes) {
+  return "<ssd:Connection " + attributes + "/>\n";
 }
-std::string end(const std::string& connector) { return "endConnector=\"" + connector + "\""; }
-std::string end(const std::string& element, const std::string& connector) {
-  return "endElement=\"" + element + "\" " + end(connector);
+std::string start_of(const std::string& connector) {
+  return "startConnector=\"" + connector + "\" ";
+}
+std::string start_of(const std::string& element, const std::string& connector) {
+  return "startElement=\"" + element + "\" " + start_of(connector);
+}
+std::string end_of(const std::string& connector) { return "endConnector=\"" + connector + "\""; }
+std::string end_of(const std::string& element, const std::string& connector) {
+  return "endElement=\"" + element + "\" " + end_of(connector);
 }
 
 struct System {
@@ -81,7 +85,8 @@ TEST_CASE("a connection from a system's connector decides over a value for the e
   const Workspace workspace(
       text_of({.connectors = system_connector("K", "parameter") + system_connector("U", "input"),
                .elements = component("f", "gain.fmu"),
-               .connections = wire(start("K") + end("f", "k")) + wire(start("U") + end("f", "u")),
+               .connections = connection_element(start_of("K") + end_of("f", "k")) +
+                              connection_element(start_of("U") + end_of("f", "u")),
                .parameters =
                    value("K", "30") + value("U", "-20") + value("f.k", "10") + value("f.u", "5")}));
   CHECK(last(workspace, "f.k") == 30);
@@ -91,9 +96,9 @@ TEST_CASE("a connection from a system's connector decides over a value for the e
 }
 
 TEST_CASE("a calculated parameter and a constant may be connected to a parameter") {
-  const std::string chain = wire(start("a", "twice") + end("b", "k")) +
-                            wire(start("b", "twice") + end("c", "k")) +
-                            wire(start("a", "seven") + end("d", "k"));
+  const std::string chain = connection_element(start_of("a", "twice") + end_of("b", "k")) +
+                            connection_element(start_of("b", "twice") + end_of("c", "k")) +
+                            connection_element(start_of("a", "seven") + end_of("d", "k"));
   const std::string units = component("c", "gain.fmu") + component("b", "gain.fmu") +
                             component("a", "gain.fmu") + component("d", "gain.fmu");
   const Workspace workspace(
@@ -103,7 +108,8 @@ TEST_CASE("a calculated parameter and a constant may be connected to a parameter
   CHECK(last(workspace, "d.k") == 7);
   CHECK(last(workspace, "c.k", {"--isolate"}) == 12);
   const Workspace wrong(
-      text_of({.elements = units, .connections = wire(start("a", "y") + end("b", "k"))}));
+      text_of({.elements = units,
+               .connections = connection_element(start_of("a", "y") + end_of("b", "k"))}));
   CHECK_THAT(input_error_of(wrong.run()), Contains("'b.k' is not an input but parameter"));
 }
 
@@ -111,7 +117,7 @@ TEST_CASE("an output of the system that its input leads to is recorded") {
   const Workspace workspace(
       text_of({.connectors = system_connector("I", "input") + system_connector("O", "output"),
                .elements = component("a", "gain.fmu"),
-               .connections = wire(start("I") + end("O")),
+               .connections = connection_element(start_of("I") + end_of("O")),
                .parameters = value("I", "4")}));
   CHECK(last(workspace, "O") == 4);
   CHECK(workspace.run({"--no-report"}).exit_code == 0);
@@ -122,9 +128,11 @@ TEST_CASE("connectors of inner systems are recorded on demand") {
   const std::string inner = system_text(
       "s", {.connectors = system_connector("u", "input") + system_connector("y", "output"),
             .elements = component("c", "gain.fmu"),
-            .connections = wire(start("u") + end("c", "u")) + wire(start("c", "y") + end("y"))});
-  const Workspace workspace(text_of({.elements = component("a", "gain.fmu") + inner,
-                                     .connections = wire(start("a", "seven") + end("s", "u"))}));
+            .connections = connection_element(start_of("u") + end_of("c", "u")) +
+                           connection_element(start_of("c", "y") + end_of("y"))});
+  const Workspace workspace(
+      text_of({.elements = component("a", "gain.fmu") + inner,
+               .connections = connection_element(start_of("a", "seven") + end_of("s", "u"))}));
   CHECK(last(workspace, "s.u") == 7);
   CHECK(last(workspace, "s.y") == 7);
   CHECK(workspace.run({"--no-report"}).exit_code == 0);
@@ -136,8 +144,8 @@ TEST_CASE("a connection that leads nowhere is a warning in check and run") {
       text_of({.elements = system_text("s", {.connectors = system_connector("o", "output"),
                                              .elements = component("a", "gain.fmu")}) +
                            component("c", "gain.fmu"),
-               .connections = wire(start("s", "o") + end("c", "u"))}));
-  const std::string place = workspace.at(start("s", "o"));
+               .connections = connection_element(start_of("s", "o") + end_of("c", "u"))}));
+  const std::string place = workspace.at(start_of("s", "o"));
   for (const Outcome& outcome : {workspace.run(), workspace.stride({"check", "test.ssd"})}) {
     CHECK(outcome.exit_code == 0);
     CHECK_THAT(outcome.err, Contains(place + "the connector 's.o' has no source"));
