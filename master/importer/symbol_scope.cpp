@@ -36,6 +36,28 @@ std::string library_at(const void* address) {
   return place != nullptr ? fs::path(place->l_name).filename().string() : "";
 }
 
+/// Whether the program only jumps from here to the function: one that is not position-independent
+/// has such addresses of functions that it takes from libraries.
+bool is_jump_of_program(const void* address) {
+  Dl_info info;
+  void* symbol = nullptr;
+  return ::dladdr1(address, &info, &symbol, RTLD_DL_SYMENT) != 0 && symbol != nullptr &&
+         static_cast<const ElfW(Sym)*>(symbol)->st_shndx == SHN_UNDEF;
+}
+
+/// What this name stands for in the process; null if there is nothing of it.
+const void* resolve(void* program, const char* name) {
+  const void* const address = ::dlsym(program, name);
+  if (address == nullptr || !is_jump_of_program(address)) return address;
+  for (const link_map* at = core::loaded_object_at(address)->l_next; at != nullptr;
+       at = at->l_next) {
+    const Handle library = *at->l_name != '\0' ? loaded(at->l_name) : nullptr;
+    const void* const found = library ? ::dlsym(library.get(), name) : nullptr;
+    if (found != nullptr && core::loaded_object_at(found) == at) return found;
+  }
+  return address;
+}
+
 /// Names of the standard library's templates, with whatever they are made for: all have the same
 /// code. After the prefixes of the C++ ABI for tables, static variables and members.
 bool is_of_standard_templates(std::string_view name) {
@@ -96,7 +118,7 @@ class Group {
   std::vector<std::string> contested() const {
     std::vector<std::string> found;
     for (const std::string& name : own_) {
-      const void* const address = ::dlsym(program_.get(), name.c_str());
+      const void* const address = resolve(program_.get(), name.c_str());
       if (address == nullptr) continue;
       const std::string library = library_at(address);
       if (is_of_compiler(library) && !functions_.contains(name)) continue;
@@ -154,7 +176,7 @@ class Group {
 
   bool is_replaced(const std::string& name) const {
     if (is_alike_in_copies(name)) return false;
-    const void* const address = ::dlsym(program_.get(), name.c_str());
+    const void* const address = resolve(program_.get(), name.c_str());
     if (address == nullptr) return false;
     for (const Handle& neighbour : neighbours_) {
       const void* const original = ::dlsym(neighbour.get(), name.c_str());

@@ -15,6 +15,7 @@
 #include "master/model/item_text.h"
 #include "master/model/meant_value.h"
 #include "master/model/values.h"
+#include "master/util/lower_case.h"
 
 namespace stride::importer {
 namespace {
@@ -70,9 +71,16 @@ std::vector<Initial> possible_initials(const core::Variable& variable) {
   }
 }
 
+/// Units declare parameters that need not be given as NaN.
+bool is_unset_parameter(const std::string& text, const core::Variable& variable) {
+  return variable.causality == core::Causality::Parameter && core::lower_case(text) == "nan";
+}
+
 /// What is odd about an element of a start value, which the unit has by itself; empty: nothing.
 std::string oddity_of(const core::ValueBlock& element, const core::Variable& variable) {
-  if (core::not_finite(element)) return "is not a finite number";
+  if (const auto odd = core::not_finite(element); odd && !is_unset_parameter(*odd, variable)) {
+    return "is not a finite number";
+  }
   if (variable.type != ValueType::Enumeration || variable.items.empty()) return "";
   const std::int64_t number = element.numbers<std::int64_t>()[0];
   const auto items = variable.items | std::views::values;

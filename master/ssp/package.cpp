@@ -116,7 +116,7 @@ class Packer {
                    "its path is relative to this file");
     }
     const std::string name =
-        unique(kind == Kind::Fmu ? source.filename().replace_extension(".fmu") : source.filename());
+        unique(file == source ? source.filename() : source.filename().replace_extension(".fmu"));
     entry->second = name;
     archive::Content& content = contents_["resources/" + name];
     if (kind == Kind::System) {

@@ -47,6 +47,9 @@ SHOWN = {
     "AlgebraicLoop": "collect fail has_converged have_held_values_converged hint inputs put sweep values_text",
     "InputExtrapolator": "persist sample set_targets signal_of undo_step within_step "
                          "set_own_steps keeps_own_step is_behind",
+    "OwnSteps": "is_trivial keeps count are_multiples_of reached next_event_from must_wait steps set_event "
+                "begin_step finish_step persist next_of_grid choose_due interval check_size reason "
+                "fail_rejected",
     "StepPolicy": "persist regular_grid",
     "EventHandler": "had_event has_announced count description activate activate_announced update_announced "
                     "notify_observers receive report content_of described_by check_sent fail_nan fail_ticking fail_sample_loop "
@@ -55,7 +58,7 @@ SHOWN = {
 
 
 DEFINED = {"Simulation", "Stepper", "EventHandler", "IdleScheduler", "OrderedEvaluation", "AlgebraicLoop",
-           "InputExtrapolator"}
+           "InputExtrapolator", "OwnSteps"}
 
 
 def sources(root, folder, endings=(".h", ".cpp")):

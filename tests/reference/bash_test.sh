@@ -55,7 +55,7 @@ offers "scenario.ssd" run sce
 offers "folder" run fo
 offers "with blank.ssd" run wi
 offers "nfc_approach nfc_approach.ssd" run nfc_app
-offers "" inspect nfc_app
+offers "nfc_approach.ssd" inspect nfc_app
 offers "nfc_far" check nfc_fa
 offers "channel= environment= reader= sensor= world=" run nfc_far --swap ''
 offers "unit.fmu" run un

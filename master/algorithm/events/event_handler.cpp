@@ -45,6 +45,12 @@ EventHandler::EventHandler(RunContext& context, IdleScheduler* idle, OwnSteps* o
     event_units_.push_back(i);
     if (exchange_.has_discrete_inputs(i)) discrete_units_.push_back(i);
   }
+  if (own_steps_ != nullptr) {
+    for (const ContinuousLink& link : exchange_.jumping_links()) {
+      const std::size_t to = link.to.component;
+      if (own_steps_->keeps(to) && description(to).has_event_mode) jumping_links_.push_back(link);
+    }
+  }
   evaluation_.emplace(context, Phase::Events, &UnitStatistics::event_time);
   if (!evaluation_->is_trivial()) return;
   evaluation_.reset();
@@ -244,14 +250,15 @@ void EventHandler::exchange_after_events() {
   for (const std::size_t i : event_units_) {
     if (in_event_mode_[i]) exchange_.read_outputs(i, *units_[i]);
   }
+  find_discontinuities(jumping_links_);
   if (evaluation_) return exchange_.check_values(time_);
-  find_discontinuities();
+  find_discontinuities(links_);
   route();
 }
 
 /// A change of a continuous output by an event is an event of the units that receive it.
-void EventHandler::find_discontinuities() {
-  for (const auto& [from, to, source, target, conversion] : links_) {
+void EventHandler::find_discontinuities(std::span<const ContinuousLink> links) {
+  for (const auto& [from, to, source, target, conversion] : links) {
     if (!in_event_mode_[from.component] || exchange_.is_forced(to)) continue;
     const double value = conversion.factor * real(source) + conversion.offset;
     if (would_change(target, value)) on_discontinuity(to, false);

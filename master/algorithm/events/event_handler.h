@@ -116,7 +116,7 @@ class EventHandler : private OrderedEvaluation::Participants,
   void notify_observers(VariableId id, bool received, const ValueBlock* block);
   std::string content_of(VariableId id, const ValueBlock& block) const;
   std::string described_by(VariableId id, const ValueBlock& block) const;
-  void find_discontinuities();
+  void find_discontinuities(std::span<const ContinuousLink> links);
   void route();
   void check_sent(VariableId id, const ValueBlock& block) const;
   [[noreturn]] void fail_nan(VariableId id) const;
@@ -160,7 +160,8 @@ class EventHandler : private OrderedEvaluation::Participants,
   std::vector<std::size_t> event_units_;     ///< those with Event Mode
   std::vector<std::size_t> discrete_units_;  ///< those of them with discrete inputs
   std::vector<ContinuousLink> links_;        ///< to event_units_, where `evaluation_` is not needed
-  std::vector<char> active_;                 ///< takes part in the next event iteration
+  std::vector<ContinuousLink> jumping_links_;  ///< to those of them that keep steps of their own
+  std::vector<char> active_;                   ///< takes part in the next event iteration
   bool has_active_ = false;
   bool has_event_ = false;  ///< a unit is in Event Mode
   std::vector<char> in_event_mode_;

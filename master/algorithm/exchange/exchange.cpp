@@ -328,14 +328,15 @@ void Exchange::write_inputs_within_step(std::size_t component, Unit& unit) {
   }
 }
 
-std::vector<ContinuousLink> Exchange::continuous_links() {
+std::vector<ContinuousLink> Exchange::links_from(Variability source_variability) {
   std::vector<ContinuousLink> links;
   for (const Connection& connection : system_.connections()) {
     const Variable& source = system_.variable(connection.from);
     const Variable& target = system_.variable(connection.to);
-    const bool continuous = source.variability == Variability::Continuous &&
-                            target.variability == Variability::Continuous;
-    if (!continuous || source.is_clocked() || target.is_clocked()) continue;
+    const bool is_wanted = source.variability == source_variability &&
+                           target.variability == Variability::Continuous && is_real(source.type) &&
+                           is_real(target.type);
+    if (!is_wanted || source.is_clocked() || target.is_clocked()) continue;
     const ValueSlice from = slice(connection.source());
     const ValueSlice to = slice(connection.target());
     for (std::size_t i = 0; i < connection.size; ++i) {

@@ -142,7 +142,9 @@ class Exchange {
   void write_inputs_within_step(std::size_t component, Unit& unit);
 
   /// All connections between continuous variables, sorted by target.
-  std::vector<ContinuousLink> continuous_links();
+  std::vector<ContinuousLink> continuous_links() { return links_from(Variability::Continuous); }
+  /// Those from discrete to continuous variables of floating-point types.
+  std::vector<ContinuousLink> jumping_links() { return links_from(Variability::Discrete); }
 
   struct RealValue {
     VariableId id;
@@ -182,6 +184,7 @@ class Exchange {
   ValueSlice slice(const ElementRange& range);
 
  private:
+  std::vector<ContinuousLink> links_from(Variability source_variability);
   /// Variables of one type of one unit, read or written by one call.
   struct Transfer {
     ValueBlock block;

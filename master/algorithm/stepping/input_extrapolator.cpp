@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "master/algorithm/stepping/own_steps.h"
+#include "master/algorithm/stepping/own_progress.h"
 #include "master/util/state_archive.h"
 
 namespace stride::core {

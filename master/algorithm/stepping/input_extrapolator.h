@@ -15,7 +15,7 @@
 
 namespace stride::core {
 
-class OwnSteps;
+class OwnProgress;
 class StateArchive;
 
 /// The largest error of an input's extrapolation.
@@ -36,7 +36,7 @@ class InputExtrapolator {
  public:
   explicit InputExtrapolator(RunContext& context);
   /// Some components keep their own steps: their outputs have values at the ends of these only.
-  void set_own_steps(const OwnSteps& own_steps) { own_steps_ = &own_steps; }
+  void set_own_steps(const OwnProgress& own_steps) { own_steps_ = &own_steps; }
 
   /// Sets a unit's inputs to their values within the step for which before_step() was called last.
   void within_step(std::size_t component, Unit& unit, double seconds_into_step);
@@ -97,7 +97,7 @@ class InputExtrapolator {
                           const SignalHistory::Weights& weights, bool within_step);
 
   Exchange& exchange_;
-  const OwnSteps* own_steps_ = nullptr;
+  const OwnProgress* own_steps_ = nullptr;
   bool sequential_;
   std::vector<Source> sources_;           ///< by component
   std::vector<Step> steps_;               ///< the current or last one, by target component

@@ -12,6 +12,7 @@
 
 #include "master/algorithm/capabilities/concurrent_steps.h"
 #include "master/algorithm/run_context.h"
+#include "master/algorithm/stepping/own_progress.h"
 #include "master/model/grid.h"
 
 namespace stride::core {
@@ -31,14 +32,14 @@ class StateArchive;
 ///
 /// A function for one component touches the state of that component only, so different threads may
 /// call it for different components.
-class OwnSteps {
+class OwnSteps final : public OwnProgress {
  public:
   /// Both must outlive this object. `inputs` sets the inputs before each step; null if they hold.
   OwnSteps(RunContext& context, InputExtrapolator* inputs);
 
   /// Whether no component has a step of its own.
   bool is_trivial() const { return with_step_.empty(); }
-  bool keeps(std::size_t component) const { return states_[component].keeps; }
+  bool keeps(std::size_t component) const override { return states_[component].keeps; }
   /// How many components keep one.
   std::size_t count() const { return keeping_.size(); }
   /// Whether each of their points is one of a grid of this size.
@@ -46,11 +47,7 @@ class OwnSteps {
 
   /// The earliest point later than `now`, a communication point.
   Time next(Time now) const;
-  /// Up to where the component has stepped.
-  Time reached(std::size_t component) const { return states_[component].reached; }
-  bool is_behind(std::size_t component, Time now) const {
-    return keeps(component) && reached(component) != now;
-  }
+  Time reached(std::size_t component) const override { return states_[component].reached; }
   /// The first instant not before `time` at which it can have an event: one that takes steps of one
   /// size only is at its own points only.
   Time next_event_from(std::size_t component, Time time) const;
