@@ -32,6 +32,19 @@ constexpr std::array kSystemFolders {
       "/lib", "/usr/lib", "/usr/local/lib"
 };
 
+/// "libm" of "libm.so.6".
+std::string_view plain_name(std::string_view name) {
+  name = name.substr(name.rfind('/') + 1);
+  return name.substr(0, name.find(".so"));
+}
+
+/// Whether the library keeps no object and no function of those that call it beyond the life of
+/// what they made of it. Of those that stride itself is linked with, and that units are, too.
+bool keeps_nothing(std::string_view name) {
+  constexpr std::array<std::string_view, 4> kNames{"libfmt", "libmd", "libtinyxml2", "libz"};
+  return std::ranges::count(kNames, plain_name(name)) > 0;
+}
+
 /// The file of this library in the process; empty if it is not there.
 fs::path loaded_file(const std::string& name) {
   void* const handle = ::dlopen(name.c_str(), RTLD_LAZY | RTLD_NOLOAD);
@@ -135,8 +148,7 @@ bool is_of_compiler(std::string_view name) {
       "libc",   "libm",      "libstdc++", "libgcc_s",  "ld-linux", "libpthread",  "libdl",
       "librt",  "libutil",   "libresolv", "libatomic", "libgomp",  "libgfortran", "libquadmath",
       "libc++", "libc++abi", "libasan",   "libubsan",  "libtsan"};
-  name = name.substr(name.rfind('/') + 1);
-  const std::string_view plain = name.substr(0, name.find(".so"));
+  const std::string_view plain = plain_name(name);
   return plain.starts_with("ld-linux") || std::ranges::count(kNames, plain) > 0;
 }
 
@@ -151,7 +163,8 @@ LibraryUse::~LibraryUse() {
 
 bool LibraryUse::may_be_outlived() const {
   return std::ranges::any_of(needed_, [this](const NeededLibrary& library) {
-    return library.is_loaded || library.stays_loaded || uses().is_shared(library.file, unit_);
+    return !keeps_nothing(library.name) &&
+           (library.is_loaded || library.stays_loaded || uses().is_shared(library.file, unit_));
   });
 }
 
