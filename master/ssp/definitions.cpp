@@ -34,6 +34,7 @@ core::EnumerationItems read_items(const xml::Element& enumeration,
   core::EnumerationItems items;
   UniqueNames names("items", warnings);
   for (const xml::Element& item : enumeration.children({kSsc, "Item"})) {
+    item.allow_attributes({"name", "value"});
     const std::string name = item.required("name");
     const auto number = item.required_number<std::int64_t>("value");
     const auto is_first = [&](const auto& other) { return other.first == name; };
@@ -47,9 +48,16 @@ core::EnumerationItems read_items(const xml::Element& enumeration,
 
 void read_unit(const xml::Element& unit, UniqueNames& names, Definitions& definitions,
                std::vector<std::string>& warnings) {
+  unit.allow_attributes({"name"});
   for (const xml::Element& child : unit.children()) {
-    if (!is_common(child, "BaseUnit", warnings)) continue;
+    if (!is_common(child, "BaseUnit", warnings)) {
+      if (child.local_name() == "Annotations") continue;
+      warn(child, fmt::format("{} is not known in {} and is ignored", child.tag(), unit.tag()),
+           warnings);
+      continue;
+    }
     const std::string name = unit.required("name");
+    child.allow_attributes({"kg", "m", "s", "A", "K", "mol", "cd", "rad", "factor", "offset"});
     const core::BaseUnitOfMeasure base = core::read_base_unit(child);
     auto& units = definitions.units_of_measure;
     if (names.add(unit, name, [&] { return core::is_same(units.at(name), base); })) {
@@ -60,6 +68,7 @@ void read_unit(const xml::Element& unit, UniqueNames& names, Definitions& defini
 
 void read_enumeration(const xml::Element& enumeration, UniqueNames& names, Definitions& definitions,
                       std::vector<std::string>& warnings) {
+  enumeration.allow_attributes({"name"});
   const std::string name = enumeration.required("name");
   core::EnumerationItems items = read_items(enumeration, warnings);
   auto& enumerations = definitions.enumerations;
