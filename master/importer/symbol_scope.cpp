@@ -79,8 +79,15 @@ bool is_of_linker(std::string_view name) {
   return std::ranges::count(kNames, name) > 0;
 }
 
+/// The operators new and delete for memory that is there: inline functions, all with the same code.
+bool is_placement(std::string_view name) {
+  constexpr std::array<std::string_view, 4> kNames{"_ZnwmPv", "_ZnamPv", "_ZdlPvS_", "_ZdaPvS_"};
+  return std::ranges::count(kNames, name) > 0;
+}
+
 /// Memory that one of them gives must go back to the same allocator, whoever has asked for it.
 bool is_of_allocator(std::string_view name) {
+  if (is_placement(name)) return false;
   constexpr std::array<std::string_view, 11> kNames{
       "malloc",  "calloc",         "realloc",           "free",
       "cfree",   "memalign",       "aligned_alloc",     "valloc",
@@ -160,7 +167,7 @@ class Group {
 
   void add_own(const DynamicSymbol& symbol) {
     const std::string& name = symbol.name;
-    if (is_of_standard_templates(name) || is_of_linker(name)) return;
+    if (is_of_standard_templates(name) || is_placement(name) || is_of_linker(name)) return;
     if (is_of_python(name)) {  // there is one Python in a process
       outer_.insert(name);
       return;
@@ -175,7 +182,9 @@ class Group {
   }
 
   bool is_replaced(const std::string& name) const {
-    if (is_alike_in_copies(name)) return false;
+    if (is_alike_in_copies(name) || is_of_standard_templates(name) || is_placement(name)) {
+      return false;
+    }
     const void* const address = resolve(program_.get(), name.c_str());
     if (address == nullptr) return false;
     for (const Handle& neighbour : neighbours_) {

@@ -99,9 +99,9 @@ TEST_CASE("malformed definitions are refused") {
   };
   CHECK_THROWS_WITH(read_inside(unit("m='1.5'")), Contains("x.ssd:4: ") && Contains("m=\"1.5\""));
   CHECK_THROWS_WITH(read_inside(unit("factor='0'")), Contains("a unit cannot be zero"));
-  CHECK_THROWS_WITH(read_inside(unit("m='1' factr='0.5'")),
-                    Contains("x.ssd:4: ") && Contains("has no attribute 'factr'") &&
-                        Contains("factor"));
+  CHECK_THROWS_WITH(
+      read_inside(unit("m='1' factr='0.5'")),
+      Contains("x.ssd:4: ") && Contains("has no attribute 'factr'") && Contains("factor"));
   CHECK_THROWS_WITH(read_inside("<ssd:Units><ssc:Unit name='a' offset='1'/></ssd:Units>"),
                     Contains("has no attribute 'offset'"));
   CHECK_THROWS_WITH(read_inside("<ssd:Enumerations><ssc:Enumeration name='M'>"

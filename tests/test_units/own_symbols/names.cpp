@@ -1,5 +1,7 @@
 // Functions of C and a class of C++ with the names that zlib, libmd and tinyxml2 have, and with
 // other arguments.
+#include <string>
+
 #include "tests/test_units/own_symbols/own_symbols.h"
 
 extern "C" double compress(double volume);
@@ -34,5 +36,9 @@ OwnSymbols call_own_symbols() {
   const double volume = compress(6);
   const double offset = MD5Init({0.25});
   const tinyxml2::XMLDocument document(false, 7);
-  return {3, (volume == 3) + (offset == 0.25) + (document.pages() == 7), volume};
+  // the program has functions of the standard library's templates, too
+  std::string text("tank");
+  text.append(" and ").append("pump");
+  const bool is_text = text.compare("tank and pump") == 0;
+  return {4, (volume == 3) + (offset == 0.25) + (document.pages() == 7) + is_text, volume};
 }
