@@ -51,7 +51,7 @@ class Simulation::Run {
         own_steps_(make_own_steps()),
         idle_(make_idle_scheduler()),
         event_handler_(context_, idle_.get(), own_steps_.get()),
-        interventions_(context_, event_handler_, idle_.get(), own_steps_.get()),
+        interventions_(context_, event_handler_),
         stepper_(context_, order_, coasting_, inputs_in_steps(), idle_.get(), own_steps_.get()),
         counters_(context_, coasting_, stepper_) {
     if (sets_inputs_in_steps()) connect_input_updates();

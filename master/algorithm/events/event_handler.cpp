@@ -179,16 +179,19 @@ void EventHandler::make_assignments() {
 
 void EventHandler::enter_event_mode(std::size_t i) {
   if (in_event_mode_[i]) return;
-  catch_up(i);
+  catch_up(i, time_);
   units_[i]->enter_event_mode();
   in_event_mode_[i] = has_event_ = true;
   exchange_.write_inputs(i, *units_[i]);
 }
 
-void EventHandler::catch_up(std::size_t i) {
-  if (idle_ != nullptr && idle_->is_suspended(i)) idle_->catch_up_and_report(i, time_);
-  if (own_steps_ == nullptr || !own_steps_->is_behind(i, time_)) return;
-  if (own_steps_->catch_up(i, time_).terminate_simulation) statistics_.end = RunEnd::EndedByUnit;
+void EventHandler::catch_up(std::size_t component, Time time) {
+  if (idle_ != nullptr && idle_->is_suspended(component)) {
+    idle_->catch_up_and_report(component, time);
+  }
+  if (own_steps_ == nullptr || !own_steps_->is_behind(component, time)) return;
+  const bool ends = own_steps_->catch_up(component, time).terminate_simulation;
+  if (ends) statistics_.end = RunEnd::EndedByUnit;
 }
 
 /// One super-dense instant: ticks with the values sampled at them, messages, then the units'

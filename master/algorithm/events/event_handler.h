@@ -36,6 +36,9 @@ class EventHandler : private OrderedEvaluation::Participants,
   /// After Initialization Mode, where units with Event Mode are in it: each handles at least one
   /// event in the next handle_events(). Fetches the outputs of all units.
   void begin();
+  /// A unit that is suspended, or behind in a step of its own, is stepped to this time. Where it
+  /// asks for the end of the run meanwhile, the run ends here.
+  void catch_up(std::size_t component, Time time);
   /// Makes the unit enter Event Mode in the next handle_events(), like a unit whose announced event
   /// is due.
   void request_event(std::size_t component) {
@@ -103,7 +106,6 @@ class EventHandler : private OrderedEvaluation::Participants,
   bool prepare_events();
   void leave_event_mode();
   void enter_event_mode(std::size_t i);
-  void catch_up(std::size_t i);
   bool must_wait(std::size_t i) const {
     return own_steps_ != nullptr && own_steps_->must_wait(i, time_);
   }

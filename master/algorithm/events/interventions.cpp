@@ -7,15 +7,12 @@
 
 namespace stride::core {
 
-Interventions::Interventions(RunContext& context, EventHandler& event_handler, IdleScheduler* idle,
-                             OwnSteps* own_steps)
+Interventions::Interventions(RunContext& context, EventHandler& event_handler)
     : system_(context.system),
       units_(context.units),
       exchange_(context.exchange),
       observers_(context.observers),
-      event_handler_(event_handler),
-      idle_(idle),
-      own_steps_(own_steps) {
+      event_handler_(event_handler) {
   for (const Intervention& intervention : context.options.interventions) plan(intervention);
   sort();
 }
@@ -73,7 +70,7 @@ void Interventions::set(const Intervention& intervention, Time time) {
   if (system_.components()[i].description->has_event_mode) {
     event_handler_.set_in_event(intervention.id, *intervention.value);
   } else {
-    resume(i, time);
+    event_handler_.catch_up(i, time);
     units_[i]->set({&variable(intervention).reference, 1}, *intervention.value);
   }
   report(intervention, time, to_text(intervention, system_, *intervention.value));
@@ -82,7 +79,7 @@ void Interventions::set(const Intervention& intervention, Time time) {
 void Interventions::force(const Intervention& intervention, Time time) {
   const ValueBlock value =
       intervention.value ? *intervention.value : exchange_.value(intervention.id);
-  resume(intervention.id.component, time);
+  event_handler_.catch_up(intervention.id.component, time);
   exchange_.force(intervention.id, value);
   event_handler_.request_event(intervention.id.component);
   report(intervention, time, to_text(intervention, system_, value));
@@ -93,19 +90,10 @@ void Interventions::end(const Intervention& intervention, Time time) {
     event_handler_.release(intervention);
     return report(intervention, time, "messages are received as they are sent");
   }
-  resume(intervention.id.component, time);
+  event_handler_.catch_up(intervention.id.component, time);
   exchange_.release(intervention.id);
   event_handler_.request_event(intervention.id.component);
   report(intervention, time, "released");
-}
-
-void Interventions::resume(std::size_t component, Time time) {
-  if (idle_ != nullptr && idle_->is_suspended(component)) {
-    idle_->catch_up_and_report(component, time);
-  }
-  if (own_steps_ != nullptr && own_steps_->is_behind(component, time)) {
-    own_steps_->catch_up(component, time);
-  }
 }
 
 void Interventions::report(const Intervention& intervention, Time time,

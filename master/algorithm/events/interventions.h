@@ -12,7 +12,6 @@
 #include <stride/time.h>
 
 #include "master/algorithm/events/event_handler.h"
-#include "master/algorithm/idle/idle_scheduler.h"
 #include "master/algorithm/intervention.h"
 #include "master/algorithm/run_context.h"
 
@@ -23,9 +22,8 @@ namespace stride::core {
 /// step on. A unit that is suspended, or behind in a step of its own, goes on from the instant.
 class Interventions {
  public:
-  /// All must outlive this object. `idle`, `own_steps`: optional.
-  Interventions(RunContext& context, EventHandler& event_handler, IdleScheduler* idle,
-                OwnSteps* own_steps);
+  /// Both must outlive this object.
+  Interventions(RunContext& context, EventHandler& event_handler);
 
   /// At a communication point whose interventions are made: further ones, which begin at `earliest`
   /// or later. Throws std::logic_error for others.
@@ -65,7 +63,6 @@ class Interventions {
   void end(const Intervention& intervention, Time time);
   void set(const Intervention& intervention, Time time);
   void force(const Intervention& intervention, Time time);
-  void resume(std::size_t component, Time time);
   void report(const Intervention& intervention, Time time, const std::string& text) const;
   const Variable& variable(const Intervention& intervention) const {
     return system_.variable(intervention.id);
@@ -76,8 +73,6 @@ class Interventions {
   Exchange& exchange_;
   const std::vector<Observer*>& observers_;
   EventHandler& event_handler_;
-  IdleScheduler* idle_;
-  OwnSteps* own_steps_;
   std::deque<Intervention> added_;
   std::vector<Change> changes_;  ///< by time
   std::size_t made_ = 0;
