@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "master/util/counted.h"
 #include "master/util/message_text.h"
 #include "master/util/time_text.h"
 
@@ -50,10 +51,9 @@ std::string amount_text(const Intervention& intervention) {
     return fmt::format("{} s", to_text(intervention.delay));
   }
   if (intervention.kind == Intervention::Kind::Corrupt) {
-    const std::string bits =
-        fmt::format("{} bit{}", intervention.bits, intervention.bits == 1 ? "" : "s");
+    const std::string bits = counted(intervention.bits, "bit");
     if (intervention.header == 0) return bits;
-    return fmt::format("{} after a header of {} bytes", bits, intervention.header);
+    return fmt::format("{} after a header of {}", bits, counted(intervention.header, "byte"));
   }
   return intervention.value ? elements_text(*intervention.value) : "";
 }

@@ -9,6 +9,8 @@
 #include <boost/math/distributions/poisson.hpp>
 #include <fmt/format.h>
 
+#include "master/util/counted.h"
+
 namespace stride::campaign {
 namespace {
 
@@ -191,7 +193,7 @@ struct InWords {
     return fmt::format("Poisson, mean {}{}", poisson.mean, limits_text(poisson.limits));
   }
   std::string operator()(const Histogram& histogram) const {
-    return fmt::format("histogram, {} bins from {} to {}", histogram.bins.size(),
+    return fmt::format("histogram, {} from {} to {}", core::counted(histogram.bins.size(), "bin"),
                        histogram.bins.front().limits.lower, histogram.bins.back().limits.upper);
   }
   std::string operator()(const ProbabilitySet& set) const {

@@ -6,14 +6,13 @@
 #include <fmt/format.h>
 
 #include "master/checks/difference.h"
+#include "master/util/counted.h"
 #include "master/util/time_text.h"
 
 namespace stride::checks {
 namespace {
 
-std::string requests(std::uint64_t count) {
-  return count == 1 ? "1 request" : fmt::format("{} requests", count);
-}
+std::string requests(std::uint64_t count) { return core::counted(count, "request"); }
 
 }  // namespace
 
@@ -147,8 +146,6 @@ core::Verdict CountCheck::judged(const Ending& ending) const {
   return failed(end(ending), fmt::format("{}; expected {} at least", text(), *demand_.min));
 }
 
-std::string CountCheck::text() const {
-  return count_ == 1 ? "1 message" : fmt::format("{} messages", count_);
-}
+std::string CountCheck::text() const { return core::counted(count_, "message"); }
 
 }  // namespace stride::checks

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "master/util/counted.h"
 #include "master/util/time_text.h"
 
 namespace stride::checks {
@@ -150,7 +151,7 @@ core::Verdict SignalCheck::bad(Time time) const {
 core::Verdict SignalCheck::lasting_verdict() const {
   if (least_ > most_ || block_->type() == core::ValueType::Boolean ||
       block_->type() == core::ValueType::Enumeration) {
-    return make(true, fmt::format("at {} communication points", points_));
+    return make(true, "at " + core::counted(points_, "communication point"));
   }
   const std::string unit = demand_.unit.empty() ? "" : " " + demand_.unit;
   return make(true, fmt::format("it was between {:.6g}{} and {:.6g}{}", least_, unit, most_, unit));

@@ -11,6 +11,7 @@
 #include "master/cli/output.h"
 #include "master/cli/table.h"
 #include "master/settings/parse_option.h"
+#include "master/util/counted.h"
 #include "master/util/error.h"
 #include "master/util/message_text.h"
 #include "master/util/time_text.h"
@@ -144,7 +145,8 @@ void Branches::require_all() const {
   const auto is_failed = [](const std::optional<std::string>& failure) { return bool(failure); };
   const auto failed = std::ranges::count_if(failures_, is_failed);
   if (failed == 0) return;
-  std::string text = fmt::format("{} of {} branches {} failed", failed, branches_.size(),
+  std::string text = fmt::format("{} of {} {} failed", failed,
+                                 core::counted(branches_.size(), "branch", "branches"),
                                  failed == 1 ? "has" : "have");
   for (std::size_t i = 0; i < branches_.size(); ++i) {
     if (!failures_[i]) continue;

@@ -23,6 +23,7 @@
 #include "master/cli/crash_guard.h"
 #include "master/cli/output.h"
 #include "master/cli/table.h"
+#include "master/util/counted.h"
 
 namespace stride::cli {
 namespace {
@@ -65,7 +66,7 @@ std::string variation_text(const campaign::Campaign& campaign, std::size_t place
     }
     const auto& range = std::get<campaign::ValueRange>(factor);
     if (range.parameter != place) continue;
-    return fmt::format("{} values from {} to {}", range.count,
+    return fmt::format("{} from {} to {}", core::counted(range.count, "value"),
                        step_text(range.first, range.step, 0),
                        step_text(range.first, range.step, range.count - 1));
   }
@@ -104,8 +105,8 @@ std::string method_text(const campaign::Campaign& campaign) {
 
 void print_plan(const campaign::Plan& plan, const fs::path& folder, bool ssv) {
   const campaign::Campaign& campaign = plan.campaign();
-  print_text("{}: {} cases of {}, {}\n", campaign.file.stem().string(), plan.size(),
-             campaign.scenario.string(), method_text(campaign));
+  print_text("{}: {} of {}, {}\n", campaign.file.stem().string(),
+             core::counted(plan.size(), "case"), campaign.scenario.string(), method_text(campaign));
   print_text("\nParameters\n{}", parameter_table(plan));
   print_text("\n{} cases\n{}", plan.size() > kShownCases ? "First" : "All", case_table(plan));
   print_text("\nPlan in {}: {} {}{}\n", folder.string(), campaign::kPlanTable,

@@ -25,6 +25,7 @@
 #include "master/cli/output.h"
 #include "master/cli/replay_suite.h"
 #include "master/cli/table.h"
+#include "master/util/counted.h"
 #include "master/util/error.h"
 #include "master/util/input_file.h"
 #include "master/util/message_text.h"
@@ -169,7 +170,8 @@ class Distillation {
     std::erase_if(cases_.candidates,
                   [&](const auto& candidate) { return unusable_.contains(candidate.index); });
     if (unusable_.size() < kMostUnusable && !cases_.candidates.empty()) return has_all;
-    core::fail_run({}, fmt::format("{} cases cannot be replayed, as case {}: {}", unusable_.size(),
+    core::fail_run({}, fmt::format("{} cannot be replayed, as case {}: {}",
+                                   core::counted(unusable_.size(), "case"),
                                    unusable_.begin()->first, unusable_.begin()->second));
   }
 
@@ -220,12 +222,13 @@ class Distillation {
           items, [](const std::string& item) { return item.starts_with(kEndsItem); }));
     };
     const std::size_t ends = count(std::views::keys(cases_.items)) - count(lost);
-    const std::string ways = fmt::format("{} {} to end", ends, ends == 1 ? "way" : "ways");
+    const std::string ways = core::counted(ends, "way") + " to end";
     if (!cases_.has_coverage) {
       return fmt::format("They have {}; the records have no coverage of it, so only these count",
                          ways);
     }
-    return fmt::format("They have {} covered bins and {}", cases_.items.size() - lost.size() - ends,
+    return fmt::format("They have {} and {}",
+                       core::counted(cases_.items.size() - lost.size() - ends, "covered bin"),
                        ways);
   }
 

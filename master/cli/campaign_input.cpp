@@ -20,6 +20,7 @@
 #include "master/cli/output.h"
 #include "master/results/output_paths.h"
 #include "master/scenario/kept_descriptions.h"
+#include "master/util/counted.h"
 #include "master/util/error.h"
 #include "master/util/input_file.h"
 #include "master/util/message_text.h"
@@ -202,8 +203,8 @@ campaign::CaseDefinitions CampaignInput::case_definitions() const {
 
 void CampaignInput::require_case(std::uint64_t index, const char* option) const {
   if (index < plan_.size()) return;
-  core::fail_input({}, fmt::format("{} {}: there are {} cases, the last one is {}", option, index,
-                                   plan_.size(), plan_.size() - 1));
+  core::fail_input({}, fmt::format("{} {}: the campaign has {}, the last one is {}", option, index,
+                                   core::counted(plan_.size(), "case"), plan_.size() - 1));
 }
 
 }  // namespace stride::cli

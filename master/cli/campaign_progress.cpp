@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "master/util/counted.h"
+
 namespace stride::cli {
 namespace {
 
@@ -54,8 +56,8 @@ std::optional<double> CampaignProgress::left(const campaign::CaseTotals& totals)
 void CampaignProgress::put(const campaign::CaseTotals& totals, const std::string* outcome,
                            const std::string& note) const {
   if (form_ == Progress::Form::Json) return put_json(totals, outcome);
-  std::string line =
-      fmt::format("{} of {} cases done, {} failed", totals.done(), totals.cases, totals.failed);
+  std::string line = fmt::format("{} of {} done, {} failed", totals.done(),
+                                 core::counted(totals.cases, "case"), totals.failed);
   if (!note.empty()) line += ", " + note;
   const auto seconds = outcome == nullptr ? left(totals) : std::nullopt;
   if (seconds) line += fmt::format(", {} left", duration_text(*seconds));

@@ -33,6 +33,7 @@
 #include "master/recorders/results_folder.h"
 #include "master/results/output_paths.h"
 #include "master/results/report_page.h"
+#include "master/util/counted.h"
 #include "master/util/error.h"
 #include "master/util/message_text.h"
 #include "master/util/shell_word.h"
@@ -54,9 +55,7 @@ struct CampaignRunArguments {
   bool quiet = false;
 };
 
-std::string cases_text(std::uint64_t count) {
-  return count == 1 ? "1 case" : fmt::format("{} cases", count);
-}
+std::string cases_text(std::uint64_t count) { return core::counted(count, "case"); }
 
 void print_failures(const campaign::Plan& plan, const campaign::CaseSummary& summary) {
   if (summary.first_failures.empty()) return;

@@ -30,6 +30,7 @@
 #include "master/recorders/results_folder.h"
 #include "master/search/objective.h"
 #include "master/search/search.h"
+#include "master/util/counted.h"
 #include "master/util/error.h"
 #include "master/util/input_file.h"
 #include "master/util/suggest.h"
@@ -83,7 +84,7 @@ class CampaignSearch {
     totals_.add(cases_.result(index).outcome);
     if (!search::came_to_its_end(cases_.result(index))) ++without_end_;
     const std::size_t found = search_.found().size();
-    progress_.show(totals_, found == 0 ? "" : failures_text(found) + " found");
+    progress_.show(totals_, found == 0 ? "" : core::counted(found, "failure") + " found");
   }
 
   void write_tables() const {
@@ -92,18 +93,13 @@ class CampaignSearch {
     write_case_tables(cases_.plan(), folder, scratch, 0);
   }
 
-  static std::string failures_text(std::size_t count) {
-    return count == 1 ? "1 failure" : fmt::format("{} failures", count);
-  }
-
   void print() const {
     const search::Request& request = arguments_.request;
     const std::size_t found = search_.found().size();
     print_text("{}: {} found in {} by {}, seed {}{}\n",
                input_.plan().campaign().file.stem().string(),
-               found == 0 ? "no failure" : failures_text(found),
-               cases_.size() == 1 ? "1 case" : fmt::format("{} cases", cases_.size()),
-               search::name(request.method), request.seed,
+               found == 0 ? "no failure" : core::counted(found, "failure"),
+               core::counted(cases_.size(), "case"), search::name(request.method), request.seed,
                request.check.empty() ? "" : fmt::format(", of the check '{}'", request.check));
     print_text("{}", search_tables(search_, cases_, input_.scenario()));
     if (!request.check.empty() && without_end_ > 0) {
@@ -139,7 +135,7 @@ class CampaignSearch {
     }
     core::fail_run({},
                    fmt::format("{} found, the first one in case {}: {}",
-                               failures_text(search_.found().size()), index, failure),
+                               core::counted(search_.found().size(), "failure"), index, failure),
                    fmt::format("see what of it is needed: stride campaign shrink {} --case {}",
                                cases_.folder().string(), index));
   }
@@ -172,8 +168,9 @@ void print_script(const SearchArguments& arguments, const CampaignInput& input) 
   };
   SearchCourse course(arguments.request, input, print);
   if (!course.search.run([](std::uint64_t) {})) return;
-  print_text("{}: the search is over with {} cases, and nothing is submitted\n",
-             input.plan().campaign().file.stem().string(), course.cases.size());
+  print_text("{}: the search is over with {}, and nothing is submitted\n",
+             input.plan().campaign().file.stem().string(),
+             core::counted(course.cases.size(), "case"));
 }
 
 void search_campaign(SearchArguments arguments) {

@@ -26,6 +26,7 @@
 #include "master/search/objective.h"
 #include "master/search/shrink.h"
 #include "master/search/way.h"
+#include "master/util/counted.h"
 #include "master/util/error.h"
 #include "master/util/input_file.h"
 #include "master/util/message_text.h"
@@ -94,8 +95,7 @@ class ShrinkingCase {
   std::string text() const {
     return fmt::format("{}: case {} fails by '{}', shrunk by {}\n\n{}\n{}\n",
                        input_.plan().campaign().file.stem().string(), *arguments_.index, failure_,
-                       cases_.size() == 1 ? "1 run" : fmt::format("{} runs", cases_.size()),
-                       table(), sentence());
+                       core::counted(cases_.size(), "run"), table(), sentence());
   }
 
  private:

@@ -21,6 +21,7 @@
 #include "master/cli/crash_guard.h"
 #include "master/cli/output.h"
 #include "master/recorders/results_folder.h"
+#include "master/util/counted.h"
 #include "master/util/error.h"
 
 namespace stride::cli {
@@ -67,7 +68,8 @@ class Submission {
     const bool has_plan = campaign::has_plan(plan, input_.folder());
     if (!has_plan && arguments_.is_dry) campaign::check_plan(plan, input_.scenario());
     if (survey_.missing == 0) {
-      print_text("{}: all of {} cases are done, and nothing is submitted\n", name(), plan.size());
+      print_text("{}: {} of {} done, nothing is submitted\n", name(), plan.size(),
+                 core::counted(plan.size(), "case"));
       if (arguments_.waits) require_all_there();
       return;
     }
@@ -88,9 +90,9 @@ class Submission {
   std::string name() const { return input_.plan().campaign().file.stem().string(); }
 
   void print_submitted(const std::string& id, std::size_t jobs, std::uint64_t length) const {
-    print_text("{}: {} of {} cases are missing, submitted to {} as job {}: {} with up to {}\n",
-               name(), survey_.missing, input_.plan().size(), jobs_.cluster().name(), id,
-               jobs == 1 ? "one job" : fmt::format("an array of {} jobs", jobs),
+    print_text("{}: {} of {} missing, submitted to {} as job {}: {} with up to {}\n", name(),
+               survey_.missing, core::counted(input_.plan().size(), "case"), jobs_.cluster().name(),
+               id, jobs == 1 ? "one job" : fmt::format("an array of {} jobs", jobs),
                std::min(length, survey_.missing));
     print_text("\nScript and log files in {}: {} {}_*.log\n", jobs_.folder().string(),
                CaseJobs::script_name(id), id);

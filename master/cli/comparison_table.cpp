@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "master/cli/table.h"
+#include "master/util/counted.h"
 #include "master/util/readable_text.h"
 #include "master/util/time_text.h"
 
@@ -22,14 +23,11 @@ constexpr std::size_t kMostRows = 20;
 
 std::string seconds(std::int64_t time) { return core::to_text(Duration(time)); }
 
-std::string plural(std::size_t count, const char* what) {
-  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
-}
-
 std::string verdict(const compare::Comparison& comparison) {
   if (comparison.differences.empty()) {
-    return fmt::format("equal: {} in {}, {} sent or received", plural(comparison.signals, "signal"),
-                       plural(comparison.rows, "row"), plural(comparison.messages, "message"));
+    return fmt::format(
+        "equal: {} in {}, {} sent or received", core::counted(comparison.signals, "signal"),
+        core::counted(comparison.rows, "row"), core::counted(comparison.messages, "message"));
   }
   const compare::Difference& first = comparison.differences.front();
   const std::string where = fmt::format("in {} {}", compare::name(first.kind), first.name);

@@ -12,6 +12,7 @@
 
 #include "master/algorithm/idle/idle_agreement.h"
 #include "master/cli/idle_cause.h"
+#include "master/util/counted.h"
 #include "master/util/csv_reader.h"
 #include "master/util/error.h"
 #include "master/util/time_text.h"
@@ -285,9 +286,9 @@ std::string compare_with_full_run(const scenario::LoadedScenario& loaded,
         "and must not be switched off)");
   }
   return fmt::format(
-      "Idle skipping changes nothing but what tolerances allow: {} communication points and {} "
-      "messages agree with those in {}",
-      points, messages == 0 ? 0 : messages - 1, full.string());
+      "Idle skipping changes nothing but what tolerances allow: {} and {} agree with those in {}",
+      core::counted(points, "communication point"),
+      core::counted(messages == 0 ? 0 : messages - 1, "message"), full.string());
 }
 
 }  // namespace stride::cli

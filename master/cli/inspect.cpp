@@ -17,6 +17,7 @@
 #include "master/scenario/file_units.h"
 #include "master/scenario/scenario.h"
 #include "master/scenario/unit_path.h"
+#include "master/util/counted.h"
 #include "master/util/input_file.h"
 #include "master/util/lower_case.h"
 #include "master/util/time_text.h"
@@ -121,8 +122,9 @@ bool is_system(const std::filesystem::path& file) {
 void inspect_system(const std::filesystem::path& file) {
   const scenario::Scenario scenario = scenario::read_scenario(file, {scenario::find_unit, {}});
   print_warnings(scenario.warnings);
-  print_text("{}: SSP {}, {} components, {} connections\n", scenario.name, scenario.ssp_version,
-             scenario.system.components.size(), scenario.system.connections.size());
+  print_text("{}: SSP {}, {}, {}\n", scenario.name, scenario.ssp_version,
+             core::counted(scenario.system.components.size(), "component"),
+             core::counted(scenario.system.connections.size(), "connection"));
   print_text("{}", variant_table(*scenario.files, file));
   Table table({{"component"}, {"source"}});
   for (std::size_t i = 0; i < scenario.sources.size(); ++i) {

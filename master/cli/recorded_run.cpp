@@ -19,6 +19,7 @@
 #include "master/recorders/unit_folders.h"
 #include "master/results/checkpoint_states.h"
 #include "master/results/provenance.h"
+#include "master/util/counted.h"
 #include "master/util/error.h"
 #include "master/util/process/spare_files.h"
 #include "master/util/state_archive.h"
@@ -94,10 +95,9 @@ std::string failures_text(std::span<const core::Verdict> verdicts) {
 void require_passed(std::span<const core::Verdict> verdicts) {
   const auto failed = std::ranges::count(verdicts, std::optional(false), &core::Verdict::passed);
   if (failed == 0) return;
-  core::fail_run({}, fmt::format("the run is complete, and has failed by {} of {}{}", failed,
-                                 verdicts.size() == 1 ? "1 verdict"
-                                                      : fmt::format("{} verdicts", verdicts.size()),
-                                 failures_text(verdicts)));
+  core::fail_run({},
+                 fmt::format("the run is complete, and has failed by {} of {}{}", failed,
+                             core::counted(verdicts.size(), "verdict"), failures_text(verdicts)));
 }
 
 results::Beginning beginning(const Resumption* resumption) {

@@ -14,6 +14,7 @@
 #include "master/cli/output.h"
 #include "master/cli/search_course.h"
 #include "master/cli/search_folder.h"
+#include "master/util/counted.h"
 #include "master/util/error.h"
 
 namespace stride::cli {
@@ -88,11 +89,13 @@ void run_search_part(const SearchArguments& arguments, const CampaignInput& inpu
                totals.passed, totals.failed, totals.missing());
   }
   if (totals.missing() > 0) {
-    core::fail_run({}, fmt::format("{} of {} cases are missing", totals.missing(), totals.cases),
-                   "the same command runs them");
+    core::fail_run(
+        {}, fmt::format("{} of {} missing", totals.missing(), core::counted(totals.cases, "case")),
+        "the same command runs them");
   }
   if (totals.failed > 0) {
-    core::fail_run({}, fmt::format("{} of {} cases failed", totals.failed, totals.cases));
+    core::fail_run(
+        {}, fmt::format("{} of {} failed", totals.failed, core::counted(totals.cases, "case")));
   }
 }
 

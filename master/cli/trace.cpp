@@ -13,6 +13,7 @@
 #include "master/trace/compress.h"
 #include "master/trace/expand.h"
 #include "master/trace/info.h"
+#include "master/util/counted.h"
 #include "master/util/error.h"
 #include "master/util/time_text.h"
 
@@ -47,10 +48,10 @@ std::string facts(const trace::Info& info) {
   const auto add = [&](const char* name, const std::string& value) {
     text += fmt::format("  {:<12}  {}\n", name, value);
   };
-  add("size", fmt::format("{} bytes", info.bytes));
+  add("size", core::counted(info.bytes, "byte"));
   add("time scale", info.timescale.text());
   add("variables", std::to_string(info.variables));
-  add("changes", fmt::format("{} at {} instants", info.changes, info.instants));
+  add("changes", fmt::format("{} at {}", info.changes, core::counted(info.instants, "instant")));
   add("kernel time", info.timescale.seconds(info.kernel_time) + " s");
   add("true time", info.timescale.seconds(info.true_time) + " s");
   add("ratio", ratio(info));

@@ -8,6 +8,8 @@
 
 #include <fmt/format.h>
 
+#include "master/util/counted.h"
+
 namespace stride::compare {
 namespace {
 
@@ -39,8 +41,8 @@ void compare_hits(const std::string& name, const Hits& a, const Hits& b, Differe
     const std::uint64_t mine = count_in(a, bin);
     const std::uint64_t other = count_in(b, bin);
     if (mine == other || ++difference.count > 1) continue;
-    difference.a = fmt::format("{}: {} hits", bin, mine);
-    difference.b = fmt::format("{}: {} hits", bin, other);
+    difference.a = bin + ": " + core::counted(mine, "hit");
+    difference.b = bin + ": " + core::counted(other, "hit");
   }
   if (difference.count > 0) differences.push_back(std::move(difference));
 }

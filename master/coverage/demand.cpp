@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "master/util/counted.h"
+
 namespace stride::coverage {
 namespace {
 
@@ -11,7 +13,7 @@ constexpr std::size_t kMostNames = 3;
 
 std::string bins_text(const PointReport& point) {
   const std::string missing = missing_text(point, kMostNames);
-  return fmt::format("{} of {} bins{}", point.covered(), point.countable(),
+  return fmt::format("{} of {}{}", point.covered(), core::counted(point.countable(), "bin"),
                      missing.empty() ? "" : "; not " + missing);
 }
 
@@ -24,7 +26,7 @@ std::string points_text(const GroupReport& group) {
     if (point.covered() < point.countable()) missing.push_back(point.name);
   }
   const std::size_t whole = all - missing.size();
-  return fmt::format("{} of {} points as a whole{}", whole, all,
+  return fmt::format("{} of {} as a whole{}", whole, core::counted(all, "point"),
                      missing.empty() ? "" : "; not " + core::abridged(missing, kMostNames));
 }
 

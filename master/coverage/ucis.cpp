@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "master/coverage/told_apart.h"
+#include "master/util/counted.h"
 #include "master/util/xml/writer.h"
 
 namespace stride::coverage {
@@ -132,8 +133,8 @@ class UcisWriter {
     Attributes options{{"weight", point.percentage() ? "1" : "0"}, {"goal", "100"}};
     for (const ToldApart& apart : apart_) {
       if (apart.component != group.component || apart.point != name) continue;
-      options.emplace_back("comment",
-                           fmt::format("{} of {} runs: {}", apart.runs, report_.runs, apart.why));
+      options.emplace_back("comment", fmt::format("{} of {}: {}", apart.runs,
+                                                  core::counted(report_.runs, "run"), apart.why));
     }
     options.emplace_back("at_least", std::to_string(point.at_least));
     element("options", options);

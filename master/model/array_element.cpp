@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "master/util/counted.h"
+
 namespace stride::core {
 namespace {
 
@@ -84,10 +86,9 @@ std::size_t element_at(const Variable& array, const IndexedName& name, const Con
                            element_name(array, 0)));
   }
   if (name.indices.size() != count) {
-    fail_input(context,
-               fmt::format("{}, so {} expected, and {} has {}", array_text(array),
-                           count == 1 ? "1 index is" : fmt::format("{} indices are", count),
-                           name.brackets, name.indices.size()));
+    fail_input(context, fmt::format("{}, so {} expected, and {} has {}", array_text(array),
+                                    counted(count, "index is", "indices are"), name.brackets,
+                                    name.indices.size()));
   }
   std::size_t element = 0;
   for (std::size_t i = 0; i < count; ++i) {

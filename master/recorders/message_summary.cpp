@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "master/util/counted.h"
 #include "master/util/readable_text.h"
 
 namespace stride::recorders {
@@ -12,7 +13,7 @@ namespace {
 template <class T>
 std::string brief_text(const T& value) {
   if constexpr (std::is_same_v<T, core::Binary>) {
-    return fmt::format("{} {}", value.size(), value.size() == 1 ? "byte" : "bytes");
+    return core::counted(value.size(), "byte");
   } else if constexpr (std::is_floating_point_v<T>) {
     return fmt::format("{:.6g}", value);
   } else {

@@ -9,6 +9,7 @@
 #include <spdlog/spdlog.h>
 
 #include "master/isolation/host_options.h"
+#include "master/util/counted.h"
 #include "master/util/error.h"
 
 namespace stride::scenario {
@@ -79,15 +80,16 @@ UnitLog::~UnitLog() {
     if (kind.hidden == 0) continue;
     const std::vector<std::string> others(kind.others.begin(), kind.others.end());
     spdlog::warn(
-        "unit '{}': {} other instance{} of its FMU ({}) logged the same but for numbers, \"{}\"; "
+        "unit '{}': {} of its FMU ({}) logged the same but for numbers, \"{}\"; "
         "messages not shown: {}; --verbose shows them",
-        kind.first_unit, others.size(), others.size() == 1 ? "" : "s",
+        kind.first_unit, core::counted(others.size(), "other instance"),
         core::abridged(others, kMostNames), beginning(kind.first_message), kind.hidden);
   }
   for (const auto& [unit, count] : counts_) {
     if (count <= kMostShown) continue;
-    spdlog::warn("unit '{}': {} more warnings and errors of it were not shown", unit,
-                 count - kMostShown);
+    spdlog::warn(
+        "unit '{}': {} of it not shown", unit,
+        core::counted(count - kMostShown, "more warning or error", "more warnings and errors"));
   }
 }
 

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "master/util/counted.h"
 #include "master/verify/deviation.h"
 #include "master/verify/row.h"
 
@@ -45,8 +46,8 @@ std::optional<std::string> difference_beyond_rounding(const std::vector<StepOutc
     if (note.empty()) note = std::move(text);
   }
   if (expected.size() == seen.size()) return std::nullopt;
-  return fmt::format("there are {} steps {}, and {} {}", expected.size(), expected_when,
-                     seen.size(), seen_when);
+  return fmt::format("it makes {} {}, and {} {}", core::counted(expected.size(), "step"),
+                     expected_when, seen.size(), seen_when);
 }
 
 }  // namespace stride::verify

@@ -340,7 +340,7 @@ TEST_CASE("results of a case that are others are found") {
   const Outcome outcome = space.distil();
   CHECK(outcome.exit_code == 1);
   CHECK_THAT(outcome.err,
-             Contains("1 cases cannot be replayed, as case 0: it does not do what it did "
+             Contains("1 case cannot be replayed, as case 0: it does not do what it did "
                       "in the case: y at 0.5 s"));
   CHECK_FALSE(fs::exists(space / "suite"));
   CHECK_FALSE(fs::exists(space / "suite.stride-new"));

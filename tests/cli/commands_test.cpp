@@ -35,7 +35,7 @@ TEST_CASE("check prints units, connections and order, and writes nothing") {
   CHECK(outcome.exit_code == 0);
   CHECK(outcome.err == "");
   CHECK_THAT(outcome.out,
-             StartsWith("root: 2 components, 1 connections, 2 recorded signals\n"
+             StartsWith("root: 2 components, 1 connection, 2 recorded signals\n"
                         "from 0 s to 1 s, in steps of 0.125 s\ncoupling jacobi, inputs held\n"));
   CHECK_THAT(line_of(outcome.out, "first"), Contains("minimal") && Contains("minimal.fmu"));
   CHECK_THAT(line_of(outcome.out, "first.y"), Contains("second.u") && Contains("Float64"));

@@ -45,7 +45,7 @@ TEST_CASE("terminals are connected from outputs to inputs, whichever is named fi
     const Integrators units(annotation);
     const Outcome outcome = units.check();
     CHECK(outcome.err == "");
-    CHECK_THAT(outcome.out, Contains("1 connections") && Contains("first.y  second.u"));
+    CHECK_THAT(outcome.out, Contains("1 connection,") && Contains("first.y  second.u"));
     CHECK(units.workspace.run({"--quiet"}).exit_code == 0);
   }
 }
@@ -95,5 +95,5 @@ TEST_CASE("complete writes the connections that terminals make, once") {
   CHECK(read(units.workspace / "test.ssd") == completed);
   const Outcome outcome = units.check();
   CHECK(outcome.err == "");
-  CHECK_THAT(outcome.out, Contains("1 connections"));
+  CHECK_THAT(outcome.out, Contains("1 connection,"));
 }

@@ -127,7 +127,7 @@ def check_array(node, campaign):
     require(not (campaign.folder / "cluster").exists(), "a dry run writes something")
     printed = campaign.submit(node, 1, "cluster", "--wait", *options)
     name = array_in(printed)
-    require("40 of 40 cases are missing" in printed and "an array of 6 jobs with up to 7" in printed, printed)
+    require("40 of 40 cases missing" in printed and "an array of 6 jobs with up to 7" in printed, printed)
     require(re.search(r"c: 40 of 40 cases done, \d+ passed, \d+ failed, 0 missing", printed), printed)
     require(campaign.table("cluster") == campaign.table("local"), "another table than that of a local run")
     kept = campaign.folder / "cluster/slurm" / f"{name}.sh"
@@ -137,7 +137,7 @@ def check_array(node, campaign):
         require(f"\n{line}\n" in script, f"there is no line '{line}' in\n{script}")
     logs = {file.name for file in kept.parent.glob("*.log")}
     require(logs == {f"{name}_{i}.log" for i in range(MOST_JOBS)}, f"log files {logs}")
-    require("all of 40 cases are done" in campaign.submit(node, 0, "cluster"), "cases are submitted that are done")
+    require("40 of 40 cases done" in campaign.submit(node, 0, "cluster"), "cases are submitted that are done")
     require(" failures\n" in campaign.submit(node, 1, "cluster", "--wait"), "failures are not shown again")
     check_by_hand(node, campaign, kept)
 

@@ -8,6 +8,7 @@
 
 #include "master/algorithm/events/bit_errors.h"
 #include "master/algorithm/exchange/item_check.h"
+#include "master/util/counted.h"
 #include "master/util/state_archive.h"
 #include "master/util/time_text.h"
 
@@ -249,8 +250,7 @@ void MessageExchange::corrupt(Target& target) {
   }
   const std::size_t inverted =
       invert_bits(values, disturbance.bits, {disturbance.seed, target.corrupted++});
-  participants_.report_disturbed(
-      disturbance.id, fmt::format("{} bit{} inverted", inverted, inverted == 1 ? "" : "s"));
+  participants_.report_disturbed(disturbance.id, counted(inverted, "bit") + " inverted");
 }
 
 void MessageExchange::delay(Target& target, Time earliest) {

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "master/util/counted.h"
 #include "master/util/error.h"
 #include "master/util/input_file.h"
 #include "master/util/process/loaded_object.h"
@@ -45,8 +46,8 @@ std::string words_for(const std::set<pid_t>& threads) {
   const std::size_t shown = std::min(names.size(), kMostNames);
   const std::vector<std::string> first(names.begin(),
                                        std::next(names.begin(), std::ptrdiff_t(shown)));
-  return fmt::format("{} thread{} ({}{})", threads.size(), threads.size() == 1 ? "" : "s",
-                     quoted(first), shown < names.size() ? ", …" : "");
+  return fmt::format("{} ({}{})", counted(threads.size(), "thread"), quoted(first),
+                     shown < names.size() ? ", …" : "");
 }
 
 bool calls_function(const struct sigaction& action) {

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "master/util/counted.h"
 #include "master/util/time_text.h"
 #include "master/verify/checks.h"
 #include "master/verify/idle_comparison.h"
@@ -141,7 +142,8 @@ Finding check_idle(const Trial& trial) {
     promises.add(compare({longer, trial.note}, {seed + 10 * rounds, Wander::Still, jump}));
   }
   const Duration length = longer.step() * static_cast<std::int64_t>(longer.steps());
-  return passed(fmt::format("{} promises were kept, in {} runs with random inputs", promises.count,
+  return passed(fmt::format("{} kept, in {} runs with random inputs",
+                            core::counted(promises.count, "promise was", "promises were"),
                             rounds + std::size(kLongRuns)),
                 notes_on(promises, length));
 }

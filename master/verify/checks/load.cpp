@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "master/util/counted.h"
 #include "master/verify/checks.h"
 
 namespace stride::verify {
@@ -94,7 +95,8 @@ Finding check_load(const Trial& trial) {
                               trial.tested.function("GetVersion"), version,
                               description.fmi_version));
   }
-  return passed(fmt::format("FMI {}, {} variables, {}", version, description.variables.size(),
+  return passed(fmt::format("FMI {}, {}, {}", version,
+                            core::counted(description.variables.size(), "variable"),
                             library->path().filename().string()),
                 description.warnings);
 }

@@ -12,6 +12,7 @@
 #include <malloc.h>
 #include <unistd.h>
 
+#include "master/util/counted.h"
 #include "master/util/error.h"
 #include "master/verify/checks.h"
 
@@ -75,12 +76,12 @@ void require_released(const Leftovers& before, const Leftovers& after, std::size
 std::vector<std::string> notes_on(const Leftovers& before, const Leftovers& after) {
   std::vector<std::string> notes;
   if (after.files > before.files) {
-    notes.push_back(
-        fmt::format("{} files stay open when no instance is left", after.files - before.files));
+    notes.push_back(core::counted(after.files - before.files, "file stays", "files stay") +
+                    " open when no instance is left");
   }
   if (after.threads > before.threads) {
-    notes.push_back(
-        fmt::format("{} threads run on when no instance is left", after.threads - before.threads));
+    notes.push_back(core::counted(after.threads - before.threads, "thread runs", "threads run") +
+                    " on when no instance is left");
   }
   return notes;
 }

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "master/algorithm/capabilities/message_text.h"
+#include "master/util/counted.h"
 #include "master/util/error.h"
 #include "master/util/readable_text.h"
 #include "master/util/time_text.h"
@@ -60,8 +61,8 @@ class TextQueries {
     auto& unit = instance.capability<core::MessageText>();
     const std::string text = unit.describe_message(variable.reference, value);
     const std::string what =
-        fmt::format("the description of {} bytes as '{}' at {} s", value.size(), variable.name,
-                    core::to_text(instance.now()));
+        fmt::format("the description of {} as '{}' at {} s", core::counted(value.size(), "byte"),
+                    variable.name, core::to_text(instance.now()));
     if (!core::is_readable(text)) {
       throw Failure(what + " is not one line of UTF-8 without control characters: \"" +
                     core::readable_text(text, 60) + '"');
@@ -104,10 +105,9 @@ Finding check_messages(const Trial& trial) {
   }
   instance.terminate();
   queries.query(instance);
-  return passed(fmt::format(
-      "{} of {} values of {} Binary variable{} have words; asking for them "
-      "changes nothing",
-      queries.texts(), queries.values(), queries.variables(), queries.variables() == 1 ? "" : "s"));
+  return passed(fmt::format("{} of {} of {} have words; asking for them changes nothing",
+                            queries.texts(), core::counted(queries.values(), "value"),
+                            core::counted(queries.variables(), "Binary variable")));
 }
 
 }  // namespace stride::verify

@@ -5,6 +5,7 @@
 
 #include "master/algorithm/capabilities/state_saving.h"
 #include "master/algorithm/capabilities/state_serialization.h"
+#include "master/util/counted.h"
 #include "master/util/error.h"
 #include "master/util/time_text.h"
 #include "master/verify/checks.h"
@@ -129,15 +130,15 @@ void require_no_effect(const Trial& trial, std::size_t from, const RejectionProb
 
 void require_allowed(const core::UnitDescription& unit, std::size_t rejections) {
   if (unit.may_reject || rejections == 0) return;
-  throw Failure(
-      fmt::format("it rejects {} steps, though it declares mayReject=\"false\"", rejections),
-      false);
+  throw Failure(fmt::format("it rejects {}, though it declares mayReject=\"false\"",
+                            core::counted(rejections, "step")),
+                false);
 }
 
 /// Steps of other sizes than its own cannot be tried.
 Finding finding_of_fixed_step(std::size_t rejections) {
   if (rejections > 0) {
-    return passed(fmt::format("{} steps are rejected, and made in parts", rejections));
+    return passed(core::counted(rejections, "step") + " rejected, and made in parts");
   }
   return skipped(
       "it rejects no step of its size, and has no canHandleVariableCommunicationStepSize");
@@ -164,8 +165,8 @@ Finding check_rejection(const Trial& trial) {
                   std::move(notes));
   }
   if (probe.error().empty()) require_no_effect(trial, from, probe, instance);
-  return passed(fmt::format("{} steps rejected, nothing changed; shorter ones are accepted",
-                            probe.rejections() + run.rejections),
+  return passed(fmt::format("{} rejected, nothing changed; shorter ones are accepted",
+                            core::counted(probe.rejections() + run.rejections, "step")),
                 std::move(notes));
 }
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "master/util/counted.h"
 #include "master/verify/checks.h"
 #include "master/verify/step_outcome.h"
 
@@ -125,8 +126,9 @@ Finding check_repetition(const Trial& trial) {
   repeater.compare_all(whole);
   const std::string outcome =
       repeater.rounding().empty() ? "the same bits" : "the same but for rounding";
-  return passed(fmt::format("{} stretches of at most {} steps, each repeated twice: {}",
-                            repeater.stretches(), repeater.longest(), outcome),
+  return passed(fmt::format("{} of at most {}, each repeated twice: {}",
+                            core::counted(repeater.stretches(), "stretch", "stretches"),
+                            core::counted(repeater.longest(), "step"), outcome),
                 notes_of(repeater.rounding()));
 }
 

@@ -6,6 +6,7 @@
 
 #include "master/algorithm/capabilities/state_saving.h"
 #include "master/algorithm/capabilities/state_serialization.h"
+#include "master/util/counted.h"
 #include "master/util/error.h"
 #include "master/verify/checks.h"
 #include "master/verify/checks/damaged_states.h"
@@ -179,11 +180,12 @@ class SerializationCheck {
 
   std::string summary() const {
     return fmt::format(
-        "{} bytes go on in a new instance of {} process{}{}", run_.states.front().bytes.size(),
+        "a state of {} goes on in a new instance of {} process{}{}",
+        core::counted(run_.states.front().bytes.size(), "byte"),
         trial_.tested.description().single_instance ? "another" : "this and of another",
-        run_.states.size() > 1
-            ? fmt::format(", also from {} instants around events", run_.states.size() - 1)
-            : "",
+        run_.states.size() > 1 ? fmt::format(", also from {} around events",
+                                             core::counted(run_.states.size() - 1, "instant"))
+                               : "",
         refuses_all_ ? "; damaged bytes are refused" : "");
   }
 

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "master/util/counted.h"
 #include "master/util/time_text.h"
 #include "master/verify/checks.h"
 #include "master/verify/start_values.h"
@@ -100,8 +101,9 @@ Finding check_values(const Trial& trial) {
   }
   const auto& variables = trial.tested.description().variables;
   const auto starts = std::count_if(variables.begin(), variables.end(), has_exact_start);
-  return passed(fmt::format("{} start values, {} values in {} steps to {} s{}", starts,
-                            trial.tested.observed_count(), trial.tested.steps(),
+  return passed(fmt::format("{}, {} in {} to {} s{}", core::counted(starts, "start value"),
+                            core::counted(trial.tested.observed_count(), "value"),
+                            core::counted(trial.tested.steps(), "step"),
                             core::to_text(trial.tested.point(trial.tested.steps())),
                             run.has_ended ? "; it ended the run before" : ""));
 }

@@ -33,7 +33,7 @@ TEST_CASE("the first step that ends otherwise is named, with both ends") {
         "the step from 0 s ends at 0.001 s with an event here, and ends at 0.001 s and ends the "
         "run there");
   CHECK(step_difference({{0, kStep}}, {{0, kStep}, {kStep, 2 * kStep}}) ==
-        "there are 1 steps here, and 2 there");
+        "it makes 1 step here, and 2 there");
 }
 
 TEST_CASE("an end that is off by rounding is a note, unless the step ends in another way") {
