@@ -4,6 +4,8 @@
 
 #include <array>
 #include <cstddef>
+#include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -21,6 +23,13 @@ std::string plain_unit_of_measure(std::string_view name);
 /// behind a "/" several factors are in parentheses. Nothing for other names. The offset of a
 /// temperature counts only where it stands alone: "W/degC" is W/K.
 std::optional<BaseUnitOfMeasure> find_unit_of_measure(std::string_view name);
+
+/// Symbols that are defined apart from the table.
+using OwnUnitsOfMeasure = std::map<std::string, BaseUnitOfMeasure, std::less<>>;
+/// Likewise, where these may be used alone and as factors, and go before the table's; they take no
+/// prefixes.
+std::optional<BaseUnitOfMeasure> find_unit_of_measure(std::string_view name,
+                                                      const OwnUnitsOfMeasure& own);
 
 namespace detail {
 
@@ -64,7 +73,8 @@ inline std::optional<BaseUnitOfMeasure> find_symbol(std::string_view symbol) {
 /// Reads an expression of units of measure.
 class UnitOfMeasureReader {
  public:
-  explicit UnitOfMeasureReader(std::string_view text) : text_(text) {}
+  UnitOfMeasureReader(std::string_view text, const OwnUnitsOfMeasure& own)
+      : text_(text), own_(own) {}
 
   std::optional<BaseUnitOfMeasure> read() {
     const BaseUnitOfMeasure unit = expression();
@@ -113,7 +123,9 @@ class UnitOfMeasureReader {
     const long double number = value(take_front(digits));
     const std::string_view symbol = take_front(count(&is_letter));
     if (symbol.empty()) return digits == 0 || number != 1 ? fail() : BaseUnitOfMeasure{};
-    const std::optional<BaseUnitOfMeasure> known = find_symbol(symbol);
+    const auto own = own_.find(symbol);
+    const std::optional<BaseUnitOfMeasure> known =
+        own != own_.end() ? std::optional(own->second) : find_symbol(symbol);
     if (!known || number == 0) return fail();
     BaseUnitOfMeasure unit = raised(*known);
     if (digits == 0) return unit;
@@ -157,6 +169,7 @@ class UnitOfMeasureReader {
   }
 
   std::string_view text_;
+  const OwnUnitsOfMeasure& own_;
   bool is_valid_ = true;
   int depth_ = 0;
 };
@@ -207,10 +220,16 @@ inline std::string plain_unit_of_measure(std::string_view name) {
   return detail::without_blanks(detail::respelt(name));
 }
 
-inline std::optional<BaseUnitOfMeasure> find_unit_of_measure(std::string_view name) {
+inline std::optional<BaseUnitOfMeasure> find_unit_of_measure(std::string_view name,
+                                                             const OwnUnitsOfMeasure& own) {
+  if (const auto found = own.find(name); found != own.end()) return found->second;
   const std::string plain = plain_unit_of_measure(name);
   if (plain == "-") return BaseUnitOfMeasure{};
-  return detail::UnitOfMeasureReader(plain).read();
+  return detail::UnitOfMeasureReader(plain, own).read();
+}
+
+inline std::optional<BaseUnitOfMeasure> find_unit_of_measure(std::string_view name) {
+  return find_unit_of_measure(name, {});
 }
 
 }  // namespace stride

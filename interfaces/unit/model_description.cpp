@@ -123,10 +123,11 @@ class Writer {
     std::set<std::string> symbols;
     for (std::size_t i = 0; i < table_.size(); ++i) symbols.insert(table_.row(i).unit);
     symbols.erase("");
+    const OwnUnitsOfMeasure own = own_units_of_measure(unit_);
     xml_.open("UnitDefinitions");
     for (const std::string& symbol : symbols) {
       xml_.open("Unit").attribute("name", symbol);
-      if (const auto unit = base_unit_of_measure(unit_, symbol)) write_base_unit(*unit);
+      if (const auto unit = find_unit_of_measure(symbol, own)) write_base_unit(*unit);
       xml_.close();
     }
     xml_.close();

@@ -29,15 +29,15 @@ void check_units_of_measure(const Unit& unit) {
   }
 }
 
-std::optional<BaseUnitOfMeasure> base_unit_of_measure(const Unit& unit, const std::string& symbol) {
+OwnUnitsOfMeasure own_units_of_measure(const Unit& unit) {
+  OwnUnitsOfMeasure own;
   for (const UnitOfMeasureDefinition& definition : unit.units_of_measure()) {
-    if (definition.name != symbol) continue;
     BaseUnitOfMeasure base = find_unit_of_measure(definition.in).value();
     base.offset += base.factor * static_cast<long double>(definition.offset);
     base.factor *= static_cast<long double>(definition.factor);
-    return base;
+    own.emplace(definition.name, base);
   }
-  return find_unit_of_measure(symbol);
+  return own;
 }
 
 }  // namespace stride::kit

@@ -1,6 +1,7 @@
 #include "master/importer/pack.h"
 
 #include <memory>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -61,14 +62,41 @@ std::string name_in_binaries(const std::string& file) {
   return fmt::format("binaries/{}/{}", platform(), file);
 }
 
+/// Of names that a unit uses without defining them, or defines otherwise than they are known.
+std::vector<std::string> unit_of_measure_warnings(const core::UnitDescription& unit) {
+  std::vector<std::string> warnings;
+  std::set<std::string> said;
+  for (const core::Variable& variable : unit.variables) {
+    const std::string& name = variable.unit;
+    if (name.empty() || !said.insert(name).second) continue;
+    const auto known = find_unit_of_measure(name);
+    const auto own = unit.units_of_measure.find(name);
+    if (own == unit.units_of_measure.end()) {
+      if (known) continue;
+      warnings.push_back(
+          fmt::format("nothing defines '{}', the unit of measure of '{}': it can be connected to "
+                      "the same name only",
+                      name, variable.name));
+    } else if (known && !core::is_nearly_same(own->second, *known)) {
+      warnings.push_back(fmt::format(
+          "the unit of measure '{}' of '{}' has a definition of its own, which is used and is "
+          "not what '{}' commonly stands for",
+          name, variable.name, name));
+    }
+  }
+  return warnings;
+}
+
 /// With the description that the library gives for these resources.
-archive::Contents describe(const PackRequest& request) {
+archive::Contents describe(const PackRequest& request, std::vector<std::string>& warnings) {
   const auto& [file, resources, bundled, output, model_name] = request;
   core::open_input(file);
   const Fmi3Library library(file);
   std::string xml = library.describe(resources);
   if (!model_name.empty()) set_model_name(xml, model_name);
   auto description = parse_model_description(xml, file.string());
+  const std::vector<std::string> odd = unit_of_measure_warnings(description);
+  warnings.insert(warnings.end(), odd.begin(), odd.end());
   archive::Contents contents;
   contents["modelDescription.xml"].text = xml;
   const std::string manifest = library.idle_manifest(resources);
@@ -81,9 +109,9 @@ archive::Contents describe(const PackRequest& request) {
   return contents;
 }
 
-archive::Contents collect(const PackRequest& request) {
+archive::Contents collect(const PackRequest& request, std::vector<std::string>& warnings) {
   const Preloaded bundled(request.bundled);
-  archive::Contents contents = describe(request);
+  archive::Contents contents = describe(request, warnings);
   for (const fs::path& library : request.bundled) {
     archive::add_file(contents, name_in_binaries(library.filename().string()), library, true);
   }
@@ -118,7 +146,8 @@ archive::Contents collect_again(const UnpackedFmu& fmu, const PackRequest& reque
     if (!warning.empty()) warnings.push_back(warning);
   }
   archive::Contents contents =
-      collect({found.path, request.resources, request.bundled, request.output, request.model_name});
+      collect({found.path, request.resources, request.bundled, request.output, request.model_name},
+              warnings);
   add_other_binaries(contents, found.path);
   return contents;
 }
@@ -137,7 +166,7 @@ void set_model_name(std::string& description, const std::string& name) {
 std::vector<std::string> pack(const PackRequest& request) {
   std::vector<std::string> warnings;
   if (core::lower_case(request.library.extension().string()) != ".fmu") {
-    archive::write_zip(request.output, collect(request));
+    archive::write_zip(request.output, collect(request, warnings));
     return warnings;
   }
   const UnpackedFmu fmu(request.library);

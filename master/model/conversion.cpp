@@ -209,8 +209,7 @@ class Composer {
     if (meaning_of(connector.unit)) return "";
     return fmt::format(
         "; no <BaseUnit> says what '{}' is, neither in {} nor where '{}' is declared, and it is "
-        "not "
-        "known by name",
+        "not known by name",
         connector.unit.name, context_.where.file.empty() ? "the system" : context_.where.file,
         connector.name);
   }

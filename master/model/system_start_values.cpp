@@ -18,6 +18,7 @@
 #include "master/model/way.h"
 #include "master/util/limited_warnings.h"
 #include "master/util/message_text.h"
+#include "master/util/suggest.h"
 #include "master/util/words.h"
 
 namespace stride::core {
@@ -179,9 +180,18 @@ ValueBlock System::start_value(const StartDeclaration& wanted, const ElementRang
   const UnitOfMeasure unit = known_unit(wanted.unit, part.id.component);
   const PathConnector end = path_connector(part);
   if (wanted.via.empty() && !wanted.suppress_unit_conversion && !convert(unit, end.unit)) {
+    const std::string undefined = undefined_text(unit);
     fail_input(context,
-               fmt::format("the value is in '{}', the variable in '{}'", unit.name, end.unit.name),
-               "give the value in the variable's unit");
+               fmt::format("the value is in '{}', the variable in '{}'{}", unit.name, end.unit.name,
+                           undefined),
+               undefined.empty() ? "give the value in the variable's unit"
+                                 : suggestion(unit.name, convertible_names(end.unit)));
+  }
+  if (end.unit.name.empty() && wanted.via.empty() && !undefined_text(unit).empty()) {
+    warnings_.push_back(to_text(context) +
+                        fmt::format("nothing defines '{}', the unit of measure of the value, and "
+                                    "the variable has none: the number is used as it is",
+                                    unit.name));
   }
   Way way({"the value", {}, unit, {}, true});
   way.go(wanted, end);
@@ -201,7 +211,8 @@ ValueBlock System::start_value(const StartDeclaration& wanted, const ElementRang
     }
     return value;
   } catch (const std::invalid_argument& mistake) {
-    fail_input(context, mistake.what());
+    fail_input(context, mistake.what(),
+               number_with_unit_hint(text, end.unit, end.is_relative.value_or(false)));
   }
 }
 

@@ -2,9 +2,13 @@
 #ifndef STRIDE_MASTER_MODEL_UNIT_OF_MEASURE_H
 #define STRIDE_MASTER_MODEL_UNIT_OF_MEASURE_H
 
+#include <array>
+#include <cstddef>
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include <stride/unit_of_measure.h>
 
@@ -19,6 +23,16 @@ using UnitsOfMeasure = std::map<std::string, BaseUnitOfMeasure>;
 
 /// Whether both mean the same, as far as doubles tell.
 bool is_same(const BaseUnitOfMeasure& a, const BaseUnitOfMeasure& b);
+/// Likewise, apart from the rounding of a definition's factors.
+bool is_nearly_same(const BaseUnitOfMeasure& a, const BaseUnitOfMeasure& b);
+
+/// The attributes of a <BaseUnit>.
+inline constexpr auto kBaseUnitAttributes = [] {
+  std::array<std::string_view, kUnitOfMeasureBases.size() + 2> names{"factor", "offset"};
+  for (std::size_t i = 0; i < kUnitOfMeasureBases.size(); ++i)
+    names[i + 2] = kUnitOfMeasureBases[i];
+  return names;
+}();
 
 /// Reads a <BaseUnit>. Throws Error (Input) for what is no finite number, and for the factor 0.
 BaseUnitOfMeasure read_base_unit(const xml::Element& element);
@@ -45,6 +59,18 @@ std::optional<BaseUnitOfMeasure> meaning_of(const UnitOfMeasure& unit);
 /// and one of them no meaning of its own, they are taken as they are; nothing if they cannot be
 /// converted into each other.
 std::optional<LinearConversion> convert(const UnitOfMeasure& from, const UnitOfMeasure& to);
+
+/// Known names of units of measure into which this one can be converted, itself first; only itself
+/// where its meaning is unknown, and none where it has no name.
+std::vector<std::string> convertible_names(const UnitOfMeasure& unit);
+
+/// "; nothing defines 'foo'" of a unit of measure without a meaning; else empty.
+std::string undefined_text(const UnitOfMeasure& unit);
+
+/// What to write in place of a text that is a number and a unit of measure, "90km/h", for a value
+/// in `unit`; empty for other texts. `is_difference`: of temperatures, say.
+std::string number_with_unit_hint(const std::string& text, const UnitOfMeasure& unit,
+                                  bool is_difference);
 
 }  // namespace stride::core
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -35,10 +36,13 @@ void require_no_resources(const importer::PackRequest& request, const std::strin
 }
 
 /// The unit with these resources, of which `file` is what the user has given.
-void pack_unit(const std::string& unit, const fs::path& resources, const fs::path& file,
-               const importer::PackRequest& request, const std::string& model_name = {}) {
+/// Returns warnings.
+std::vector<std::string> pack_unit(const std::string& unit, const fs::path& resources,
+                                   const fs::path& file, const importer::PackRequest& request,
+                                   const std::string& model_name = {}) {
   try {
-    importer::pack({find_unit(unit + ".fmu", {}), resources, {}, request.output, model_name});
+    return importer::pack(
+        {find_unit(unit + ".fmu", {}), resources, {}, request.output, model_name});
   } catch (const core::Error& failure) {
     core::fail_input({}, shown(failure.what(), file, request.library));
   }
@@ -50,13 +54,13 @@ bool is_captured(const fs::path& path) {
   return core::head_of(path, kBegin.size()) == kBegin;
 }
 
-void pack_stimuli_as(const fs::path& shown_as, importer::PackRequest request) {
+std::vector<std::string> pack_stimuli_as(const fs::path& shown_as, importer::PackRequest request) {
   const archive::TemporaryFolder resources;
   const fs::path copy = resources.path() / "stimuli.csv";
   core::copy_input(request.library, copy);
   const std::string table = is_captured(request.library) ? "" : shown_as.stem().string();
   request.library = shown_as;
-  pack_unit("player", resources.path(), copy, request, table);
+  return pack_unit("player", resources.path(), copy, request, table);
 }
 
 /// The files that the declaration of a program names.
@@ -108,9 +112,9 @@ ProgramFiles program_files(const fs::path& declaration) {
 
 bool is_stimuli(const fs::path& path) { return path.extension() == ".csv" || is_captured(path); }
 
-void pack_stimuli(const importer::PackRequest& request) {
+std::vector<std::string> pack_stimuli(const importer::PackRequest& request) {
   require_no_resources(request, "stimuli are", "player");
-  pack_stimuli_as(request.library, request);
+  return pack_stimuli_as(request.library, request);
 }
 std::shared_ptr<importer::Fmu> load_unit(const fs::path& path, const core::Location& where,
                                          const fs::path& shown_as) {
@@ -124,7 +128,7 @@ std::shared_ptr<importer::Fmu> load_unit(const fs::path& path, const core::Locat
 
 bool is_program(const fs::path& path) { return path.extension() == ".xml"; }
 
-void pack_program(const importer::PackRequest& request) {
+std::vector<std::string> pack_program(const importer::PackRequest& request) {
   require_no_resources(request, "a program is", "process");
   const ProgramFiles files = program_files(request.library);
   const archive::TemporaryFolder resources;
@@ -137,7 +141,7 @@ void pack_program(const importer::PackRequest& request) {
   }
   const fs::path copy = resources.path() / "process.xml";
   core::copy_input(request.library, copy);
-  pack_unit("process", resources.path(), copy, request, files.model_name);
+  return pack_unit("process", resources.path(), copy, request, files.model_name);
 }
 
 }  // namespace stride::scenario

@@ -4,6 +4,8 @@
 
 #include <filesystem>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "master/importer/fmu.h"
 #include "master/importer/pack.h"
@@ -13,8 +15,8 @@ namespace stride::scenario {
 
 /// Whether the file holds stimuli written by --capture, or a table of values over time (.csv).
 bool is_stimuli(const std::filesystem::path& path);
-/// The unit player with this file in its resources. Throws core::Error.
-void pack_stimuli(const importer::PackRequest& request);
+/// The unit player with this file in its resources. Returns warnings. Throws core::Error.
+std::vector<std::string> pack_stimuli(const importer::PackRequest& request);
 
 /// The unit in a file: that of an FMU or a library, or the unit player of stimuli and tables.
 /// Throws core::Error (Input); `shown_as` is the path in messages, if that is another one.
@@ -24,9 +26,9 @@ std::shared_ptr<importer::Fmu> load_unit(const std::filesystem::path& path,
 
 /// Whether the file is meant to be the declaration of a program.
 bool is_program(const std::filesystem::path& path);
-/// The unit process with this declaration and the files that it names in its resources. Throws
-/// core::Error.
-void pack_program(const importer::PackRequest& request);
+/// The unit process with this declaration and the files that it names in its resources. Returns
+/// warnings. Throws core::Error.
+std::vector<std::string> pack_program(const importer::PackRequest& request);
 
 }  // namespace stride::scenario
 

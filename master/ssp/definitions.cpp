@@ -57,7 +57,7 @@ void read_unit(const xml::Element& unit, UniqueNames& names, Definitions& defini
       continue;
     }
     const std::string name = unit.required("name");
-    child.allow_attributes({"kg", "m", "s", "A", "K", "mol", "cd", "rad", "factor", "offset"});
+    child.allow_attributes(core::kBaseUnitAttributes);
     const core::BaseUnitOfMeasure base = core::read_base_unit(child);
     auto& units = definitions.units_of_measure;
     if (names.add(unit, name, [&] { return core::is_same(units.at(name), base); })) {

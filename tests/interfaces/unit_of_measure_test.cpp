@@ -123,3 +123,17 @@ TEST_CASE("what has no meaning, or more than one, is not known") {
   CAPTURE(name);
   CHECK_FALSE(is_known(name));
 }
+
+TEST_CASE("symbols of one's own are factors, too, and go before known ones") {
+  const OwnUnitsOfMeasure own{{"furlong", {kLength, 201.168L}},
+                              {"h", {{0, 0, 1, 0, 0, 0, 0, 0}, 3000}},
+                              {"per cent of all", {{}, 0.01L}}};
+  const auto speed = find_unit_of_measure("furlong/h", own);
+  REQUIRE(speed);
+  CHECK(speed->exponents == kSpeed);
+  CHECK(static_cast<double>(speed->factor) == 0.067056);
+  CHECK(find_unit_of_measure("1/furlong2", own));
+  CHECK(find_unit_of_measure("per cent of all", own));
+  CHECK_FALSE(find_unit_of_measure("kfurlong", own));
+  CHECK_FALSE(find_unit_of_measure("furlong/fortnight", own));
+}

@@ -111,6 +111,22 @@ MEASURES = """
 """
 
 
+def test_units_of_measure_that_nothing_defines_or_that_are_redefined(units):
+    said = units.pack("""
+        class Cart(su.Unit, units_of_measure={"furlong": (201.168, "m"), "mile": (1609.344, "m"), "kn": (2, "m/s")}):
+            pace = su.Output(1.0, unit="furlong/h")
+            way = su.Output(1.0, unit="mile")
+            wind = su.Output(1.0, unit="kn")
+            load = su.Output(1.0, unit="sack")
+
+            def step(self, now, end):
+                pass
+    """)
+    assert "nothing defines 'sack', the unit of measure of 'load'" in said
+    assert "the unit of measure 'kn' of 'wind' has a definition of its own" in said
+    assert said.count("warning") == 2
+
+
 def test_units_of_measure_that_people_use_and_that_a_unit_defines(units):
     assert units.pack(MEASURES, "--class", "Plant", name="plant") == ""
     assert units.pack(MEASURES, "--class", "Gauge", name="gauge") == ""

@@ -228,7 +228,7 @@ std::optional<Element> Element::parent() const {
   return Element(*parent, *file_);
 }
 
-void Element::allow_attributes(std::initializer_list<std::string_view> names) const {
+void Element::allow_attributes(std::span<const std::string_view> names) const {
   for (auto it = element_->FirstAttribute(); it != nullptr; it = it->Next()) {
     const std::string attribute = it->Name();
     const bool is_foreign = attribute == "xmlns" || attribute.find(':') != std::string::npos;

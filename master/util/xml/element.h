@@ -122,7 +122,10 @@ class Element {
 
   /// Refuses what is not listed, so that no misspelt word is ignored. Attributes of other
   /// namespaces, and the attributes `id` and `description`, are always allowed.
-  void allow_attributes(std::initializer_list<std::string_view> names) const;
+  void allow_attributes(std::span<const std::string_view> names) const;
+  void allow_attributes(std::initializer_list<std::string_view> names) const {
+    allow_attributes(std::span(names.begin(), names.size()));
+  }
   void allow_children(std::initializer_list<Name> names) const {
     allow_children(std::span(names.begin(), names.size()));
   }

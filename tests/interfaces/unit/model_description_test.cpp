@@ -117,11 +117,12 @@ class Measured : public Unit {
     input("heat", heat_).unit("oven");
     input("rise", rise_).unit("degF").relative();
     input("score", score_).unit("points");
+    input("pace", pace_).unit("furlong/h");
   }
   void step(Step&) override {}
 
  private:
-  double speed_ = 0, length_ = 0, heat_ = 0, rise_ = 0, score_ = 0;
+  double speed_ = 0, length_ = 0, heat_ = 0, rise_ = 0, score_ = 0, pace_ = 0;
 };
 
 }  // namespace
@@ -133,6 +134,7 @@ TEST_CASE("units of measure are defined if they are known, or by the unit") {
   CHECK_THAT(xml, Contains(R"(<BaseUnit K="1" factor="10" offset="323.15"/>)"));
   CHECK_THAT(xml, Contains(R"(factor="0.5555555555555556" offset="255.37222222222223")"));
   CHECK_THAT(xml, Contains(R"(<Unit name="points"/>)"));
+  CHECK_THAT(xml, Contains(R"(<BaseUnit m="1" s="-1" factor="0.05588"/>)"));
 }
 
 TEST_CASE("a difference is declared as one") {
