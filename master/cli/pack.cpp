@@ -33,6 +33,38 @@ bool is_scenario(const fs::path& path) {
   return core::is_folder(path) || path.extension() == ".ssd" || path.extension() == ".ssp";
 }
 
+/// A scenario may be one of a package, which is at no path of its own.
+fs::path found_input(const fs::path& named) {
+  if (const auto bundled = scenario::named_scenario(named)) return *bundled;
+  return is_scenario(named) ? named : scenario::find_unit(named, {});
+}
+
+/// Whether a package, or the folder that one unpacks to, is named and not a system in it.
+bool is_whole_package(const fs::path& named, const fs::path& system, const ssp::Files& files) {
+  return core::is_folder(named) || (core::is_file(named) && files.archive_of(system));
+}
+
+/// What SSP lets a package have beside its systems and their resources.
+void add_further_folders(archive::Contents& contents, const fs::path& package) {
+  for (const char* const name : {"extra", "documentation"}) {
+    if (core::is_folder(package / name)) {
+      archive::add_folder(contents, std::string(name) + "/", package / name);
+    }
+  }
+}
+
+/// The other systems of a package; each is one that can be read.
+std::vector<fs::path> other_variants(const fs::path& named, const fs::path& system,
+                                     const std::shared_ptr<ssp::Files>& files) {
+  if (!is_whole_package(named, system, *files)) return {};
+  std::vector<fs::path> others = files->variants(named, system);
+  std::erase(others, system);
+  for (const fs::path& other : others) {
+    scenario::read_scenario(other, {scenario::find_unit, {}, files});
+  }
+  return others;
+}
+
 /// The package replaces neither what is packed nor what is bundled with it.
 void check_output_path(const importer::PackRequest& request) {
   std::vector<results::KeptPath> kept{{request.library, "what is to be packed"}};
@@ -40,6 +72,13 @@ void check_output_path(const importer::PackRequest& request) {
   for (const fs::path& library : request.bundled) kept.push_back({library, "a bundled library"});
   const results::OutputPath output{"--output " + request.output.string(), request.output};
   results::refuse_kept_paths({&output, 1}, kept);
+}
+
+/// Returns warnings.
+std::vector<std::string> pack_unit(const importer::PackRequest& request) {
+  if (scenario::is_stimuli(request.library)) return scenario::pack_stimuli(request);
+  if (scenario::is_program(request.library)) return scenario::pack_program(request);
+  return importer::pack(request);
 }
 
 void pack_scenario(const importer::PackRequest& request) {
@@ -55,10 +94,15 @@ void pack_scenario(const importer::PackRequest& request) {
   }
   const scenario::Scenario scenario =
       scenario::read_scenario(request.library, {scenario::find_unit, {}});
+  const fs::path system = scenario.files->system_file(request.library);
+  const std::vector<fs::path> others = other_variants(request.library, system, scenario.files);
   scenario::FmuArchives fmus;
-  archive::write_zip(request.output,
-                     ssp::package_contents(scenario.files->system_file(request.library),
-                                           *scenario.files, std::ref(fmus)));
+  archive::Contents contents =
+      ssp::package_contents(system, *scenario.files, std::ref(fmus), others);
+  if (is_whole_package(request.library, system, *scenario.files)) {
+    add_further_folders(contents, system.parent_path());
+  }
+  archive::write_zip(request.output, contents);
 }
 
 }  // namespace
@@ -74,8 +118,8 @@ void add_pack(CLI::App& app) {
       ->add_option(
           "FILE", request->library,
           "The unit's shared library (.so) or .fmu, captured stimuli or a table (.csv), the "
-          "declaration of a program (.xml), or a scenario (.ssd, or the name of one that comes "
-          "with stride)")
+          "declaration of a program (.xml), or a scenario (.ssd; .ssp with all systems in it, or "
+          "FILE.ssp/VARIANT.ssd; or the name of one that comes with stride)")
       ->required()
       ->type_name("");
   command->add_option("--output,--out,-o", request->output, "The .fmu or .ssp to write")
@@ -91,13 +135,10 @@ void add_pack(CLI::App& app) {
       ->allow_extra_args(false);
   command->callback([request] {
     const CrashGuard guard;
-    const std::optional<fs::path> named = scenario::named_scenario(request->library);
-    request->library = named ? *named : scenario::find_unit(request->library, {});
+    request->library = found_input(request->library);
     check_output_path(*request);
     if (is_scenario(request->library)) return pack_scenario(*request);
-    if (scenario::is_stimuli(request->library)) return scenario::pack_stimuli(*request);
-    if (scenario::is_program(request->library)) return scenario::pack_program(*request);
-    print_warnings(importer::pack(*request));
+    print_warnings(pack_unit(*request));
   });
 }
 

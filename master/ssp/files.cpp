@@ -11,6 +11,7 @@
 
 #include "master/ssp/ssp.h"
 #include "master/util/archive/displaced_file.h"
+#include "master/util/counted.h"
 #include "master/util/file_uri.h"
 #include "master/util/input_file.h"
 #include "master/util/loose_path.h"
@@ -96,7 +97,7 @@ std::string system_hint(const fs::path& folder, const std::string& shown, const 
   const std::size_t more = names.size() > kMostNames ? names.size() - kMostNames : 0;
   names.resize(names.size() - more);
   std::string held = names.empty() ? "nothing" : fmt::format("{}", fmt::join(names, ", "));
-  if (more > 0) held += fmt::format(", and {} more files", more);
+  if (more > 0) held += ", and " + core::counted(more, "more file");
   core::fail_input({where, {}, {}, {}},
                    fmt::format("'{}' has no {}; it holds {}", shown, name, held),
                    system_hint(folder, shown, name));
@@ -174,10 +175,9 @@ fs::path Files::system_file(const fs::path& package, const std::string& name,
 }
 
 std::vector<fs::path> Files::variants(const fs::path& path, const fs::path& file) const {
-  const auto archive = archive_of(file);
-  if (!archive && !core::is_folder(path)) return {};
+  if (!archive_of(file) && !core::is_folder(path)) return {};
   std::vector<fs::path> found;
-  for (const auto& entry : fs::directory_iterator(archive ? archive->folder : path)) {
+  for (const auto& entry : fs::directory_iterator(file.parent_path())) {
     if (entry.path().extension() == ".ssd") found.push_back(entry.path());
   }
   std::ranges::sort(found);

@@ -64,19 +64,26 @@ class Packer {
  public:
   Packer(Files& files, const FmuMaker& make_fmu) : files_(files), make_fmu_(make_fmu) {}
 
-  archive::Contents run(const fs::path& system) {
-    names_.emplace(identity(system), "SystemStructure.ssd");
-    contents_["SystemStructure.ssd"].text = packed(system, "resources/");
+  archive::Contents run(const fs::path& system, std::span<const fs::path> variants) {
+    std::map<std::string, fs::path> systems{{"SystemStructure.ssd", system}};
+    for (const fs::path& variant : variants) systems.emplace(variant.filename(), variant);
+    for (const auto& [name, file] : systems) names_.emplace(identity(file), name);
+    for (const auto& [name, file] : systems) contents_[name].text = packed(file, "");
     return std::move(contents_);
   }
 
  private:
-  /// The text of a .ssd whose resources are at `resources`, as seen from it.
-  std::string packed(const fs::path& path, const std::string& resources) {
+  /// The text of a .ssd that is packed into this folder of the package: kResources, or its top.
+  std::string packed(const fs::path& path, const std::string& folder) {
     const xml::Document document = files_.document(path);
     xml::Editor editor(document.text());
-    replace_sources(document.root(), {source_folders(path), {}}, resources, editor);
+    replace_sources(document.root(), {source_folders(path), {}}, folder, editor);
     return editor.result();
+  }
+
+  /// What is packed under this name, as seen from a folder of the package.
+  static std::string uri(const std::string& name, const std::string& folder) {
+    return name.starts_with(folder) ? name.substr(folder.size()) : "../" + name;
   }
 
   /// What sources are relative to: the .ssd, or the component around them.
@@ -84,28 +91,26 @@ class Packer {
     std::vector<fs::path> folders, of_component;
   };
 
-  void replace_sources(const xml::Element& element, Bases bases, const std::string& resources,
+  void replace_sources(const xml::Element& element, Bases bases, const std::string& folder,
                        xml::Editor& editor) {
     const bool is_inside = is_in_component(element);
     const std::vector<fs::path>& folders = is_inside ? bases.of_component : bases.folders;
     if (names_a_file(element) && !folders.empty()) {
       const auto [source, fragment, warning] = source_of(element, folders);
-      const std::string name = add(element, source);
-      const std::string uri = name == "SystemStructure.ssd" ? "../" + name : resources + name;
-      editor.set_attribute(
-          element.index(), "source",
-          core::uri_path(uri) + (fragment.empty() ? "" : "#" + core::uri_path(fragment)));
+      editor.set_attribute(element.index(), "source",
+                           core::uri_path(uri(add(element, source), folder)) +
+                               (fragment.empty() ? "" : "#" + core::uri_path(fragment)));
       if (is_inside) editor.set_attribute(element.index(), "sourceBase", "SSD");
     }
     if (element.is(kSsd, "Component")) {
       bases.of_component = component_folders(element, bases.folders);
     }
     for (const xml::Element& child : element.children()) {
-      replace_sources(child, bases, resources, editor);
+      replace_sources(child, bases, folder, editor);
     }
   }
 
-  /// Its name in the package's resources.
+  /// Its name in the package.
   std::string add(const xml::Element& element, const fs::path& source) {
     const auto [entry, is_new] = names_.try_emplace(identity(source));
     if (!is_new) return entry->second;
@@ -116,11 +121,12 @@ class Packer {
                    "its path is relative to this file");
     }
     const std::string name =
+        kResources +
         unique(file == source ? source.filename() : source.filename().replace_extension(".fmu"));
     entry->second = name;
-    archive::Content& content = contents_["resources/" + name];
+    archive::Content& content = contents_[name];
     if (kind == Kind::System) {
-      content.text = packed(file, "");
+      content.text = packed(file, kResources);
     } else {
       content.file = file;
     }
@@ -135,6 +141,8 @@ class Packer {
     return name;
   }
 
+  inline static const std::string kResources = "resources/";
+
   Files& files_;
   const FmuMaker& make_fmu_;
   archive::Contents contents_;
@@ -144,8 +152,9 @@ class Packer {
 
 }  // namespace
 
-archive::Contents package_contents(const fs::path& system, Files& files, const FmuMaker& make_fmu) {
-  return Packer(files, make_fmu).run(system);
+archive::Contents package_contents(const fs::path& system, Files& files, const FmuMaker& make_fmu,
+                                   std::span<const fs::path> variants) {
+  return Packer(files, make_fmu).run(system, variants);
 }
 
 }  // namespace stride::ssp

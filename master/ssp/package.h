@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <span>
 
 #include "master/ssp/files.h"
 #include "master/util/archive/zip.h"
@@ -19,9 +20,11 @@ using FmuMaker =
 /// The contents of a package with this .ssd as its SystemStructure.ssd, which must be one that
 /// read_scenario() reads. The files that it names, and those that they name, are in resources/,
 /// each once, under their own names as far as they differ; the sources are adapted, and nothing
-/// else changes in the .ssd. Throws core::Error (Input).
+/// else changes in the .ssd. So are `variants`, further systems, packed: each is at the top of the
+/// package under the name of its file. Throws core::Error (Input).
 archive::Contents package_contents(const std::filesystem::path& system, Files& files,
-                                   const FmuMaker& make_fmu);
+                                   const FmuMaker& make_fmu,
+                                   std::span<const std::filesystem::path> variants = {});
 
 }  // namespace stride::ssp
 

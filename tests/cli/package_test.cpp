@@ -1,6 +1,9 @@
 // Scenarios in packages, and systems in systems, from outside.
+#include <algorithm>
+
 #include <catch2/catch.hpp>
 
+#include "master/util/archive/unpacked_archive.h"
 #include "master/util/archive/zip.h"
 #include "tests/cli/scenarios.h"
 
@@ -133,4 +136,41 @@ TEST_CASE("a value without a variable is ignored with a warning") {
   CHECK_THAT(outcome.err, Contains("unit 'first', variable 'time_constnt'") &&
                               Contains("did you mean 'time_constant'?") &&
                               Contains("is ignored, as SSP requires"));
+}
+
+namespace {
+
+std::vector<std::string> top_files_of(const Workspace& workspace, const std::string& package) {
+  const Scratch folder;
+  stride::archive::UnpackedArchive unpacked(workspace / package, "a package", {});
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(unpacked.folder())) {
+    if (entry.is_regular_file()) names.push_back(entry.path().filename().string());
+  }
+  std::ranges::sort(names);
+  return names;
+}
+
+}  // namespace
+
+TEST_CASE("a package is packed with all of its systems, or with the one that is named") {
+  const Workspace workspace(two_filters());
+  const std::string one = scenario_text({component("alone", "minimal.fmu")});
+  stride::archive::write_zip(workspace / "var.ssp",
+                             {{"SystemStructure.ssd", {scenario_text(two_filters()), {}, false}},
+                              {"Short.ssd", {one, {}, false}},
+                              {"extra/org.example/note.txt", {"kept", {}, false}}});
+  const auto pack = [&](const std::string& from) {
+    return workspace.stride({"pack", from, "-o", "new.ssp"});
+  };
+  REQUIRE(pack("var.ssp").exit_code == 0);
+  CHECK(top_files_of(workspace, "new.ssp") ==
+        std::vector<std::string>{"Short.ssd", "SystemStructure.ssd"});
+  CHECK_THAT(read(workspace / "new.ssp"), Contains("extra/org.example/note.txt"));
+  CHECK(workspace.stride({"run", "new.ssp/Short.ssd", "--quiet"}).exit_code == 0);
+  REQUIRE(pack("var.ssp/Short.ssd").exit_code == 0);
+  CHECK(top_files_of(workspace, "new.ssp") == std::vector<std::string>{"SystemStructure.ssd"});
+  CHECK_THAT(workspace.stride({"inspect", "new.ssp"}).out, Contains("1 component, 0 connections"));
+  CHECK_THAT(input_error_of(pack("var.ssp/Shrt.ssd")), Contains("did you mean 'Short.ssd'?"));
+  CHECK_THAT(input_error_of(pack("none.ssd")), Contains("none.ssd"));
 }

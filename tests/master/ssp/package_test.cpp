@@ -100,3 +100,29 @@ TEST_CASE("a file that is not there cannot be packed") {
   CHECK_THROWS_WITH(pack(folder.write("x.ssd", ssd_with(component("a", "none.fmu")))),
                     Contains("x.ssd:5: the file '") && Contains("none.fmu' does not exist"));
 }
+
+TEST_CASE("further systems are packed under their own names, with their resources once") {
+  const TemporaryFolder folder;
+  folder.write("a.fmu", "one");
+  folder.write("b.fmu", "two");
+  const auto main =
+      folder.write("main.ssd", ssd_with(component("a", "a.fmu") + component("part", "part.ssd")));
+  folder.write("part.ssd", ssd_with(component("x", "b.fmu") + component("m", "small.ssd")));
+  const std::vector<std::filesystem::path> variants{
+      folder.write("small.ssd", ssd_with(component("a", "a.fmu") + component("b", "b.fmu")))};
+  Files files;
+  const archive::Contents contents = package_contents(main, files, as_it_is, variants);
+
+  std::vector<std::string> names;
+  for (const auto& [name, content] : contents) names.push_back(name);
+  CHECK(names == std::vector<std::string>{"SystemStructure.ssd", "resources/a.fmu",
+                                          "resources/b.fmu", "resources/part.ssd", "small.ssd"});
+  CHECK_THAT(contents.at("resources/part.ssd").text, Contains("source=\"../small.ssd\""));
+  archive::write_zip(folder / "x.ssp", contents);
+  const Scenario whole = read_scenario(folder / "x.ssp");
+  CHECK(whole.system.components.size() == 4);
+  CHECK(whole.warnings.empty());
+  const Scenario small = read_scenario(folder / "x.ssp/small.ssd");
+  REQUIRE(small.sources.size() == 2);
+  CHECK(content(small.sources[1]) == "two");
+}
