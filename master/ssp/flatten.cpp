@@ -28,7 +28,8 @@ class Flattener {
         connections_(graph_.connections()),
         warnings_(warnings),
         unmatched_(warnings, "parameters that belong to no component, and are ignored, too"),
-        open_(warnings, "parameters for connectors that lead to no component") {
+        open_(warnings, "parameters for connectors that lead to no component"),
+        unrecorded_(warnings, "outputs of the system that are not recorded") {
     warnings.insert(warnings.end(), graph_.warnings().begin(), graph_.warnings().end());
   }
 
@@ -48,6 +49,7 @@ class Flattener {
     open_.finish();
     add_start_values();
     add_outputs();
+    unrecorded_.finish();
     add_inputs();
     return std::move(flat_);
   }
@@ -138,7 +140,7 @@ class Flattener {
     std::vector<std::size_t> ports{origin};
     for (const std::size_t connection : way) ports.push_back(connections_[connection].to);
     const auto first = deciding(ports);
-    if (first == ports.end()) return;
+    if (first == ports.end()) return note_unrecorded(origin, way, output);
     const ParameterValue& value = *given_.at(*first);
     output.value = value.value;
     output.unit = value.unit;
@@ -147,6 +149,22 @@ class Flattener {
       output.via.push_back(typed(via(way[i]), ports_[ports[i + 1]]));
     }
     flat_.declaration.outputs.push_back(std::move(output));
+  }
+
+  /// Outputs of the root system are recorded unless something else is chosen; those inside are on
+  /// demand.
+  void note_unrecorded(std::size_t origin, const PortGraph::Way& way,
+                       const core::OutputDeclaration& output) {
+    if (output.is_inner || !unrecorded_.count()) return;
+    const std::string& name = ports_[way.empty() ? origin : connections_[way.back()].to].path;
+    unrecorded_.add(
+        core::to_text({.where = output.where}) +
+        (way.empty()
+             ? fmt::format("nothing is connected to the output '{}', so it is not recorded", name)
+             : fmt::format("the output '{}' is not recorded, since the input '{}' that it "
+                           "is connected to has no value\n  hint: give it one, by --set "
+                           "{}=VALUE or a parameter of the system",
+                           name, ports_[origin].path, ports_[origin].path)));
   }
 
   /// The first of the ports, one behind the other, that has a value, by the command line or else by
@@ -395,7 +413,7 @@ class Flattener {
   const std::vector<Port>& ports_;
   const std::vector<PortConnection>& connections_;
   std::vector<std::string>& warnings_;
-  core::LimitedWarnings unmatched_, open_;
+  core::LimitedWarnings unmatched_, open_, unrecorded_;
   FlatSystem flat_;
   std::vector<Start> starts_;
   std::map<std::size_t, const ParameterValue*> given_;  ///< by port, the last one
