@@ -81,6 +81,7 @@ class Completion {
     const xml::Element system = *root_.child({kSsd, "System"});
     collect_uses(system, system.index(), "");
     complete_elements(system, system.index(), "");
+    define_named_units(root_);
     add_connections(system, connections);
     add_list("Enumerations", new_enumerations_);
     add_list("Units", new_units_);
@@ -153,8 +154,12 @@ class Completion {
     const auto connectors = component.child({kSsd, "Connectors"});
     std::set<std::string> declared;
     if (connectors) {
-      for (const xml::Element& child : connectors->children())
+      for (const xml::Element& child : connectors->children()) {
         declared.insert(child.required("name"));
+        for (const xml::Element& type : child.children()) {
+          declared_unit(description, type.attribute_or("unit"));
+        }
+      }
     }
     std::vector<std::string> added;
     for (const core::Variable& variable : description.variables) {
@@ -247,13 +252,35 @@ class Completion {
     return fmt::format("<{}Enumeration name=\"{}\"/>", ssc(), xml_escaped(enumeration_name));
   }
 
+  /// Those that the types of connectors and of signals in the file name already. Parameter sets
+  /// have definitions of their own.
+  void define_named_units(const xml::Element& element) {
+    if (element.name().name_space == kSsc && !element.is(kSsc, "Unit")) {
+      const std::string unit = element.attribute_or("unit");
+      const auto meaning = unit.empty() ? std::nullopt : find_unit_of_measure(unit);
+      if (meaning) define_unit(unit, *meaning);
+    }
+    for (const xml::Element& child : element.children()) define_named_units(child);
+  }
+
+  /// Adds its definition where the file has none. Returns whether it means this in the file.
+  bool define_unit(const std::string& unit, const core::BaseUnitOfMeasure& meaning) {
+    const auto [known, is_new] = units_.emplace(unit, meaning);
+    if (is_new) new_units_.push_back(unit_definition(unit, meaning));
+    return core::is_same(known->second, meaning);
+  }
+
   /// The unit's name if the file can define it; otherwise nothing, and the FMU's own unit holds.
+  /// What the FMU does not define is what the file or the table of known symbols says.
   std::string declared_unit(const core::UnitDescription& description, const std::string& unit) {
-    const auto meaning = description.units_of_measure.find(unit);
-    if (meaning == description.units_of_measure.end()) return "";
-    const auto [known, is_new] = units_.emplace(unit, meaning->second);
-    if (is_new) new_units_.push_back(unit_definition(unit, meaning->second));
-    return core::is_same(known->second, meaning->second) ? unit : "";
+    if (unit.empty()) return "";
+    const auto own = description.units_of_measure.find(unit);
+    if (own != description.units_of_measure.end()) {
+      return define_unit(unit, own->second) ? unit : "";
+    }
+    if (units_.contains(unit)) return unit;
+    const auto known = find_unit_of_measure(unit);
+    return known && define_unit(unit, *known) ? unit : "";
   }
 
   std::string unit_definition(const std::string& unit, const core::BaseUnitOfMeasure& base) {

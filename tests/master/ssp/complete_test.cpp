@@ -227,3 +227,30 @@ TEST_CASE("a system that is used more than once is completed, without the sizes 
                           Contains("<ssd:Connector name=\"z\" kind=\"output\"><ssc:Float64/>"
                                    "<ssc:Dimension size=\"3\"/></ssd:Connector>"));
 }
+
+TEST_CASE("each unit of measure that a connector names is defined, where it is known") {
+  auto description = std::make_shared<core::UnitDescription>(*sample_description());
+  description->units_of_measure.clear();
+  description->units_of_measure["furlong"] = {{0, 1, 0, 0, 0, 0, 0, 0}, 201.168L, 0};
+  description->variables[1].unit = "km/h";
+  description->variables[4].unit = "sack";
+  const TemporaryFolder folder;
+  const std::string connector =
+      "<ssd:Connectors><ssd:Connector name='led' kind='output'><ssc:Boolean/></ssd:Connector>"
+      "<ssd:Connector name='way' kind='output'><ssc:Float64 unit='furlong'/></ssd:Connector>"
+      "</ssd:Connectors>";
+  const std::string text =
+      ssd("<ssd:System name='root'><ssd:Connectors><ssd:Connector name='out' kind='output'>"
+          "<ssc:Float64 unit='rpm'/></ssd:Connector></ssd:Connectors><ssd:Elements>"
+          "<ssd:Component name='a' source='a.fmu'>" +
+          connector + "</ssd:Component></ssd:Elements></ssd:System>");
+  const std::string once = complete(folder.write("x.ssd", text), {{"a", description}});
+  CHECK_THAT(once, Contains("<ssc:Float64 unit=\"km/h\"/>") &&
+                       Contains("<ssc:Unit name=\"km/h\"><ssc:BaseUnit m=\"1\" s=\"-1\" "
+                                "factor=\"0.2777777777777778\"/>") &&
+                       Contains("<ssc:Unit name=\"furlong\"><ssc:BaseUnit m=\"1\" "
+                                "factor=\"201.168\"/>") &&
+                       Contains("<ssc:Unit name=\"rpm\">") &&
+                       Contains("<ssc:Unit name=\"degC\">") && !Contains("sack"));
+  CHECK(complete(folder.write("x.ssd", once), {{"a", description}}) == once);
+}
