@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -53,6 +54,15 @@ System::System(const SystemDeclaration& declaration) : name_(declaration.name) {
   add_outputs(declaration, diagnostics);
   diagnostics.raise();
   note_same_names(declaration);
+}
+
+System System::with_stepping(std::span<const ComponentDeclaration> components) && {
+  for (std::size_t i = 0; i < components.size(); ++i) {
+    components_[i].early_return_allowed = components[i].early_return_allowed;
+    components_[i].has_snapshots = components[i].has_snapshots;
+    components_[i].own_step = components[i].own_step;
+  }
+  return std::move(*this);
 }
 
 std::string System::prefix(VariableId id) const {

@@ -84,6 +84,10 @@ class System {
   /// name is unknown; several mistakes are one Error, with a line for each.
   explicit System(const SystemDeclaration& declaration);
 
+  /// The same system with the steps, snapshots and early returns of these components, which are
+  /// those of its declaration. Nothing else depends on them, so nothing is checked again.
+  System with_stepping(std::span<const ComponentDeclaration> components) &&;
+
   /// The descriptions of the components, with the sizes that structural parameters give. Throws
   /// Error as the constructor does, for these parameters.
   static std::vector<std::shared_ptr<const UnitDescription>> sized_descriptions(

@@ -43,6 +43,8 @@ struct ComponentDeclaration {
   /// For names that the description does not define; may be null.
   std::shared_ptr<const UnitsOfMeasure> units_of_measure{};
   std::optional<Interval> own_step{};
+
+  bool may_return_early() const { return early_return_allowed && description->may_return_early; }
 };
 /// A connector of an enclosing or nested system on a connection, and the conversion before it.
 struct ViaDeclaration {

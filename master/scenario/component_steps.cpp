@@ -6,10 +6,6 @@
 namespace stride::scenario {
 namespace {
 
-bool may_return_early(const core::ComponentDeclaration& component) {
-  return component.early_return_allowed && component.description->may_return_early;
-}
-
 /// Whether all components make the same steps, as they do without any of their own.
 bool make_same_steps(std::span<const core::ComponentDeclaration> components,
                      const ComponentSteps& steps, const core::RunOptions& options) {
@@ -47,7 +43,7 @@ ComponentSteps choose_component_steps(std::span<const core::ComponentDeclaration
       steps, [&](const auto& step) { return step.value_or(size).is_multiple_of(size); });
   for (std::size_t i = 0; i < steps.size(); ++i) {
     const bool is_of_run = options.step.policy->has_grid && !are_multiples;
-    if (is_of_run && !steps[i] && !may_return_early(components[i])) steps[i] = size;
+    if (is_of_run && !steps[i] && !components[i].may_return_early()) steps[i] = size;
   }
   return steps;
 }

@@ -218,8 +218,7 @@ std::vector<std::size_t> missing_snapshots(std::span<const ComponentDeclaration>
   std::vector<std::size_t> lacking;
   for (std::size_t i = 0; i < components.size(); ++i) {
     const UnitDescription& unit = *components[i].description;
-    const bool may_return = components[i].early_return_allowed && unit.may_return_early;
-    if (!all_go_back && !may_return) continue;
+    if (!all_go_back && !components[i].may_return_early()) continue;
     if (!unit.can_save_state && !components[i].has_snapshots) lacking.push_back(i);
   }
   if (!all_go_back && !lacking.empty()) {
