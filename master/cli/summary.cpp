@@ -5,12 +5,14 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <type_traits>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "master/cli/table.h"
 #include "master/recorders/message_summary.h"
+#include "master/util/counted.h"
 #include "master/util/error.h"
 #include "master/util/time_text.h"
 
@@ -34,14 +36,38 @@ std::string wall_text(std::chrono::nanoseconds time, std::chrono::nanoseconds un
   return error == core::wall_seconds({}) ? text : text + " ± " + error;
 }
 
+bool is_text(core::ValueType type) {
+  return type == core::ValueType::String || type == core::ValueType::Binary;
+}
+
+/// Numbers beyond 2^53 are rounded.
+template <class T>
+double number_at(const void* value) {
+  return static_cast<double>(*static_cast<const T*>(value));
+}
+
+Summary::Value reader_of(const core::Signal& signal) {
+  return core::visit(*signal.block, [&](auto elements) -> Summary::Value {
+    using T = typename decltype(elements)::value_type;
+    if constexpr (std::is_arithmetic_v<T>) return {&elements[signal.first], &number_at<T>};
+    return {};
+  });
+}
+
+std::string value_text(core::ValueType type, double value) {
+  if (type == core::ValueType::Boolean) return value != 0 ? "true" : "false";
+  return core::is_real(type) ? fmt::format("{:.5g}", value) : fmt::format("{:.0f}", value);
+}
+
 }  // namespace
 
 Summary::Summary(const core::System& system, std::span<const core::VariableId> recorded)
     : system_(system) {
   for (const core::VariableId id : recorded) {
     const core::Variable& variable = system_.variable(id);
-    if (variable.type != core::ValueType::Float64 || variable.size != 1) continue;
-    if (signals_.size() < kMostSignals) {
+    if (variable.size != 1 || is_text(variable.type)) {
+      ++arrays_and_texts_;
+    } else if (signals_.size() < kMostSignals) {
       signals_.push_back(id);
     } else {
       ++other_signals_;
@@ -52,8 +78,7 @@ Summary::Summary(const core::System& system, std::span<const core::VariableId> r
 void Summary::on_start(std::span<const core::Signal> signals) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   for (const core::Signal& signal : signals) {
-    ranges_.push_back(
-        {signal.id, &signal.block->numbers<double>()[signal.first], kInfinity, -kInfinity});
+    ranges_.push_back({signal.id, reader_of(signal), kInfinity, -kInfinity});
   }
 }
 
@@ -84,8 +109,9 @@ void Summary::note_receiver(core::VariableId receiver) {
 
 void Summary::on_communication_point(Time) {
   for (Range& range : ranges_) {
-    range.least = std::min(range.least, *range.value);
-    range.most = std::max(range.most, *range.value);
+    const double value = range.value.read();
+    range.least = std::min(range.least, value);
+    range.most = std::max(range.most, value);
   }
 }
 
@@ -137,12 +163,12 @@ std::string Summary::text(const core::RunStatistics& statistics) const {
   const double simulated = to_seconds(statistics.reached - statistics.start);
   const double wall = std::chrono::duration<double>(statistics.wall_time).count();
   std::string text = fmt::format(
-      "{}: {:.6g} s simulated in {:.3g} s ({:.3g} times real time), {} communication steps{}\n",
-      system_.name(), simulated, wall, wall > 0 ? simulated / wall : 0.0,
-      statistics.communication_steps, end_text(statistics));
+      "{}: {:.6g} s simulated in {:.3g} s ({:.3g} times real time), {}{}\n", system_.name(),
+      simulated, wall, wall > 0 ? simulated / wall : 0.0,
+      core::counted(statistics.communication_steps, "communication step"), end_text(statistics));
   text += idle_line(statistics) + host_line(statistics);
   if (!messages_.empty()) text += "\nMessages\n" + message_table();
-  if (!ranges_.empty()) text += "\nSignals\n" + signal_table();
+  if (!ranges_.empty() || arrays_and_texts_ > 0) text += "\nSignals\n" + signal_table();
   text += "\nUnits\n" + unit_table(statistics);
   return text;
 }
@@ -176,15 +202,20 @@ std::string Summary::signal_table() const {
   bool are_whole = true;
   for (const Range& range : ranges_) {
     const bool is_known = range.least <= range.most;  // a point at least
+    const core::Variable& variable = system_.variable(range.id);
+    const auto text = [&](double value) { return value_text(variable.type, value); };
     table.add({system_.full_name(range.id) + (range.is_whole ? "" : " *"),
-               is_known ? fmt::format("{:.5g}", range.least) : "",
-               is_known ? fmt::format("{:.5g}", range.most) : "",
-               fmt::format("{:.5g}", *range.value), system_.variable(range.id).unit});
+               is_known ? text(range.least) : "", is_known ? text(range.most) : "",
+               text(range.value.read()), variable.unit});
     are_whole = are_whole && range.is_whole;
   }
-  std::string text = table.text();
+  std::string text = ranges_.empty() ? "" : table.text();
   if (!are_whole) text += fmt::format("  * least and most since {} s\n", core::to_text(since_));
   if (other_signals_ > 0) text += fmt::format("  … and {} more\n", other_signals_);
+  if (arrays_and_texts_ > 0) {
+    text += fmt::format("  {} recorded, not shown here\n",
+                        core::counted(arrays_and_texts_, "array or text", "arrays and texts"));
+  }
   return text;
 }
 
@@ -215,12 +246,13 @@ std::string Summary::host_line(const core::RunStatistics& statistics) const {
     if (!host) continue;
     std::string& text = hosted.emplace_back(system_.components()[i].name);
     if (host->link) {
-      text += fmt::format(" (on {}: {} round trips, {:.3g} s lost to the network)",
-                          host->link->machine, host->link->round_trips,
+      text += fmt::format(" (on {}: {}, {:.3g} s lost to the network)", host->link->machine,
+                          core::counted(host->link->round_trips, "round trip"),
                           std::chrono::duration<double>(host->link->lost).count());
     }
     if (host->snapshots == 0) continue;
-    text += fmt::format(" ({} snapshots, {} restored)", host->snapshots, host->restores);
+    text += fmt::format(" ({}, {} restored)", core::counted(host->snapshots, "snapshot"),
+                        host->restores);
   }
   if (hosted.empty()) return "";
   std::string text = "Processes of their own: ";

@@ -12,13 +12,20 @@
 
 namespace stride::cli {
 
-/// The summary of a run: its messages in order, the ranges of the first recorded numbers, and the
+/// The summary of a run: its messages in order, the ranges of the first recorded scalars, and the
 /// activity and cost of each unit.
 class Summary : public core::Observer {
  public:
+  /// A number, or a Boolean as 0 or 1, where the run keeps it.
+  struct Value {
+    const void* place = nullptr;
+    double (*of)(const void*) = nullptr;
+    double read() const { return of(place); }
+  };
+
   Summary(const core::System& system, std::span<const core::VariableId> recorded);
 
-  /// The numbers, to be requested of the simulation.
+  /// The scalars, to be requested of the simulation.
   const std::vector<core::VariableId>& signals() const { return signals_; }
 
   void on_start(std::span<const core::Signal> signals) override;
@@ -35,7 +42,7 @@ class Summary : public core::Observer {
  private:
   struct Range {
     core::VariableId id;
-    const double* value;
+    Value value;
     double least, most;
     bool is_whole = true;  ///< else since `since_`
   };
@@ -56,7 +63,8 @@ class Summary : public core::Observer {
 
   const core::System& system_;
   std::vector<core::VariableId> signals_;
-  std::size_t other_signals_ = 0;  ///< recorded numbers without a range
+  std::size_t other_signals_ = 0;     ///< recorded numbers without a range
+  std::size_t arrays_and_texts_ = 0;  ///< recorded, likewise
   std::vector<Range> ranges_;
   Time since_{};
   std::vector<Sent> messages_;

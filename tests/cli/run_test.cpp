@@ -1,6 +1,8 @@
 // Good runs: what they print, what they write, and what the numbers in it are.
 #include <cmath>
+#include <iterator>
 #include <memory>
+#include <sstream>
 
 #include <nlohmann/json.hpp>
 
@@ -60,6 +62,30 @@ TEST_CASE("a run writes its results, prints a summary, and leaves nothing else")
                                                                 "signals.csv", "signals.vcd"});
   CHECK(files_in(workspace.scratch().path()) == std::vector<std::string>{"out", "test.ssd", "tmp"});
   CHECK(workspace.left_behind().empty());
+}
+
+TEST_CASE("the summary has the range of each recorded number and Boolean, and counts the others") {
+  const Workspace workspace(Parts{component("t", "types.fmu")});
+  const Outcome outcome = workspace.run({"--stop", "0.01", "--set", "t.int32=-123456", "--set",
+                                         "t.boolean=true", "--set", "t.float32=0.25", "--set",
+                                         "t.colour=blue", "--set", "t.float64=1.5"});
+  INFO(outcome.err);
+  REQUIRE(outcome.exit_code == 0);
+  const auto row = [&](const std::string& name) {
+    const std::size_t begin = outcome.out.find("  " + name + " ");
+    REQUIRE(begin != std::string::npos);
+    std::istringstream words(outcome.out.substr(begin, outcome.out.find('\n', begin) - begin));
+    return std::vector<std::string>(std::istream_iterator<std::string>(words), {});
+  };
+  const auto range = [](const std::string& name, const std::string& value) {
+    return std::vector<std::string>{name, value, value, value};
+  };
+  CHECK(row("t.int32.echo") == range("t.int32.echo", "-123456"));
+  CHECK(row("t.boolean.echo") == range("t.boolean.echo", "true"));
+  CHECK(row("t.float32.echo") == range("t.float32.echo", "0.25"));
+  CHECK(row("t.colour.echo") == range("t.colour.echo", "4"));
+  CHECK(row("t.float64.echo").back() == "m");
+  CHECK_THAT(outcome.out, Contains("  6 arrays and texts recorded, not shown here\n"));
 }
 
 TEST_CASE("without --out, the results lie in results/ under the scenario's name") {
