@@ -110,7 +110,7 @@ void add_times(CheckpointTimes& to, const CheckpointTimes& from) {
 /// What the run writes outside of its folder goes on in a copy there.
 void go_elsewhere(RunArguments& arguments, Resumption& resumption, const fs::path& folder) {
   for (std::string& text : arguments.captures) {
-    const auto parts = scenario::split_existing_file(text);
+    const auto parts = scenario::split_existing_file("--capture", text);
     if (!parts) continue;
     const fs::path copy =
         capture::copied_stimuli(folder) / capture::stimuli_file_name(parts->component);

@@ -35,6 +35,7 @@
 #include "master/results/output_paths.h"
 #include "master/results/provenance.h"
 #include "master/results/report_page.h"
+#include "master/scenario/unit_path.h"
 #include "master/util/input_file.h"
 #include "master/util/output_file.h"
 #include "master/util/process/process_state.h"
@@ -45,11 +46,31 @@
 namespace stride::cli {
 namespace {
 
+/// The components of a scenario that can be read twice; none where it cannot be read, which is
+/// reported later.
+core::KnownNames component_names(const std::filesystem::path& scenario) {
+  const bool is_pipe =
+      core::path_exists(scenario) && !core::is_file(scenario) && !core::is_folder(scenario);
+  core::KnownNames names;
+  if (is_pipe) return names;
+  try {
+    const auto system = scenario::read_scenario(scenario, {scenario::find_unit}).system;
+    for (const auto& component : system.components) names.add(component.name, true);
+  } catch (const core::Error&) {
+  }
+  return names;
+}
+
 /// The files that the command line names, without what is no name: that is reported later.
 std::vector<results::OutputPath> output_paths(const RunArguments& arguments) {
   std::vector<results::OutputPath> outputs;
+  const bool is_unclear = std::ranges::any_of(arguments.captures, [](const std::string& text) {
+    return std::ranges::count(text, '=') > 1;
+  });
+  core::KnownNames components;
+  if (is_unclear) components = component_names(arguments.scenario.scenario);
   for (const std::string& text : arguments.captures) {
-    const auto parts = scenario::split_component_file(text);
+    const auto parts = scenario::split_component_file("--capture", text, components);
     if (parts) outputs.push_back({"--capture " + text, parts->file});
   }
   if (!arguments.junit.empty()) {

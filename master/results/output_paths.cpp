@@ -104,7 +104,8 @@ ScenarioFiles files_of_scenario(const fs::path& scenario, std::span<const std::s
   SourceReader reader;
   reader.add_scenario(scenario);
   for (const std::string& swap : swaps) {
-    if (const auto parts = scenario::split_existing_file(swap)) reader.add_unit(parts->file);
+    if (const auto parts = scenario::split_existing_file("--swap", swap))
+      reader.add_unit(parts->file);
   }
   return std::move(reader).found();
 }

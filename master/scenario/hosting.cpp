@@ -8,31 +8,44 @@
 #include <spdlog/spdlog.h>
 
 #include "master/algorithm/stepping/step_order.h"
+#include "master/model/known_names.h"
 #include "master/util/error.h"
+#include "master/util/glob.h"
 
 namespace stride::scenario {
 namespace {
 
-/// "COMPONENT=PLACE"
-HostRule place_rule(const std::string& text) {
-  const std::size_t sign = text.find('=');
-  if (sign == 0 || sign == std::string::npos) {
+/// "COMPONENT=PLACE": a pattern may hold a '=', as the names of components and a place may.
+core::Assignment split_place(const std::string& text, std::span<const std::string> components) {
+  core::KnownNames patterns;
+  for (std::size_t end = text.find('='); end != text.npos; end = text.find('=', end + 1)) {
+    const std::string pattern = text.substr(0, end);
+    const auto is_meant = [&](const std::string& name) { return core::means(pattern, name); };
+    if (std::ranges::any_of(components, is_meant)) patterns.add(pattern, true);
+  }
+  return patterns.split("--at", text, false);
+}
+
+HostRule place_rule(const std::string& text, std::span<const std::string> components) {
+  const auto [pattern, place] = split_place(text, components);
+  if (pattern.empty() || !place) {
     core::fail_input({}, fmt::format("--at {}: expected COMPONENT=PLACE", text));
   }
   // errors name the machine, whose command can be long
-  const core::Location where{"--at " + text.substr(0, sign), 0};
+  const core::Location where{"--at " + pattern, 0};
   try {
-    RemoteSettings remote{.place = remote::parse_place(text.substr(sign + 1)), .where = where};
+    RemoteSettings remote{.place = remote::parse_place(*place), .where = where};
     HostSettings settings{.process = true, .where = where};
     settings.remote = std::move(remote);
-    return {{text.substr(0, sign), where}, settings};
+    return {{pattern, where}, settings};
   } catch (const std::invalid_argument& mistake) {
     core::fail_input({.where = where}, mistake.what());
   }
 }
 
 /// Rules behind those of the scenario.
-void add_rules(const HostRequest& request, std::vector<HostRule>& rules) {
+void add_rules(const HostRequest& request, std::span<const std::string> components,
+               std::vector<HostRule>& rules) {
   for (const std::string& glob : request.hosted) {
     const core::Location where{glob == "*" ? "--isolate" : "--isolate=" + glob, 0};
     rules.push_back({{glob, where}, {.process = true, .where = where}});
@@ -46,7 +59,7 @@ void add_rules(const HostRequest& request, std::vector<HostRule>& rules) {
       core::fail_input({}, fmt::format("{}: {}", option, mistake.what()));
     }
   }
-  for (const std::string& text : request.places) rules.push_back(place_rule(text));
+  for (const std::string& text : request.places) rules.push_back(place_rule(text, components));
   if (request.no_sandbox) rules.push_back({{"*", {"--no-sandbox", 0}}, {.sandbox = false}});
 }
 
@@ -82,7 +95,7 @@ Hosting make_hosting(std::string reason, const core::UnitDescription& unit,
 
 std::vector<HostSettings> host_settings(std::span<const std::string> components, HostRules rules,
                                         const HostRequest& request) {
-  add_rules(request, rules.rules);
+  add_rules(request, components, rules.rules);
   std::vector<HostSettings> settings = rules.settings(components);
   for (HostSettings& of_component : settings) {
     if (of_component.remote) of_component.remote->interrupted = request.interrupted;

@@ -572,3 +572,18 @@ TEST_CASE("a full disk ends a campaign, and is the end of no case") {
   CHECK(fs::exists(space / "out/cases/000/000002/report.html"));
   ::umount2((space / "out").c_str(), MNT_DETACH);
 }
+
+TEST_CASE("what a campaign varies may hold a '=' in its name") {
+  const Workspace workspace(Parts{component("a=b", "gain.fmu")});
+  workspace.scratch().write(
+      "c.xosc", campaign_text(deterministic(value_set("a=b.k=1", {"2", "3"})), "", "test.ssd"));
+  REQUIRE(workspace.stride({"campaign", "run", "c.xosc", "--quiet"}).exit_code == 0);
+  const std::string table = read(workspace / "campaigns/c/cases.csv");
+  CHECK_THAT(table, Contains("a=b.k=1"));
+  const Outcome planned = workspace.stride({"campaign", "plan", "c.xosc", "--case", "1"});
+  CHECK_THAT(planned.out, Contains("a=b.k=1=3"));
+  const Outcome swapped =
+      workspace.stride({"run", "test.ssd", "--set", "a=b.k=1=3", "--quiet", "--out", "out"});
+  CHECK(swapped.exit_code == 0);
+  CHECK(workspace.signals().numbers("a=b.c=d").back() == 3);
+}

@@ -75,6 +75,12 @@ TEST_CASE("a run writes no capture and no test report over what it reads") {
   }
 }
 
+TEST_CASE("nor where the name of the component holds a '='") {
+  const Workspace workspace(Parts{component("a=b", "minimal.fmu")});
+  CHECK_THAT(refusal_of(workspace, Workspace::run_arguments({"--capture", "a=b=test.ssd"})),
+             Contains("--capture a=b=test.ssd: this is the scenario"));
+}
+
 TEST_CASE("nor over the unit that replaces one of the scenario's") {
   const FilesWorkspace workspace;
   fs::copy_file(workspace / "mine.fmu", workspace / "other.fmu");

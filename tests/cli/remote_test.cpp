@@ -407,3 +407,19 @@ TEST_CASE("stride serve is not for terminals and not for other peers") {
   CHECK(outcome.exit_code == 2);
   CHECK_THAT(outcome.err, Contains("there is no unit 'no_such.fmu'"));
 }
+
+TEST_CASE("--at and --capture take the names of components that hold a '='") {
+  Parts parts = two_filters();
+  parts.components = component("a=b", "minimal.fmu") + component("a=c", "minimal.fmu");
+  parts.connections = connection("a=b.y", "a=c.u");
+  const Workspace workspace(parts);
+  Arguments options{"--stop", "0.5", "--quiet", "--capture", "a=c=seen.csv"};
+  options.insert(options.end(), {"--at", "a=c=" + serve_command()});
+  CHECK(workspace.run(options).exit_code == 0);
+  CHECK(host_entry(workspace, 0).is_null());
+  CHECK(host_entry(workspace, 1).contains("machine"));
+  CHECK(fs::exists(workspace / "seen.csv"));
+  CHECK(workspace.run({"--stop", "0.5", "--quiet", "--at", "a=*=" + serve_command()}).exit_code ==
+        0);
+  CHECK(host_entry(workspace, 0).contains("machine"));
+}
