@@ -20,6 +20,7 @@
 #include "master/model/array_element.h"
 #include "master/scenario/loaded_scenario.h"
 #include "master/settings/scenario_options.h"
+#include "master/util/counted.h"
 #include "master/util/time_text.h"
 
 namespace stride::cli {
@@ -248,10 +249,13 @@ void check(const scenario::ScenarioRequest& request) {
   const scenario::LoadedScenario loaded(request);
   const LimitedEnd end;
   const auto units = loaded.instantiate();
+  loaded.warn_of_other_steps();
   const core::System& system = loaded.system();
   const core::RunOptions& options = loaded.options();
-  print_text("{}: {} components, {} connections, {} recorded signals\n", system.name(),
-             system.components().size(), system.connections().size(), options.recorded.size());
+  print_text("{}: {}, {}, {}\n", system.name(),
+             core::counted(system.components().size(), "component"),
+             core::counted(system.connections().size(), "connection"),
+             core::counted(options.recorded.size(), "recorded signal"));
   print_text("from {} s {}, {}\n", core::to_text(options.start), stop_text(loaded),
              steps(system, options));
   print_text("{}", variant_table(*loaded.scenario().files, loaded.scenario().path));

@@ -11,7 +11,8 @@ namespace stride::core {
 
 /// What to do where the unit of a component does not accept a step of this size: the size that it
 /// was made for, which is that of its DefaultExperiment, or else its internal one, and how it is
-/// set. Empty if the unit names none, or this one.
+/// set for this component, whatever the steps of the others are. Empty if the unit names none, or
+/// this one.
 std::string own_step_hint(const std::string& component, const UnitDescription& unit,
                           const Interval& size);
 

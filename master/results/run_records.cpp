@@ -13,6 +13,7 @@
 #include "master/recorders/run_json.h"
 #include "master/results/checkpoint_states.h"
 #include "master/results/report_page.h"
+#include "master/util/counted.h"
 #include "master/util/error.h"
 #include "master/util/replacement.h"
 #include "master/util/time_text.h"
@@ -149,6 +150,7 @@ std::filesystem::path RunRecords::write_page() const {
 }
 
 void RunRecords::warn_of_units() const {
+  subject_.loaded.warn_of_other_steps();
   warn_of_late_events();
   warn_of_inexact_repetitions();
 }
@@ -161,10 +163,10 @@ void RunRecords::warn_of_late_events() const {
   for (std::size_t i = 0; i < units.size(); ++i) {
     if (units[i].unannounced_events == 0) continue;
     spdlog::warn(
-        "unit '{}' had events at the ends of its steps which it had not announced ({} times), and "
+        "unit '{}' had events at the ends of its steps which it had not announced ({}), and "
         "nothing but events ends a step here, so they may be late; <stride:Step maximum=\"…\"/> "
         "(--max-step) ends steps, or says with a long one that this is meant",
-        system.components()[i].name, units[i].unannounced_events);
+        system.components()[i].name, core::counted(units[i].unannounced_events, "time"));
   }
 }
 

@@ -180,17 +180,19 @@ std::pair<std::string, std::string> split_option(const std::string& option, cons
                    assignment_hint(option, text));
 }
 
-std::optional<ComponentFile> split_existing_file(const std::string& text) {
+std::optional<ComponentFile> split_existing_file(const std::string& option,
+                                                 const std::string& text) {
   core::KnownNames names;
   for (std::size_t end = text.find('='); end != text.npos; end = text.find('=', end + 1)) {
     if (core::path_exists(text.substr(end + 1))) names.add(text.substr(0, end), true);
   }
-  return split_component_file(text, names);
+  return split_component_file(option, text, names);
 }
 
-std::optional<ComponentFile> split_component_file(const std::string& text,
+std::optional<ComponentFile> split_component_file(const std::string& option,
+                                                  const std::string& text,
                                                   const core::KnownNames& names) {
-  const auto [name, file] = names.split("", text, false);
+  const auto [name, file] = names.split(option, text, false);
   if (name.empty() || !file || file->empty()) return std::nullopt;
   return ComponentFile{name, *file};
 }
@@ -255,6 +257,7 @@ LoadedScenario::LoadedScenario(const ScenarioRequest& request)
   choose_times(request);
   choose_steps(request.step);
   choose_hosts(request.hosts);
+  system_ = std::move(*system_).with_stepping(scenario_.system.components);
   check_steps();
   choose_idle_skips(request);
   choose_interventions(request);
@@ -488,15 +491,12 @@ ComponentSteps LoadedScenario::set_component_steps(const StepSettings& request) 
 void LoadedScenario::choose_component_steps(const ComponentSteps& set, bool is_size_set) {
   auto& components = scenario_.system.components;
   const auto steps = scenario::choose_component_steps(components, set, options_, is_size_set);
-  bool is_changed = false;
   for (std::size_t i = 0; i < components.size(); ++i) {
     if (!steps[i]) continue;
     components[i].own_step = steps[i];
-    is_changed = true;
     check_internal_step(components[i]);
     if (set[i]) warn_of_early_returns(components[i]);
   }
-  if (is_changed) system_.emplace(scenario_.system);
 }
 
 /// A unit that takes steps of its internal size only cannot have others.
@@ -514,8 +514,7 @@ void LoadedScenario::check_internal_step(const core::ComponentDeclaration& compo
 }
 
 void LoadedScenario::warn_of_early_returns(const core::ComponentDeclaration& component) const {
-  const bool may = component.early_return_allowed && component.description->may_return_early;
-  if (!may) return;
+  if (!component.may_return_early()) return;
   spdlog::warn(
       "{}its unit may return early, so it is called at the points of the others, too, and its own "
       "step of {} s is its longest one; <stride:EarlyReturn components=\"{}\" "
@@ -568,7 +567,6 @@ void LoadedScenario::check_demand_names() const {
   }
 }
 
-/// Snapshots add a capability to a component, so the system is built again.
 void LoadedScenario::choose_hosts(const HostRequest& request) {
   auto& components = scenario_.system.components;
   auto settings = host_settings(selection_names(), scenario_.annotation.hosts, request);
@@ -581,12 +579,9 @@ void LoadedScenario::choose_hosts(const HostRequest& request) {
     if (!settings[i].remote) continue;
     hostings_[i]->remote = remote_spec(*settings[i].remote, scenario_.sources[i]);
   }
-  bool is_changed = false;
   for (std::size_t i = 0; i < components.size(); ++i) {
     components[i].has_snapshots = hostings_[i] && hostings_[i]->options.takes_snapshots;
-    is_changed |= components[i].has_snapshots;
   }
-  if (is_changed) system_.emplace(scenario_.system);
 }
 
 void LoadedScenario::check_steps() {
@@ -595,7 +590,6 @@ void LoadedScenario::check_steps() {
   if (options_.step.policy->has_grid) {
     warn_of_many_steps();
     end_with_whole_steps();
-    warn_of_other_steps();
     warn_of_internal_steps();
   }
   warn_of_last_own_steps();
@@ -782,6 +776,7 @@ void LoadedScenario::warn_of_last_own_steps() const {
 
 /// Some units count their steps, and not the time.
 void LoadedScenario::warn_of_other_steps() const {
+  if (!options_.step.policy->has_grid) return;
   for (std::size_t i = 0; i < fmus_.size(); ++i) {
     const core::UnitDescription& unit = *fmus_[i]->description();
     if (unit.can_vary_step || !unit.default_step || *unit.default_step == step_of(i)) {

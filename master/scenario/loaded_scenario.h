@@ -115,6 +115,10 @@ class LoadedScenario {
   std::vector<core::Intervention> interventions_of_branch(
       std::span<const InterventionDeclaration> declarations, Time begin) const;
 
+  /// Warns of units that take steps of one size only and whose step is another one than they
+  /// declare. Behind a run: one that fails for that reason says so in its error.
+  void warn_of_other_steps() const;
+
   /// As it was before the first unit was loaded.
   const core::ProcessState& process() const { return *process_; }
 
@@ -164,7 +168,6 @@ class LoadedScenario {
   void warn_of_many_steps() const;
   void end_with_whole_steps();
   void warn_of_last_own_steps() const;
-  void warn_of_other_steps() const;
   void warn_of_internal_steps() const;
   void warn_of_unlimited_steps() const;
   importer::InstanceOptions instance_options(std::size_t component,
@@ -200,11 +203,13 @@ struct ComponentFile {
   std::filesystem::path file;
 };
 
-/// Nothing if a side is missing.
-std::optional<ComponentFile> split_component_file(const std::string& text,
-                                                  const core::KnownNames& names = {});
+/// Nothing if a side is missing. Throws core::Error (Input) for what can be meant in two ways.
+std::optional<ComponentFile> split_component_file(const std::string& option,
+                                                  const std::string& text,
+                                                  const core::KnownNames& names);
 /// Likewise, where the file is there.
-std::optional<ComponentFile> split_existing_file(const std::string& text);
+std::optional<ComponentFile> split_existing_file(const std::string& option,
+                                                 const std::string& text);
 /// Likewise of an option; throws core::Error (Input) with the expected `form`.
 ComponentFile component_file(const std::string& option, const std::string& text,
                              const std::string& form, const core::KnownNames& names);

@@ -146,7 +146,7 @@ TEST_CASE("a unit that says nothing of its events has them late where nothing el
   CHECK_THAT(
       workspace.run(event_driven).err,
       Contains("unit 'device' had events at the ends of its steps which it had not announced "
-               "(1 times)"));
+               "(1 time)"));
   Arguments meant = event_driven;
   meant.insert(meant.end(), {"--max-step", "1"});
   CHECK(workspace.run(meant).err == "");
@@ -212,7 +212,16 @@ TEST_CASE("the error of a unit in a step of another size than its own has that s
   CHECK(outcome.exit_code == 1);
   CHECK_THAT(outcome.err, Contains("the step is 0.05") && Contains("hint: the unit") &&
                               Contains(words) &&
-                              Contains("use --step 0.1, or <stride:Step size=\"0.1\"/>"));
+                              Contains("use --step unit=0.1, or <stride:Step components=\"unit\""));
+}
+
+TEST_CASE("another step than that of the unit is said behind the run, or in its error") {
+  const Workspace workspace(Parts{component("unit", "fmi2_rigid_stickler.fmu")});
+  const Outcome failed = workspace.run({"--quiet", "--step", "unit=0.2"});
+  CHECK(failed.exit_code == 1);
+  CHECK_THAT(failed.err, !Contains("warning") && Contains("use --step unit=0.1"));
+  CHECK_THAT(workspace.stride({"check", "test.ssd", "--step", "unit=0.2"}).err,
+             Contains("its DefaultExperiment has 0.1 s, but its steps are of 0.2 s"));
 }
 
 TEST_CASE("units of one step size each run side by side, each with its own") {

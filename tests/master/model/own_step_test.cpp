@@ -11,9 +11,10 @@ TEST_CASE("the hint at a unit's own step is there if it is another one") {
   UnitDescription unit;
   CHECK(own_step_hint("tank", unit, 1ms) == "");
   unit.default_step = 10ms;
-  CHECK_THAT(own_step_hint("tank", unit, 1ms),
-             Contains("(its DefaultExperiment), and takes steps of one size only") &&
-                 Contains("this one is of 0.001 s: use --step 0.01, or <stride:Step size="));
+  CHECK_THAT(
+      own_step_hint("tank", unit, 1ms),
+      Contains("(its DefaultExperiment), and takes steps of one size only") &&
+          Contains("this one is of 0.001 s: use --step tank=0.01, or <stride:Step components="));
   CHECK(own_step_hint("tank", unit, 10ms) == "");
   unit.can_vary_step = true;
   CHECK_THAT(own_step_hint("tank", unit, 1ms),
@@ -26,5 +27,5 @@ TEST_CASE("a unit with an internal step takes any multiple of it, unless its ste
   CHECK_THAT(own_step_hint("tank", unit, 4ms), Contains("its fixed internal step"));
   unit.can_vary_step = true;
   CHECK(own_step_hint("tank", unit, 4ms) == "");
-  CHECK_THAT(own_step_hint("tank", unit, 3ms), Contains("use --step 0.002"));
+  CHECK_THAT(own_step_hint("tank", unit, 3ms), Contains("use --step tank=0.002"));
 }

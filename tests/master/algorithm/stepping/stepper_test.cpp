@@ -284,7 +284,7 @@ TEST_CASE("a unit of one step size that rejects another one was made for its own
     return StepResult{.rejected = true, .reached = from};
   };
   CHECK_THAT(failure(f.build(1, 1ms)),
-             Contains("made for steps of 0.005 s") && Contains("use --step 0.005"));
+             Contains("made for steps of 0.005 s") && Contains("use --step rigid=0.005"));
 }
 
 TEST_CASE("the error of a unit that rejects the shortened last step has the way out") {
