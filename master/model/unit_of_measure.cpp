@@ -26,8 +26,8 @@ long double finite_number(const xml::Element& element, const char* attribute, do
 /// Without those of prefixes that are rarely meant.
 std::vector<std::string> known_names() {
   std::vector<std::string> names{"km/h", "m/s", "rad/s", "deg/s", "N.m", "kg/m3", "1"};
+  for (const UnitOfMeasureSymbol& known : kUnitOfMeasureSymbols) names.emplace_back(known.symbol);
   for (const UnitOfMeasureSymbol& known : kUnitOfMeasureSymbols) {
-    names.emplace_back(known.symbol);
     if (!known.takes_prefix) continue;
     for (const char* const prefix : {"k", "M", "m", "u", "c"}) {
       names.push_back(prefix + std::string(known.symbol));

@@ -124,14 +124,24 @@ core::DimensionDeclaration read_dimension(const xml::Element& dimension) {
 bool read_type(const xml::Element& child, const SspFile& file,
                core::ConnectorDeclaration& connector, std::vector<std::string>& warnings) {
   if (child.name().name_space != kSsc) return false;
+  child.allow_attributes({"unit", "name", "mime-type", "intervalVariability", "intervalDecimal",
+                          "intervalCounter", "shiftDecimal", "shiftCounter", "resolution",
+                          "supportsFraction", "canBeDeactivated", "priority"});
   connector.type = type_of(child, file.version);
   if (!connector.type) connector.kin = kin_of(child.name().local);
   if (connector.type == ValueType::Clock) note_interval(child, warnings);
   connector.unit = file.definitions.unit(child.attribute_or("unit"));
   if (connector.type == ValueType::Enumeration) {
     const auto& enumerations = file.definitions.enumerations;
-    const auto found = enumerations.find(child.attribute_or("name"));
+    const std::string name = child.attribute_or("name");
+    const auto found = enumerations.find(name);
     if (found != enumerations.end()) connector.items = found->second;
+    if (found == enumerations.end() && !name.empty()) {
+      warnings.push_back(core::to_text({.where = child.where()}) +
+                         fmt::format("nothing defines the enumeration '{}', so the items are those "
+                                     "of the unit",
+                                     name));
+    }
   }
   return true;
 }

@@ -247,3 +247,72 @@ TEST_CASE("a scenario that uses one of its systems more than once is completed b
   CHECK(outcome.exit_code == 0);
   CHECK(workspace.stride({"check", "whole.ssd"}).exit_code == 0);
 }
+
+TEST_CASE("a value in a unit of measure that nothing defines is an error that names near ones") {
+  const std::string binding =
+      "<ssv:Parameter name=\"a.time_constant\"><ssv:Float64 value=\"2\" "
+      "unit=\"UNIT\"/></ssv:Parameter>\n";
+  const auto error = [&](const std::string& unit) {
+    std::string text = binding;
+    text.replace(text.find("UNIT"), 4, unit);
+    const Workspace workspace(
+        text_of({.elements = component("a", "minimal.fmu"), .parameters = text}));
+    return input_error_of(workspace.run());
+  };
+  CHECK_THAT(error("sek"), Contains("the value is in 'sek', the variable in 's'; nothing defines "
+                                    "'sek'") &&
+                               Contains("did you mean 'sec'?"));
+  CHECK_THAT(error("fortnight"), Contains("known are: s, ") && Contains("min"));
+  CHECK_THAT(error("m"), !Contains("nothing defines") && Contains("in the variable's unit"));
+}
+
+TEST_CASE("names in connectors and parameters that nothing defines are said") {
+  const std::string connectors =
+      "<ssd:Connectors><ssd:Connector name=\"mode\" kind=\"input\"><ssc:Enumeration name=\"none\"/>"
+      "</ssd:Connector></ssd:Connectors>";
+  const Workspace workspace(
+      text_of({.elements = component("a", "gain.fmu", connectors),
+               .parameters = "<ssv:Parameter name=\"a.k\"><ssv:Float64 value=\"2\" unit=\"sack\"/>"
+                             "</ssv:Parameter>\n"}));
+  const Outcome outcome = workspace.run();
+  CHECK(outcome.exit_code == 0);
+  CHECK_THAT(outcome.err, Contains("nothing defines the enumeration 'none'") &&
+                              Contains("nothing defines 'sack', the unit of measure of the value"));
+  const Workspace misspelt(
+      text_of({.elements = component("a", "gain.fmu",
+                                     "<ssd:Connectors><ssd:Connector name=\"u\" kind=\"input"
+                                     "\"><ssc:Float64 units=\"m\"/></ssd:Connector>"
+                                     "</ssd:Connectors>")}));
+  CHECK_THAT(input_error_of(misspelt.run()),
+             Contains("has no attribute 'units'") && Contains("did you mean 'unit'?"));
+}
+
+TEST_CASE("a number with its unit of measure on the command line gets the right form as a hint") {
+  const Workspace workspace(
+      text_of({.elements = component("a", "minimal.fmu") + component("g", "gain.fmu")}));
+  const auto error = [&](const std::string& set) {
+    return input_error_of(workspace.run({"--set", set}));
+  };
+  const std::string in = "the value is a number in 's', the variable's unit of measure";
+  CHECK_THAT(error("a.time_constant=90ms"), Contains(in + ": 0.09\n"));
+  CHECK_THAT(error("a.time_constant=2 min"), Contains(in + ": 120\n"));
+  CHECK_THAT(error("a.time_constant=3foo"), Contains(in + "; nothing defines 'foo'"));
+  CHECK_THAT(error("a.time_constant=3m"), Contains(in + ", and 'm' cannot be converted"));
+  CHECK_THAT(error("g.k=3m"), Contains("write the number alone"));
+  CHECK_THAT(error("a.time_constant=1,5"), !Contains("hint"));
+}
+
+TEST_CASE("an output of the system without a value is said to be left out") {
+  const Workspace workspace(
+      text_of({.connectors = system_connector("I", "input") + system_connector("O", "output") +
+                             system_connector("P", "output"),
+               .elements = component("a", "gain.fmu"),
+               .connections = connection_element(start_of("I") + end_of("O"))}));
+  const Outcome outcome = workspace.run();
+  CHECK(outcome.exit_code == 0);
+  CHECK_THAT(outcome.err, Contains("the output 'O' is not recorded, since the input 'I'") &&
+                              Contains("--set I=VALUE") &&
+                              Contains("nothing is connected to the output 'P'"));
+  CHECK_FALSE(workspace.signals().has("O"));
+  CHECK_THAT(workspace.run({"--set", "I=3"}).err, !Contains("'O'"));
+}
