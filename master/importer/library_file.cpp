@@ -82,7 +82,11 @@ class LibraryFile {
       const Texts texts{table<char>({strings.sh_offset, strings.sh_size})};
       const Range content{section->sh_offset, section->sh_size};
       if (type == SHT_DYNSYM) add_symbols(table<Symbol>(content), texts, part);
-      if (type == SHT_DYNAMIC) add_entries(table<Entry>(content), texts, part);
+      if (type == SHT_DYNAMIC) {
+        add_entries(table<Entry>(content), texts, part);
+        part.texts_begin = strings.sh_offset;
+        part.texts_size = texts.bytes.size();
+      }
     }
     return part;
   }

@@ -2,6 +2,7 @@
 #ifndef STRIDE_MASTER_IMPORTER_LIBRARY_FILE_H
 #define STRIDE_MASTER_IMPORTER_LIBRARY_FILE_H
 
+#include <cstdint>
 #include <filesystem>
 #include <set>
 #include <string>
@@ -26,6 +27,8 @@ struct DynamicPart {
   std::vector<std::string> needed;       ///< names of libraries, in the loader's order
   std::vector<std::string> search_path;  ///< folders to look for them, $ORIGIN as it is written
   std::vector<DynamicSymbol> symbols;
+  /// Where the file has the texts of all these names.
+  std::uint64_t texts_begin = 0, texts_size = 0;
   /// It is never unloaded: it says so, or it has symbols that exist once per process
   /// (STB_GNU_UNIQUE), such as a static variable of an inline function in C++.
   bool stays_loaded = false;

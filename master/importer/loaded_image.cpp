@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <fstream>
+#include <iterator>
+#include <optional>
 #include <vector>
 
 #include <dlfcn.h>
@@ -42,6 +44,22 @@ bool is_in_file(const Part& part, std::ifstream& file) {
   return file && std::equal(bytes.begin(), bytes.end(), part.address);
 }
 
+/// Nothing if one of them is not there.
+std::optional<bool> are_equal(const std::filesystem::path& a, const std::filesystem::path& b) {
+  std::ifstream one(a, std::ios::binary), other(b, std::ios::binary);
+  if (!one || !other) return std::nullopt;
+  using Bytes = std::istreambuf_iterator<char>;
+  return std::equal(Bytes(one), Bytes(), Bytes(other), Bytes());
+}
+
+bool is_in_memory(const link_map& library, const std::filesystem::path& path) {
+  Search search{library, {}};
+  ::dl_iterate_phdr(note_parts, &search);
+  std::ifstream file(path, std::ios::binary);
+  return std::ranges::all_of(search.parts,
+                             [&](const Part& part) { return is_in_file(part, file); });
+}
+
 }  // namespace
 
 bool is_loaded_from_equal(const std::string& name, const std::filesystem::path& path) {
@@ -50,11 +68,8 @@ bool is_loaded_from_equal(const std::string& name, const std::filesystem::path& 
   link_map* place = nullptr;
   bool is_equal = ::dlinfo(handle, RTLD_DI_LINKMAP, &place) == 0;
   if (is_equal) {
-    Search search{*place, {}};
-    ::dl_iterate_phdr(note_parts, &search);
-    std::ifstream file(path, std::ios::binary);
-    is_equal =
-        std::ranges::all_of(search.parts, [&](const Part& part) { return is_in_file(part, file); });
+    const std::optional<bool> are_equal_files = are_equal(place->l_name, path);
+    is_equal = are_equal_files ? *are_equal_files : is_in_memory(*place, path);
   }
   ::dlclose(handle);
   return is_equal;

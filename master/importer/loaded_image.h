@@ -7,8 +7,9 @@
 
 namespace stride::importer {
 
-/// Whether the library of this name that is in the process has the code and the constants of this
-/// file. Its own file may have been removed meanwhile. True where there is none of the name.
+/// Whether the library of this name that is in the process is from such a file. If its own has been
+/// removed meanwhile, the code and the constants are compared. True where there is none of the
+/// name.
 bool is_loaded_from_equal(const std::string& name, const std::filesystem::path& file);
 
 }  // namespace stride::importer

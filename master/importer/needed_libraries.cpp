@@ -14,7 +14,7 @@
 #include <link.h>
 
 #include "master/importer/companion.h"
-#include "master/importer/library_file.h"
+#include "master/importer/loaded_image.h"
 #include "master/util/input_file.h"
 
 namespace stride::importer {
@@ -79,17 +79,40 @@ std::vector<fs::path> folders_for(const fs::path& library,
   return folders;
 }
 
+/// Where the loader comes to it; empty if it does not.
+fs::path find_on_path(const std::string& name, const fs::path& library,
+                      const std::vector<std::string>& search_path) {
+  if (name.find('/') != std::string::npos) return core::is_file(name) ? fs::path(name) : "";
+  for (const fs::path& folder : folders_for(library, search_path)) {
+    if (core::is_file(folder / name)) return folder / name;
+  }
+  return {};
+}
+
+/// The folder of the FMU that has the unit's library, or the library's own.
+fs::path folder_of_unit(const fs::path& unit) {
+  const fs::path binaries = unit.parent_path().parent_path();
+  return binaries.filename() == "binaries" ? binaries.parent_path() : unit.parent_path();
+}
+
+bool is_below(const fs::path& file, const fs::path& folder) {
+  const fs::path inside = file.lexically_normal().lexically_relative(folder.lexically_normal());
+  return !inside.empty() && *inside.begin() != "..";
+}
+
 /// `unit` is the library whose FMU may have it.
 NeededLibrary find_needed(const std::string& name, const fs::path& library,
                           const std::vector<std::string>& search_path, const fs::path& unit) {
-  NeededLibrary needed{name, loaded_file(name), false, false};
+  NeededLibrary needed{name, loaded_file(name), find_on_path(name, library, search_path)};
   needed.is_loaded = !needed.file.empty();
-  if (needed.is_loaded) return needed;
-  if (name.find('/') != std::string::npos && core::is_file(name)) needed.file = name;
-  for (const fs::path& folder : folders_for(library, search_path)) {
-    if (needed.file.empty() && core::is_file(folder / name)) needed.file = folder / name;
+  if (needed.bundled.empty()) {
+    needed.bundled = find_companion(unit, name);
+  } else if (!is_below(needed.bundled, folder_of_unit(unit))) {
+    if (!needed.is_loaded) needed.file = needed.bundled;
+    needed.bundled.clear();
   }
-  if (needed.file.empty()) needed.file = find_companion(unit, name);
+  if (!needed.is_loaded && !needed.bundled.empty()) needed.file = needed.bundled;
+  needed.part = read_dynamic_part(needed.bundled.empty() ? needed.file : needed.bundled);
   return needed;
 }
 
@@ -124,23 +147,27 @@ Uses& uses() {
 
 }  // namespace
 
-std::vector<NeededLibrary> needed_libraries(const fs::path& library) {
-  std::vector<NeededLibrary> found;
+bool NeededLibrary::is_displaced() const {
+  return is_loaded && !bundled.empty() && !is_loaded_from_equal(name, bundled);
+}
+
+UnitLibraries read_libraries(const fs::path& unit) {
+  UnitLibraries libraries{unit, read_dynamic_part(unit)};
+  std::vector<NeededLibrary>& found = libraries.needed;
   const auto add_needed_of = [&](const fs::path& file, const DynamicPart& part) {
     for (const std::string& name : part.needed) {
       const bool is_known = std::ranges::count(found, name, &NeededLibrary::name) > 0;
       if (is_known || is_of_compiler(name)) continue;
-      found.push_back(find_needed(name, file, part.search_path, library));
+      found.push_back(find_needed(name, file, part.search_path, unit));
     }
   };
-  add_needed_of(library, read_dynamic_part(library));
+  add_needed_of(unit, libraries.part);
   for (std::size_t i = 0; i < found.size(); ++i) {
-    if (found[i].is_loaded) continue;
-    const DynamicPart part = read_dynamic_part(found[i].file);
-    found[i].stays_loaded = part.stays_loaded;
-    add_needed_of(fs::path(found[i].file), part);
+    if (found[i].is_loaded && found[i].bundled.empty()) continue;
+    const DynamicPart part = found[i].part;  // `found` grows
+    add_needed_of(fs::path(found[i].bundled.empty() ? found[i].file : found[i].bundled), part);
   }
-  return found;
+  return libraries;
 }
 
 bool is_of_compiler(std::string_view name) {
@@ -152,19 +179,21 @@ bool is_of_compiler(std::string_view name) {
   return plain.starts_with("ld-linux") || std::ranges::count(kNames, plain) > 0;
 }
 
-LibraryUse::LibraryUse(fs::path unit, std::vector<NeededLibrary> needed)
-    : unit_(std::move(unit)), needed_(std::move(needed)) {
-  for (const NeededLibrary& library : needed_) uses().add(library.file, unit_);
+LibraryUse::LibraryUse(const UnitLibraries& libraries) : unit_(libraries.file) {
+  for (const NeededLibrary& library : libraries.needed) {
+    if (keeps_nothing(library.name)) continue;
+    used_.push_back({library.file, library.is_loaded || library.part.stays_loaded});
+  }
+  for (const Used& library : used_) uses().add(library.file, unit_);
 }
 
 LibraryUse::~LibraryUse() {
-  for (const NeededLibrary& library : needed_) uses().remove(library.file, unit_);
+  for (const Used& library : used_) uses().remove(library.file, unit_);
 }
 
 bool LibraryUse::may_be_outlived() const {
-  return std::ranges::any_of(needed_, [this](const NeededLibrary& library) {
-    return !keeps_nothing(library.name) &&
-           (library.is_loaded || library.stays_loaded || uses().is_shared(library.file, unit_));
+  return std::ranges::any_of(used_, [this](const Used& library) {
+    return library.may_outlive || uses().is_shared(library.file, unit_);
   });
 }
 

@@ -43,7 +43,7 @@ class Preloaded {
                                          library.string(), damage));
       }
       const fs::path path = fs::absolute(library);
-      const SymbolScope scope = find_symbol_scope(path, needed_libraries(path));
+      const SymbolScope scope = find_symbol_scope(read_libraries(path));
       void* const handle = ::dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL | scope.flags);
       if (handle == nullptr) {
         core::fail_input({},

@@ -13,6 +13,10 @@ bool is_of_python(std::string_view symbol) {
   return symbol.size() > 2 && symbol.substr(0, 2) == "Py" && is_upper(symbol[2]);
 }
 
+bool is_python_library(std::string_view name) {
+  return name.substr(name.rfind('/') + 1).starts_with("libpython");
+}
+
 std::string load_python() {
   constexpr int kNewest = 30;
   constexpr int kOldest = 6;

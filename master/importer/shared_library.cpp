@@ -19,7 +19,6 @@
 #include "master/importer/binaries.h"
 #include "master/importer/companion.h"
 #include "master/importer/library_file.h"
-#include "master/importer/loaded_image.h"
 #include "master/importer/python_library.h"
 #include "master/util/input_file.h"
 #include "master/util/lower_case.h"
@@ -192,13 +191,49 @@ SharedLibrary::SharedLibrary(const fs::path& path, core::Context user, const fs:
     core::fail_input(user_, fmt::format("the library '{}' cannot be loaded: {}", shown_as_, damage),
                      "get another copy of the unit, or export it again");
   }
-  needed_.emplace(path_, needed_libraries(path_));
-  scope_ = find_symbol_scope(path_, needed_->needed());
+  const UnitLibraries libraries = find_libraries();
+  needed_.emplace(libraries);
+  const SymbolScope scope = find_symbol_scope(libraries);
+  if (!scope.warning.empty()) warnings_.push_back(scope.warning);
+  binding_ = scope.flags;
   const core::ProcessState before;
   const std::string reason = load();
   changes_ = before.restore();
   if (!handle_) fail_to_load(*this, reason);
   is_unusable_ = &unusable_flag(handle_.get());
+}
+
+/// Of a private copy, from then on, where another library in the process has the name of one that
+/// it brings along.
+UnitLibraries SharedLibrary::find_libraries() {
+  UnitLibraries libraries = read_libraries(path_);
+  for (NeededLibrary& library : libraries.needed) {
+    if (!library.is_displaced()) continue;
+    if (is_python_library(library.name)) {
+      warnings_.push_back(
+          fmt::format("its library brings '{}' along, and '{}' takes its place: "
+                      "there is one Python in a process",
+                      library.name, library.file.string()));
+      library.bundled.clear();
+    } else {
+      namesakes_.push_back(library.name);
+    }
+  }
+  if (namesakes_.empty()) return libraries;
+  std::string failure;
+  try {
+    copy_.emplace(libraries);
+    path_ = copy_->library();
+    return read_libraries(path_);
+  } catch (const std::exception& error) {  // no room, no memory
+    failure = error.what();
+  }
+  warnings_.push_back(
+      fmt::format("its library brings {} along, and other libraries of such names are in this "
+                  "process and take their places, since there can be no copy by another name: {}",
+                  core::quoted(namesakes_), failure));
+  namesakes_.clear();
+  return libraries;
 }
 
 /// Returns the loader's message if the library cannot be loaded.
@@ -219,7 +254,7 @@ std::string SharedLibrary::open() {
   };
   std::list<LoaderName> names;
   for (std::vector<Wanted> wanted{{path_, path_}}; true;) {
-    Handle handle(::dlopen(wanted.back().path.c_str(), RTLD_NOW | RTLD_LOCAL | scope_.flags));
+    Handle handle(::dlopen(wanted.back().path.c_str(), RTLD_NOW | RTLD_LOCAL | binding_));
     if (!handle) {
       std::string reason = ::dlerror();
       const std::string missing = missing_library(reason, wanted.back().path);
@@ -265,6 +300,7 @@ bool SharedLibrary::can_be_unloaded() const noexcept {
                        "which may need its code; a unit has to end its threads, and restore the "
                        "handlers of signals, before its last instance is freed",
                        remnants));
+      log_ = {};  // said once
     }
   } catch (const std::exception&) {  // then it is not known
   }
@@ -277,19 +313,9 @@ void SharedLibrary::add_user(const std::string& component, const LogSink& log) c
   log_ = log;
 }
 
-std::vector<std::string> SharedLibrary::warnings() const {
-  std::vector<std::string> warnings;
-  if (!scope_.warning.empty()) warnings.push_back(scope_.warning);
-  for (const NeededLibrary& library : needed_->needed()) {
-    const fs::path own = library.is_loaded ? find_companion(path_, library.name) : fs::path();
-    if (own.empty() || is_loaded_from_equal(library.name, own)) continue;
-    warnings.push_back(
-        fmt::format("its library brings '{}' along, and another library of this name is loaded "
-                    "already, which takes its place: '{}'; a process has one library of a name, so "
-                    "give this one another (patchelf --set-soname, --replace-needed)",
-                    own.filename().string(), library.file.string()));
-  }
-  return warnings;
+void SharedLibrary::forget_user() const {
+  user_ = {};
+  log_ = {};
 }
 
 std::string SharedLibrary::answer_of(const char* what, const char* (*function)()) const {

@@ -16,6 +16,7 @@
 #include <sys/types.h>
 
 #include "master/importer/needed_libraries.h"
+#include "master/importer/private_copy.h"
 #include "master/importer/status.h"
 #include "master/importer/symbol_scope.h"
 #include "master/model/description.h"
@@ -44,6 +45,7 @@ class SharedLibrary {
   SharedLibrary(const SharedLibrary&) = delete;
   SharedLibrary& operator=(const SharedLibrary&) = delete;
 
+  /// From where it is loaded.
   const std::filesystem::path& path() const { return path_; }
   const std::string& shown_as() const { return shown_as_; }
   /// The place that names the unit, and the first component that uses it, if one is known.
@@ -59,7 +61,10 @@ class SharedLibrary {
 
   /// Why symbols of its own are replaced by others, or that another library takes the place of one
   /// that it brings along: one warning for each.
-  std::vector<std::string> warnings() const;
+  const std::vector<std::string>& warnings() const { return warnings_; }
+  /// The names of libraries that it brings along, of which others are in the process: it has its
+  /// own in a PrivateCopy.
+  const std::vector<std::string>& namesakes() const { return namesakes_; }
 
   /// What comes before the names that its functions have by the standard; else empty.
   const std::string& prefix() const { return prefix_; }
@@ -72,6 +77,11 @@ class SharedLibrary {
   /// library, until the process ends.
   void mark_unusable() const { *is_unusable_ = true; }
   const std::atomic<bool>& is_unusable() const { return *is_unusable_; }
+
+  /// Whether it may go; if not, its user's log gets the reason.
+  bool can_be_unloaded() const noexcept;
+  /// To be called when its last instance is gone, if it stays for others.
+  void forget_user() const;
 
  protected:
   ~SharedLibrary();
@@ -117,10 +127,10 @@ class SharedLibrary {
     void operator()(void* handle) const;
   };
   using Handle = std::unique_ptr<void, Closer>;
+  UnitLibraries find_libraries();
   std::string load();
   std::string open();
   void* address(const std::string& symbol) const;
-  bool can_be_unloaded() const noexcept;
 
   std::filesystem::path path_;
   std::string shown_as_;
@@ -130,11 +140,14 @@ class SharedLibrary {
   std::string prefix_;
   std::string python_;
   std::vector<std::string> changes_;
+  std::vector<std::string> warnings_;
+  std::vector<std::string> namesakes_;
   std::vector<std::filesystem::path> companions_;
+  std::optional<PrivateCopy> copy_;
   std::vector<Handle> companion_handles_;
   Handle handle_;
   std::optional<LibraryUse> needed_;
-  SymbolScope scope_;
+  int binding_ = 0;  ///< SymbolScope::flags
   std::atomic<bool>* is_unusable_ = nullptr;
   const core::Listed<SharedLibrary> listed_{*this};
 };

@@ -13,14 +13,11 @@
 #include <fmt/ranges.h>
 #include <link.h>
 
-#include "master/importer/library_file.h"
 #include "master/importer/python_library.h"
 #include "master/util/process/loaded_object.h"
 
 namespace stride::importer {
 namespace {
-
-namespace fs = std::filesystem;
 
 struct Closer {
   void operator()(void* handle) const { ::dlclose(handle); }
@@ -33,7 +30,7 @@ Handle loaded(const char* name) { return Handle(::dlopen(name, RTLD_LAZY | RTLD_
 /// The name of its file, empty for the program.
 std::string library_at(const void* address) {
   const link_map* const place = core::loaded_object_at(address);
-  return place != nullptr ? fs::path(place->l_name).filename().string() : "";
+  return place != nullptr ? std::filesystem::path(place->l_name).filename().string() : "";
 }
 
 /// Whether the program only jumps from here to the function: one that is not position-independent
@@ -108,13 +105,13 @@ bool is_alike_in_copies(std::string_view name) {
 
 class Group {
  public:
-  Group(const fs::path& library, const std::vector<NeededLibrary>& needed) {
-    add(read_dynamic_part(library), true);
-    for (const NeededLibrary& other : needed) {
+  explicit Group(const UnitLibraries& libraries) {
+    add(libraries.part, true);
+    for (const NeededLibrary& other : libraries.needed) {
       if (other.is_loaded) {
-        add_neighbour(other.name);
+        add_loaded(other);
       } else {
-        add(read_dynamic_part(other.file), false);
+        add(other.part, false);
       }
     }
     for (const std::string& name : own_) outer_.erase(name);
@@ -176,6 +173,31 @@ class Group {
     if (symbol.is_function) functions_.insert(name);
   }
 
+  /// One that is there for others, too. It is the unit's own as well, unless all code in the
+  /// process is bound to its symbols.
+  void add_loaded(const NeededLibrary& library) {
+    Handle handle = loaded(library.name.c_str());
+    if (!handle) return;
+    if (library.is_displaced() || is_for_all(handle.get(), library.part)) {
+      neighbours_.push_back(std::move(handle));
+    } else {
+      add(library.part, false);
+    }
+  }
+
+  /// Whether the program finds the library's symbols, of which others may have replaced a few.
+  bool is_for_all(void* library, const DynamicPart& part) const {
+    bool has_symbols = false;
+    for (const DynamicSymbol& symbol : part.symbols) {
+      const char* const name = symbol.name.c_str();
+      const void* const own = symbol.is_defined ? ::dlsym(library, name) : nullptr;
+      if (own == nullptr) continue;
+      if (::dlsym(program_.get(), name) == own) return true;
+      has_symbols = true;
+    }
+    return !has_symbols;
+  }
+
   /// A library that is there for others, too.
   void add_neighbour(const std::string& name) {
     if (Handle handle = loaded(name.c_str())) neighbours_.push_back(std::move(handle));
@@ -211,8 +233,8 @@ std::string some_of(const std::vector<std::string>& names) {
 
 }  // namespace
 
-SymbolScope find_symbol_scope(const fs::path& library, const std::vector<NeededLibrary>& needed) {
-  const Group group(library, needed);
+SymbolScope find_symbol_scope(const UnitLibraries& libraries) {
+  const Group group(libraries);
   const std::vector<std::string> contested = group.contested();
   if (contested.empty()) return {};
   const std::vector<std::string> replaced = group.replaced();

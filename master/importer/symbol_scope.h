@@ -2,9 +2,7 @@
 #ifndef STRIDE_MASTER_IMPORTER_SYMBOL_SCOPE_H
 #define STRIDE_MASTER_IMPORTER_SYMBOL_SCOPE_H
 
-#include <filesystem>
 #include <string>
-#include <vector>
 
 #include "master/importer/needed_libraries.h"
 
@@ -23,8 +21,7 @@ struct SymbolScope {
 
 /// RTLD_DEEPBIND is not possible where something in the process replaces functions that the library
 /// takes from elsewhere, as sanitizers replace malloc(): it would get the original ones.
-SymbolScope find_symbol_scope(const std::filesystem::path& library,
-                              const std::vector<NeededLibrary>& needed);
+SymbolScope find_symbol_scope(const UnitLibraries& libraries);
 
 }  // namespace stride::importer
 

@@ -1,7 +1,9 @@
 // Units whose functions have names that the program and its libraries have, too.
+#include <array>
 #include <cstdlib>
 #include <cstring>
 #include <optional>
+#include <string>
 #include <utility>
 
 #include "tests/build.h"
@@ -52,6 +54,34 @@ TEST_CASE("a unit calls its own functions, whatever names others in the process 
   check_all_own(workspace, workspace.run(arguments));
   if (unit == "own_checksum") CHECK(last(workspace, "value") == kChecksum);
   if (unit == "every_symbol") CHECK(last(workspace, "called") > 1000);
+}
+
+TEST_CASE("units that bring along libraries of one name have their own ones") {
+  if (kSanitized) return;  // whose functions come before all others
+  const Arguments hosting =
+      GENERATE(Arguments{}, Arguments{"--isolate"}, Arguments{"--isolate=b3"});
+  const std::array order = GENERATE(std::array{1, 2, 3, 4, 3}, std::array{4, 3, 2, 1, 2});
+  std::string components;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    components +=
+        component("b" + std::to_string(i), "bundling_" + std::to_string(order[i]) + ".fmu");
+  }
+  const Workspace workspace(Parts{components});
+  fs::copy_file(test_fmu("bundling_3"), workspace / "bundling_3.fmu");  // another file
+  Arguments arguments{"--quiet"};
+  arguments.insert(arguments.end(), hosting.begin(), hosting.end());
+  const Outcome outcome = workspace.run(arguments);
+  INFO(outcome.err);
+  REQUIRE(outcome.exit_code == 0);
+  CHECK(outcome.err == "");
+  CHECK(workspace.left_behind().empty());
+  const Csv signals = workspace.signals();
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const std::string name = "b" + std::to_string(i);
+    CAPTURE(name, order[i]);
+    CHECK(signals.numbers(name + ".value").back() == order[i]);
+    CHECK(signals.numbers(name + ".own").back() == signals.numbers(name + ".called").back());
+  }
 }
 
 TEST_CASE("where another allocator is in the process, a unit cannot have its own, with a warning") {

@@ -10,7 +10,7 @@
 using namespace stride;
 using namespace stride::tests;
 using importer::LibraryUse;
-using importer::needed_libraries;
+using importer::read_libraries;
 
 namespace {
 
@@ -19,7 +19,8 @@ constexpr const char* kBundled = "libstride_test_bundled.so";
 }  // namespace
 
 TEST_CASE("a unit needs the libraries that it brings along, and in turn those that they need") {
-  const auto needed = needed_libraries(unit_library("bundling"));
+  const auto libraries = read_libraries(unit_library("bundling"));
+  const auto& needed = libraries.needed;
   REQUIRE(needed.size() == 1);
   CHECK(needed[0].name == kBundled);
   CHECK(fs::equivalent(needed[0].file, unit_library("bundling").parent_path() / kBundled));
@@ -27,7 +28,7 @@ TEST_CASE("a unit needs the libraries that it brings along, and in turn those th
 }
 
 TEST_CASE("what comes with the compilers is no library that a unit needs") {
-  CHECK(needed_libraries(unit_library("minimal")).empty());
+  CHECK(read_libraries(unit_library("minimal")).needed.empty());
   for (const char* name : {"libc.so.6", "/usr/lib/libm.so.6", "libstdc++.so.6", "libgcc_s.so.1",
                            "ld-linux-x86-64.so.2"}) {
     CAPTURE(name);
@@ -41,16 +42,17 @@ TEST_CASE("what comes with the compilers is no library that a unit needs") {
 
 TEST_CASE("what is no library needs none") {
   const Scratch scratch;
-  CHECK(needed_libraries(scratch / "absent.so").empty());
-  CHECK(needed_libraries(scratch.write("text.so", "no library")).empty());
+  CHECK(read_libraries(scratch / "absent.so").needed.empty());
+  CHECK(read_libraries(scratch.write("text.so", "no library")).needed.empty());
 }
 
 TEST_CASE("a library that another unit needs, too, may outlive the first one") {
-  const auto needed = needed_libraries(unit_library("bundling"));
-  const LibraryUse first("first.so", needed);
-  const LibraryUse first_again("first.so", needed);
+  auto libraries = read_libraries(unit_library("bundling"));
+  const LibraryUse first(libraries);
+  const LibraryUse first_again(libraries);
   CHECK_FALSE(first.may_be_outlived());
-  std::optional<LibraryUse> second(std::in_place, "second.so", needed);
+  libraries.file = "second.so";
+  std::optional<LibraryUse> second(std::in_place, libraries);
   CHECK(first.may_be_outlived());
   second.reset();
   CHECK_FALSE(first.may_be_outlived());
@@ -60,16 +62,18 @@ TEST_CASE("a library that was there before a unit may outlive it") {
   const fs::path library = unit_library("bundling").parent_path() / kBundled;
   void* const handle = ::dlopen(library.c_str(), RTLD_NOW | RTLD_LOCAL);
   REQUIRE(handle != nullptr);
-  const auto needed = needed_libraries(unit_library("bundling"));
+  const auto libraries = read_libraries(unit_library("bundling"));
+  const auto& needed = libraries.needed;
   ::dlclose(handle);
   REQUIRE(needed.size() == 1);
   CHECK(needed[0].is_loaded);
-  CHECK(LibraryUse("unit.so", needed).may_be_outlived());
+  CHECK_FALSE(needed[0].is_displaced());
+  CHECK(LibraryUse(libraries).may_be_outlived());
 }
 
 TEST_CASE("a library that is never unloaded outlives its units") {
-  const auto needed = needed_libraries(unit_library("registrar"));
-  REQUIRE(needed.size() == 1);
-  CHECK(needed[0].stays_loaded);
-  CHECK(LibraryUse("unit.so", needed).may_be_outlived());
+  const auto libraries = read_libraries(unit_library("registrar"));
+  REQUIRE(libraries.needed.size() == 1);
+  CHECK(libraries.needed[0].part.stays_loaded);
+  CHECK(LibraryUse(libraries).may_be_outlived());
 }

@@ -13,3 +13,9 @@ TEST_CASE("symbols of Python's library are known by their names") {
     CHECK_FALSE(is_of_python(symbol));
   }
 }
+
+TEST_CASE("Python's library is known by its name") {
+  CHECK(is_python_library("libpython3.11.so.1.0"));
+  CHECK(is_python_library("/usr/lib/libpython3.so"));
+  CHECK_FALSE(is_python_library("libboost_python.so"));
+}

@@ -1,5 +1,7 @@
 #include "master/importer/symbol_scope.h"
 
+#include <memory>
+
 #include <dlfcn.h>
 
 #include "tests/build.h"
@@ -9,6 +11,7 @@ using namespace stride;
 using namespace stride::tests;
 using Catch::Matchers::Contains;
 using importer::find_symbol_scope;
+using importer::read_libraries;
 using importer::SymbolScope;
 
 namespace {
@@ -24,7 +27,7 @@ TEST_CASE("a unit whose symbols nothing else has is bound as usual") {
   for (const fs::path& library : {unit_library("minimal"), unit_library("types"),
                                   fmi2_library("fmi2_relaxation"), raw_library("raw")}) {
     CAPTURE(library);
-    const SymbolScope scope = find_symbol_scope(library, {});
+    const SymbolScope scope = find_symbol_scope(read_libraries(library));
     CHECK(scope.flags == 0);
     CHECK(scope.warning == "");
   }
@@ -32,25 +35,34 @@ TEST_CASE("a unit whose symbols nothing else has is bound as usual") {
 
 TEST_CASE("a unit with a symbol that another library has is bound to its own first") {
   if (kSanitized) return;
-  const SymbolScope scope = find_symbol_scope(fmi2_library("own_checksum"), {});
+  const SymbolScope scope = find_symbol_scope(read_libraries(fmi2_library("own_checksum")));
   CHECK(scope.flags == RTLD_DEEPBIND);
   CHECK(scope.warning == "");
 }
 
 TEST_CASE("a library that a unit brings along is bound to its own symbols first, too") {
   if (kSanitized) return;
-  const importer::NeededLibrary own{"own.so", fmi2_library("own_checksum"), false, false};
-  CHECK(find_symbol_scope(fmi2_library("fmi2_relaxation"), {own}).flags == RTLD_DEEPBIND);
+  CHECK(find_symbol_scope(read_libraries(fmi2_library("bundling_1"))).flags == 0);
+  const importer::UnitLibraries libraries = read_libraries(fmi2_library("bundling_3"));
+  REQUIRE(libraries.needed.size() == 1);
+  CHECK(find_symbol_scope(libraries).flags == RTLD_DEEPBIND);
+  // for another unit that needs it as well
+  const fs::path file = libraries.needed[0].file;
+  const std::unique_ptr<void, int (*)(void*)> handle(::dlopen(file.c_str(), RTLD_NOW), &::dlclose);
+  const importer::UnitLibraries again = read_libraries(fmi2_library("bundling_3"));
+  REQUIRE(again.needed.size() == 1);
+  CHECK(again.needed[0].is_loaded);
+  CHECK(find_symbol_scope(again).flags == RTLD_DEEPBIND);
 }
 
 TEST_CASE("a sanitizer forbids that a unit is bound to its own symbols first") {
   if (!kSanitized) return;
-  const SymbolScope scope = find_symbol_scope(fmi2_library("own_checksum"), {});
+  const SymbolScope scope = find_symbol_scope(read_libraries(fmi2_library("own_checksum")));
   CHECK(scope.flags == 0);
   CHECK_THAT(scope.warning, Contains("'crc32'"));
 }
 
 TEST_CASE("what is no library has no symbols of its own") {
   const Scratch scratch;
-  CHECK(find_symbol_scope(scratch.write("text.so", "no library"), {}).flags == 0);
+  CHECK(find_symbol_scope(read_libraries(scratch.write("text.so", "no library"))).flags == 0);
 }
