@@ -5,60 +5,34 @@
  */
 #include <stride/fmi3.h>
 
-#define fmi3GetFloat64 raw_get_float64
-#define fmi3SetFloat64 raw_set_float64
-#define fmi3GetInt64 raw_get_int64
-#define fmi3SetInt64 raw_set_int64
-#define fmi3InstantiateCoSimulation raw_instantiate
-#define fmi3ExitInitializationMode raw_exit_initialization_mode
-#include "tests/test_units/raw/unit.c"
-#undef fmi3GetFloat64
-#undef fmi3SetFloat64
-#undef fmi3GetInt64
-#undef fmi3SetInt64
-#undef fmi3InstantiateCoSimulation
-#undef fmi3ExitInitializationMode
-
 enum { K = 1, U = 4 };
 
 typedef struct {
   bool is_initialized;
   double k, u, tuned;
   fmi3Int64 mode;
-} Gain;
+} Model;
 
-static Gain all[sizeof instances / sizeof *instances];
+static void start(Model* m) { *m = (Model){.k = 1, .mode = 1}; }
 
-static Gain* gain(fmi3Instance handle) { return &all[(Instance*)handle - instances]; }
-
-fmi3Instance fmi3InstantiateCoSimulation(fmi3String name, fmi3String token, fmi3String resources,
-                                         fmi3Boolean visible, fmi3Boolean logging,
-                                         fmi3Boolean event_mode, fmi3Boolean early_return,
-                                         const fmi3ValueReference required[], size_t n_required,
-                                         fmi3InstanceEnvironment environment,
-                                         fmi3LogMessageCallback log,
-                                         fmi3IntermediateUpdateCallback update) {
-  const fmi3Instance handle =
-      raw_instantiate(name, token, resources, visible, logging, event_mode, early_return, required,
-                      n_required, environment, log, update);
-  if (handle == NULL) return NULL;
-  *gain(handle) = (Gain){.k = 1, .mode = 1};
-  return handle;
-}
+#define fmi3GetFloat64 raw_get_float64
+#define fmi3SetFloat64 raw_set_float64
+#define fmi3GetInt64 raw_get_int64
+#define fmi3SetInt64 raw_set_int64
+#define fmi3ExitInitializationMode raw_exit_initialization_mode
+#include "tests/test_units/raw/model.h"
 
 fmi3Status fmi3ExitInitializationMode(fmi3Instance handle) {
-  gain(handle)->is_initialized = true;
+  model(handle)->is_initialized = true;
   return fmi3OK;
 }
 
 fmi3Status fmi3SetFloat64(fmi3Instance handle, const fmi3ValueReference references[], size_t count,
                           const fmi3Float64 values[], size_t size) {
-  Gain* g = gain(handle);
+  Model* g = model(handle);
   for (size_t i = 0; i < count && size == count; ++i) {
     if (references[i] == K && g->is_initialized) {
-      Instance* instance = handle;
-      instance->log(instance->environment, fmi3Error, "logStatusError", "k is fixed");
-      return fmi3Error;
+      return fail(handle, "k is fixed");
     }
     *(references[i] == K ? &g->k : references[i] == U ? &g->u : &g->tuned) = values[i];
   }
@@ -67,7 +41,7 @@ fmi3Status fmi3SetFloat64(fmi3Instance handle, const fmi3ValueReference referenc
 
 fmi3Status fmi3GetFloat64(fmi3Instance handle, const fmi3ValueReference references[], size_t count,
                           fmi3Float64 values[], size_t size) {
-  const Gain* g = gain(handle);
+  const Model* g = model(handle);
   for (size_t i = 0; i < count && size == count; ++i) {
     const double all_values[] = {0, g->k, 2 * g->k, 7, g->u, g->k * g->u, g->tuned, g->tuned};
     values[i] = all_values[references[i]];
@@ -78,13 +52,13 @@ fmi3Status fmi3GetFloat64(fmi3Instance handle, const fmi3ValueReference referenc
 fmi3Status fmi3SetInt64(fmi3Instance handle, const fmi3ValueReference references[], size_t count,
                         const fmi3Int64 values[], size_t size) {
   (void)references;
-  for (size_t i = 0; i < count && size == count; ++i) gain(handle)->mode = values[i];
+  for (size_t i = 0; i < count && size == count; ++i) model(handle)->mode = values[i];
   return fmi3OK;
 }
 
 fmi3Status fmi3GetInt64(fmi3Instance handle, const fmi3ValueReference references[], size_t count,
                         fmi3Int64 values[], size_t size) {
   (void)references;
-  for (size_t i = 0; i < count && size == count; ++i) values[i] = gain(handle)->mode;
+  for (size_t i = 0; i < count && size == count; ++i) values[i] = model(handle)->mode;
   return fmi3OK;
 }

@@ -1,17 +1,9 @@
 /* y = gain * u, vectors of n elements, of which each has its own gain. n is a structural parameter:
  * it is set in Configuration Mode only, and every other call has to have as many values as it says.
  */
-#include <stride/fmi3.h>
+#include <string.h>
 
-#define fmi3GetFloat64 raw_get_float64
-#define fmi3SetFloat64 raw_set_float64
-#define fmi3SetUInt64 raw_set_uint64
-#define fmi3InstantiateCoSimulation raw_instantiate
-#include "tests/test_units/raw/unit.c"
-#undef fmi3GetFloat64
-#undef fmi3SetFloat64
-#undef fmi3SetUInt64
-#undef fmi3InstantiateCoSimulation
+#include <stride/fmi3.h>
 
 enum { N = 1, GAIN = 2, U = 3, Y = 4, MOST = 16 };
 
@@ -20,50 +12,33 @@ typedef struct {
   bool is_configuring;
   size_t n;
   double gain[MOST], u[MOST];
-} Vectors;
+} Model;
 
-static Vectors all[sizeof instances / sizeof *instances];
-
-static Vectors* vectors(fmi3Instance handle) { return &all[(Instance*)handle - instances]; }
-
-fmi3Instance fmi3InstantiateCoSimulation(fmi3String name, fmi3String token, fmi3String resources,
-                                         fmi3Boolean visible, fmi3Boolean logging,
-                                         fmi3Boolean event_mode, fmi3Boolean early_return,
-                                         const fmi3ValueReference required[], size_t n_required,
-                                         fmi3InstanceEnvironment environment,
-                                         fmi3LogMessageCallback log,
-                                         fmi3IntermediateUpdateCallback update) {
-  const fmi3Instance handle =
-      raw_instantiate(name, token, resources, visible, logging, event_mode, early_return, required,
-                      n_required, environment, log, update);
-  if (handle == NULL) return NULL;
-  Vectors* v = vectors(handle);
-  memset(v, 0, sizeof *v);
-  for (size_t i = 0; i < MOST; ++i) v->gain[i] = 1;
-  return handle;
+static void start(Model* m) {
+  memset(m, 0, sizeof *m);
+  for (size_t i = 0; i < MOST; ++i) m->gain[i] = 1;
 }
 
-static fmi3Status fail(fmi3Instance handle, const char* message) {
-  Instance* instance = handle;
-  instance->log(instance->environment, fmi3Error, "logStatusError", message);
-  return fmi3Error;
-}
+#define fmi3GetFloat64 raw_get_float64
+#define fmi3SetFloat64 raw_set_float64
+#define fmi3SetUInt64 raw_set_uint64
+#include "tests/test_units/raw/model.h"
 
 fmi3Status fmi3EnterConfigurationMode(fmi3Instance handle) {
-  Vectors* v = vectors(handle);
+  Model* v = model(handle);
   if (v->is_configured) return fail(handle, "Configuration Mode after something was set");
   v->is_configuring = v->is_configured = true;
   return fmi3OK;
 }
 
 fmi3Status fmi3ExitConfigurationMode(fmi3Instance handle) {
-  vectors(handle)->is_configuring = false;
+  model(handle)->is_configuring = false;
   return fmi3OK;
 }
 
 fmi3Status fmi3SetUInt64(fmi3Instance handle, const fmi3ValueReference references[], size_t count,
                          const fmi3UInt64 values[], size_t size) {
-  Vectors* v = vectors(handle);
+  Model* v = model(handle);
   if (!v->is_configuring) return fail(handle, "n is set in Configuration Mode only");
   if (count != 1 || size != 1 || references[0] != N || values[0] > MOST) {
     return fail(handle, "this is not n");
@@ -72,7 +47,7 @@ fmi3Status fmi3SetUInt64(fmi3Instance handle, const fmi3ValueReference reference
   return fmi3OK;
 }
 
-static size_t size_of(Vectors* v) {
+static size_t size_of(Model* v) {
   if (v->is_configured) return v->n;
   v->is_configured = true;
   return v->n = 2;
@@ -80,7 +55,7 @@ static size_t size_of(Vectors* v) {
 
 fmi3Status fmi3SetFloat64(fmi3Instance handle, const fmi3ValueReference references[], size_t count,
                           const fmi3Float64 values[], size_t size) {
-  Vectors* v = vectors(handle);
+  Model* v = model(handle);
   const size_t n = size_of(v);
   if (size != count * n) return fail(handle, "another number of values than n says");
   for (size_t i = 0; i < size; ++i) {
@@ -91,7 +66,7 @@ fmi3Status fmi3SetFloat64(fmi3Instance handle, const fmi3ValueReference referenc
 
 fmi3Status fmi3GetFloat64(fmi3Instance handle, const fmi3ValueReference references[], size_t count,
                           fmi3Float64 values[], size_t size) {
-  Vectors* v = vectors(handle);
+  Model* v = model(handle);
   const size_t n = size_of(v);
   if (size != count * n) return fail(handle, "another number of values than n says");
   for (size_t i = 0; i < size; ++i) {
@@ -108,7 +83,7 @@ fmi3Status fmi3GetDirectionalDerivative(fmi3Instance handle, const fmi3ValueRefe
                                         size_t n_unknowns, const fmi3ValueReference knowns[],
                                         size_t n_knowns, const fmi3Float64 seed[], size_t n_seed,
                                         fmi3Float64 sensitivity[], size_t n_sensitivity) {
-  Vectors* v = vectors(handle);
+  Model* v = model(handle);
   const size_t n = size_of(v);
   if (n_seed != n_knowns * n || n_sensitivity != n_unknowns * n) {
     return fail(handle, "another number of values than n says");
