@@ -1,6 +1,9 @@
 #include "master/importer/fmu.h"
 
+#include <algorithm>
+#include <array>
 #include <cstdlib>
+#include <exception>
 #include <set>
 #include <utility>
 
@@ -13,9 +16,11 @@
 #include "master/importer/fmi2/fmi2_unit.h"
 #include "master/importer/fmi3/fmi3_unit.h"
 #include "master/importer/idle_manifest.h"
+#include "master/importer/kept_libraries.h"
 #include "master/importer/model_description.h"
 #include "master/util/file_uri.h"
 #include "master/util/input_file.h"
+#include "master/util/sha256.h"
 
 namespace stride::importer {
 namespace {
@@ -94,7 +99,8 @@ Fmu::Fmu(fs::path path, core::Location where, fs::path shown_as)
     : path_(std::move(path)), shown_as_(std::move(shown_as)), where_(std::move(where)) {}
 
 void Fmu::read_folder(const archive::UnpackLimits& limits) {
-  unpacked_.emplace(path_, where_, shown_as_, limits);
+  archive_.add(path_);
+  unpacked_ = std::make_shared<const UnpackedFmu>(path_, where_, shown_as_, limits);
   resources_ = unpacked_->folder() / "resources";
   const fs::path inside = unpacked_->description().lexically_relative(unpacked_->root());
   auto description = std::make_shared<ModelDescription>(
@@ -137,9 +143,35 @@ std::vector<DescriptionFile> Fmu::description_files() const {
   return files;
 }
 
+Fmu::~Fmu() {
+  if (!may_keep_library()) return;
+  const std::array<std::shared_ptr<const SharedLibrary>, 3> libraries{fmi1_library_, fmi2_library_,
+                                                                      fmi3_library_};
+  const auto library =
+      std::ranges::find_if(libraries, [](const auto& one) { return one != nullptr; });
+  if (library == libraries.end() || (*library)->is_unusable() || (*library)->can_be_unloaded())
+    return;
+  try {
+    if (archive_.changed()) return;
+    KeptLibraries::of_process().keep(core::sha256_of_file(path_), *library, unpacked_);
+  } catch (const std::exception&) {  // the archive is not there any more
+  }
+}
+
+/// A folder's is the same file each time, and so is in the process once. One that allows one
+/// instance per process is not used again.
+bool Fmu::may_keep_library() const {
+  return unpacked_ && description_ && !description_->single_instance && core::is_file(path_);
+}
+
 template <class Library>
 void Fmu::load_once(std::shared_ptr<const Library>& library) {
   if (library) return;
+  const KeptLibraries& kept = KeptLibraries::of_process();
+  if (!kept.is_empty() && may_keep_library()) {
+    library = std::static_pointer_cast<const Library>(kept.find(core::sha256_of_file(path_)));
+    if (library) return;
+  }
   const core::Context user{.where = where_, .unit = first_component_};
   const FoundLibrary found = find_library(unpacked_->folder(), description_->fmi_version,
                                           description_->model_identifier, user);
@@ -209,6 +241,12 @@ void Fmu::warn_of_library(const std::string& name, const InstanceOptions& option
   for (const fs::path& companion : library->companions()) {
     options.log(name, Status::Ok, "stride",
                 fmt::format("its library needs '{}', which was loaded for it", companion.string()));
+  }
+  for (const std::string& namesake : library->namesakes()) {
+    options.log(name, Status::Ok, "stride",
+                fmt::format("its library brings '{}' along, and another library of this name is in "
+                            "the process: it has its own, by another name",
+                            namesake));
   }
   for (const std::string& warning : library->warnings()) {
     options.log(name, Status::Warning, "stride", warning);

@@ -6,7 +6,6 @@
 #include <filesystem>
 #include <memory>
 #include <mutex>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,6 +17,7 @@
 #include "master/importer/fmu_instance.h"
 #include "master/importer/model_description.h"
 #include "master/importer/unpacked_fmu.h"
+#include "master/util/file_stamps.h"
 
 namespace stride::importer {
 
@@ -36,6 +36,9 @@ class Fmu : public std::enable_shared_from_this<Fmu> {
                                    const core::Location& where = {},
                                    const std::filesystem::path& shown_as = {},
                                    const archive::UnpackLimits& limits = {});
+
+  /// Keeps a library that cannot be unloaded: see KeptLibraries.
+  ~Fmu();
 
   /// As it is shown in messages.
   const std::filesystem::path& path() const { return shown_as_; }
@@ -77,11 +80,13 @@ class Fmu : public std::enable_shared_from_this<Fmu> {
   /// The library of this version. Called with the lock.
   template <class Library>
   void load_once(std::shared_ptr<const Library>& library);
+  bool may_keep_library() const;
 
   std::filesystem::path path_;
   std::filesystem::path shown_as_;
   core::Location where_;
-  std::optional<UnpackedFmu> unpacked_;
+  std::shared_ptr<const UnpackedFmu> unpacked_;
+  core::FileStamps archive_;  ///< the file, when it was unpacked
   std::filesystem::path resources_;
   std::shared_ptr<const ModelDescription> description_;
   std::vector<DescriptionFile> own_files_;  ///< of a bare library, which has given them
