@@ -77,10 +77,12 @@ bool is_unset_parameter(const std::string& text, const core::Variable& variable)
 }
 
 /// What is odd about an element of a start value, which the unit has by itself; empty: nothing.
-std::string oddity_of(const core::ValueBlock& element, const core::Variable& variable) {
+std::string oddity_of(const std::string& text, const core::ValueBlock& element,
+                      const core::Variable& variable) {
   if (const auto odd = core::not_finite(element); odd && !is_unset_parameter(*odd, variable)) {
     return "is not a finite number";
   }
+  if (const auto lost = core::lost_number(text, element)) return "is lost: " + *lost;
   if (variable.type != ValueType::Enumeration || variable.items.empty()) return "";
   const std::int64_t number = element.numbers<std::int64_t>()[0];
   const auto items = variable.items | std::views::values;
@@ -209,7 +211,8 @@ void check_start(const xml::Element& element, core::Variable& variable,
   form.type = variable.type == ValueType::Enumeration ? ValueType::Int64 : variable.type;
   try {
     for (const std::string_view word : xml::split(variable.start)) {
-      const std::string odd = oddity_of(core::parse(form, std::string(word)), variable);
+      const std::string text(word);
+      const std::string odd = oddity_of(text, core::parse(form, text), variable);
       if (odd.empty()) continue;
       warnings.push_back(core::to_text({.where = element.where()}) +
                          fmt::format("start=\"{}\" of '{}' {}", word, variable.name, odd));

@@ -1,4 +1,4 @@
-// Floating-point numbers that are no numbers.
+// Floating-point numbers that are not what is meant: infinite, NaN, or too near to 0.
 #ifndef STRIDE_MASTER_MODEL_FINITE_H
 #define STRIDE_MASTER_MODEL_FINITE_H
 
@@ -26,6 +26,11 @@ inline std::optional<std::string> not_finite(const ValueBlock& block) {
     return std::nullopt;
   });
 }
+
+/// The first number of a text that has lost its digits in this value, which it became by a
+/// conversion: what has happened to it, "1e-400 becomes 0: …".
+std::optional<std::string> lost_number(const std::string& text, const ValueBlock& block,
+                                       const LinearConversion& conversion = {});
 
 }  // namespace stride::core
 

@@ -208,6 +208,8 @@ ValueBlock System::start_value(const StartDeclaration& wanted, const ElementRang
     if (const auto odd = not_finite(value)) {
       warnings_.push_back(to_text(context) +
                           fmt::format("the start value is {}, which is not a finite number", *odd));
+    } else if (const auto lost = lost_number(meant.value_or(text), value, linear)) {
+      warnings_.push_back(to_text(context) + fmt::format("the start value {}", *lost));
     }
     return value;
   } catch (const std::invalid_argument& mistake) {

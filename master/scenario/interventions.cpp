@@ -8,8 +8,10 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
 #include "master/algorithm/loops/evaluation_order.h"
+#include "master/model/finite.h"
 #include "master/scenario/find_variable.h"
 #include "master/util/diagnostics.h"
 #include "master/util/time_text.h"
@@ -215,6 +217,17 @@ void read_bits(std::string_view text, Intervention& intervention) {
   if (intervention.bits == 0) throw std::invalid_argument("0 bits leave messages as they are");
 }
 
+void warn_of_odd(const InterventionDeclaration& declared, const core::ValueBlock& value) {
+  const std::string place = core::to_text(core::Context{.where = declared.where}) +
+                            fmt::format("the value for '{}' from {} s on ", declared.variable,
+                                        core::to_text(declared.from));
+  if (const auto odd = core::not_finite(value)) {
+    spdlog::warn("{}is {}, which is not a finite number", place, *odd);
+  } else if (const auto lost = core::lost_number(*declared.value, value)) {
+    spdlog::warn("{}{}", place, *lost);
+  }
+}
+
 /// Throws std::invalid_argument if it is none.
 void read_value(const core::System& system, const InterventionDeclaration& declared,
                 Intervention& intervention) {
@@ -222,6 +235,7 @@ void read_value(const core::System& system, const InterventionDeclaration& decla
     case InterventionKind::Set:
     case InterventionKind::Force:
       intervention.value = core::parse(system.variable(intervention.id), *declared.value);
+      warn_of_odd(declared, *intervention.value);
       return;
     case InterventionKind::Delay:
       intervention.delay = core::parse_seconds(*declared.value);
