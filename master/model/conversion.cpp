@@ -6,7 +6,9 @@
 #include <stdexcept>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include "master/model/item_match.h"
 #include "master/model/item_text.h"
 #include "master/model/meant_value.h"
 #include "master/model/number_range.h"
@@ -95,7 +97,9 @@ class Composer {
   std::string words(std::string text) const {
     for (std::size_t i = 0; i < segments_.size(); ++i) {
       const Transformation::Kind kind = segments_[i].transformation.kind;
-      if (kind == Transformation::Kind::None || kind == Transformation::Kind::Linear) continue;
+      const bool is_mapping =
+          kind != Transformation::Kind::None && kind != Transformation::Kind::Linear;
+      if (!is_mapping && unmapped_items(i).empty()) continue;
       std::string result;
       for (const std::string& element : elements(i, text)) {
         result += (result.empty() ? "" : " ") + word(i, element);
@@ -245,10 +249,31 @@ class Composer {
          known.empty() ? "its connector declares no enumeration" : suggestion(name, known));
   }
 
+  /// What nothing maps goes by the names of the items, where these tell it.
+  NumberMap unmapped_items(std::size_t segment) const {
+    const Transformation::Kind kind = segments_[segment].transformation.kind;
+    const PathConnector& from = path_[segment];
+    const PathConnector& to = path_[segment + 1];
+    const bool are_enumerations =
+        from.type == ValueType::Enumeration && to.type == ValueType::Enumeration;
+    if (!are_enumerations || kind == Transformation::Kind::IntegerMapping) return {};
+    EnumerationItems items = from.items;
+    for (const auto& [source, target] : segments_[segment].transformation.names) {
+      std::erase_if(items, [&](const auto& item) { return item.first == source; });
+    }
+    const ItemMatch match = match_items(items, to.items);
+    if (match.contradictions.empty()) return match.by_name;
+    fail(fmt::format("cannot connect {}: items of the same names have different numbers, and not "
+                     "all items are in both: {}",
+                     wire(segment), fmt::join(match.contradictions, ", ")),
+         "define what each item becomes, in an <ssc:EnumerationMappingTransformation>");
+  }
+
   /// A segment's mapping as one of numbers.
   NumberMap numbers(std::size_t segment) const {
     const Transformation& transformation = segments_[segment].transformation;
     NumberMap map = transformation.numbers;
+    for (const auto& entry : unmapped_items(segment)) map.push_back(entry);
     for (const auto& [source, target] : transformation.names) {
       map.emplace_back(item(transformation, segment, source),
                        item(transformation, segment + 1, target));
@@ -327,6 +352,9 @@ class Composer {
 
   std::string word(std::size_t segment, const std::string& word) const {
     const Transformation& transformation = segments_[segment].transformation;
+    if (transformation.kind == Transformation::Kind::None) {
+      return number_of_word(word, unmapped_items(segment)).value_or(word);
+    }
     if (transformation.kind == Transformation::Kind::EnumerationMapping) {
       for (const auto& [source, target] : transformation.names) {
         if (source == word) return target;
@@ -349,6 +377,14 @@ class Composer {
       number = *named;
     }
     return std::to_string(mapped(transformation.numbers, number));
+  }
+
+  /// Nothing for a name, which stays.
+  static std::optional<std::string> number_of_word(const std::string& word, const NumberMap& map) {
+    std::int64_t number = 0;
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
+    if (end != word.data() + word.size() || error != std::errc{}) return std::nullopt;
+    return std::to_string(mapped(map, number));
   }
 
   std::vector<PathConnector> path_;

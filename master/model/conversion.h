@@ -57,7 +57,8 @@ std::vector<PathConnector> completed(std::vector<PathConnector> path);
 bool mixes_differences(const std::vector<PathConnector>& path);
 
 /// Composes the segments between the connectors of a path, of which there is one more. Where one of
-/// them is a difference, all are, and the offsets of their units are left out. Throws Error
+/// them is a difference, all are, and the offsets of their units are left out. Items that nothing
+/// maps are matched by match_items(). Throws Error
 /// (Input) at `context`, or at the transformation that is wrong, for units that cannot be converted
 /// into each other, types that cannot or could lose something, and transformations that do not fit
 /// the types. A Boolean becomes a number, 1 or 0, and a whole number at the end of the path a

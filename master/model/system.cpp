@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <tuple>
 #include <utility>
 
 #include <fmt/format.h>
@@ -10,6 +11,7 @@
 
 #include "master/model/array_element.h"
 #include "master/model/declared_dimensions.h"
+#include "master/model/item_match.h"
 #include "master/model/number_range.h"
 #include "master/model/unknown_variable.h"
 #include "master/model/way.h"
@@ -230,11 +232,17 @@ void System::check_element(const Context& context, const ConnectorDeclaration& c
   if (connector.unit.name.empty()) return;
   const std::size_t component = element.id.component;
   const UnitOfMeasure unit = known_unit(connector.unit, component);
-  if (!convert(unit, known_unit({variable.unit}, component))) {
+  const auto conversion = convert(unit, known_unit({variable.unit}, component));
+  if (!conversion) {
     fail_input(context, fmt::format("the connector is in '{}', the unit's variable in '{}'",
                                     unit.name, variable.unit));
   }
-  if (variable.unit.empty() && is_real(variable.type)) connector_units_[element] = unit;
+  if (!is_real(variable.type)) return;
+  if (variable.unit.empty()) {
+    connector_units_[element] = unit;
+  } else if (!conversion->is_identity()) {
+    other_units_[element] = unit;
+  }
 }
 
 /// A warning only: the type of a connector of SSP 1.0 does not change what is exchanged.
@@ -300,6 +308,17 @@ PathConnector System::path_connector(const ElementRange& element) const {
           end.is_relative};
 }
 
+/// A connector that has another unit of measure than its variable: SSP takes the variable's only
+/// where the connector declares none.
+std::optional<PathConnector> System::declared_connector(const ElementRange& element) const {
+  auto declared = other_units_.find(element);
+  if (declared == other_units_.end()) declared = other_units_.find(whole(element.id));
+  if (declared == other_units_.end()) return std::nullopt;
+  PathConnector connector = path_connector(element);
+  connector.unit = declared->second;
+  return connector;
+}
+
 /// Element by element where one end consists of scalars.
 std::vector<Connection> System::connect(const ConnectionDeclaration& wanted, const Ends& ends) {
   check_ends(wanted, ends.first.parts.front(), ends.second.parts.front());
@@ -316,7 +335,13 @@ std::vector<Connection> System::connect(const ConnectionDeclaration& wanted, con
     const ElementRange to = part(ends.second, i);
     check_ends(wanted, from, to);
     Way way(path_connector(from));
-    way.go(wanted, path_connector(to));
+    if (auto declared = declared_connector(from)) way.go(*std::move(declared), PathSegment{});
+    if (auto declared = declared_connector(to)) {
+      way.go(wanted, *std::move(declared));
+      way.go(path_connector(to), PathSegment{});
+    } else {
+      way.go(wanted, path_connector(to));
+    }
     made.push_back({from.id, to.id, converted_on(way.path, way.segments, wanted.where), from.first,
                     to.first, to.size});
   }
@@ -329,6 +354,7 @@ Conversion System::converted_on(const std::vector<PathConnector>& path,
                                 const std::vector<PathSegment>& segments, const Location& where) {
   Conversion conversion = compose(path, segments, {where, {}, {}, {}});
   if (mixes_differences(path)) note_difference(path, segments, conversion.linear, where);
+  note_items(path, segments, where);
   const bool has_boolean = std::ranges::any_of(
       path, [](const PathConnector& connector) { return connector.type == ValueType::Boolean; });
   if (!has_boolean) return conversion;
@@ -343,6 +369,32 @@ Conversion System::converted_on(const std::vector<PathConnector>& path,
                     core::name(*whole[i + 1].type), becomes));
   }
   return conversion;
+}
+
+/// Where items of two enumerations meet by their names although their numbers differ, or by their
+/// numbers although their names do.
+void System::note_items(const std::vector<PathConnector>& path,
+                        const std::vector<PathSegment>& segments, const Location& where) {
+  if (path.front().items.empty()) return;
+  const std::vector<PathConnector> whole = completed(path);
+  for (std::size_t i = 0; i < segments.size(); ++i) {
+    if (segments[i].transformation.kind != Transformation::Kind::None) continue;
+    const auto& [from, to] = std::tie(whole[i], whole[i + 1]);
+    if (from.type != ValueType::Enumeration || to.type != ValueType::Enumeration) continue;
+    const ItemMatch match = match_items(from.items, to.items);
+    if (match.by_name.empty() && match.renamed.empty()) continue;
+    const std::string wire = to_text({.where = where}) +
+                             fmt::format("the Enumerations of '{}' and '{}' ", from.name, to.name);
+    warnings_.push_back(
+        wire +
+        (match.by_name.empty()
+             ? fmt::format("have items of the same numbers and other names: {}\n  hint: if that is "
+                           "not meant, map them in an <ssc:EnumerationMappingTransformation>",
+                           fmt::join(match.renamed, ", "))
+             : std::string("have items of the same names and other numbers: they are mapped by "
+                           "their names\n  hint: if the numbers are to stay, use an "
+                           "<ssc:IntegerMappingTransformation>")));
+  }
 }
 
 void System::note_difference(const std::vector<PathConnector>& path,

@@ -224,6 +224,8 @@ class System {
   void check_shapes(const ConnectionDeclaration& declaration, const Ends& ends) const;
   Conversion converted_on(const std::vector<PathConnector>& path,
                           const std::vector<PathSegment>& segments, const Location& where);
+  void note_items(const std::vector<PathConnector>& path, const std::vector<PathSegment>& segments,
+                  const Location& where);
   void note_difference(const std::vector<PathConnector>& path,
                        const std::vector<PathSegment>& segments, const LinearConversion& linear,
                        const Location& where);
@@ -232,6 +234,7 @@ class System {
   void adopt_units();
   UnitOfMeasure known_unit(UnitOfMeasure unit, std::size_t component) const;
   PathConnector path_connector(const ElementRange& element) const;
+  std::optional<PathConnector> declared_connector(const ElementRange& element) const;
   ElementRange whole(VariableId id) const { return {id, 0, variable(id).size}; }
   void note_missing(const StartDeclaration& declaration);
   void note_replaced(const Target& target);
@@ -247,6 +250,7 @@ class System {
   std::vector<StartValue> structural_values_;
   std::vector<std::string> warnings_;
   std::map<ElementRange, UnitOfMeasure> connector_units_;  ///< of variables that have none
+  std::map<ElementRange, UnitOfMeasure> other_units_;      ///< of connectors, not their variables'
   std::set<VariableId> message_clocks_;  ///< time-based clocks that are connected to triggered ones
   std::size_t unknown_variables_ = 0;    ///< reported so far
   std::set<std::string> misfits_;        ///< connectors of systems that were reported

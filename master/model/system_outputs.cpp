@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "master/model/array_element.h"
 #include "master/model/declared_dimensions.h"
 #include "master/model/meant_value.h"
 #include "master/model/system.h"
@@ -84,6 +85,7 @@ void System::add_output(const OutputDeclaration& wanted, const ElementRange& fro
   const Variable& source = variable(from.id);
   if (!is_signal(from.id)) return;  // it is seen where it is sent
   Way way(path_connector(from));
+  if (auto declared = declared_connector(from)) way.go(*std::move(declared), PathSegment{});
   for (const ViaDeclaration& via : wanted.via) way.go(via.connector, via.segment);
   const std::vector<PathConnector> path = completed(way.path);
   const PathConnector& end = path.back();

@@ -262,6 +262,36 @@ TEST_CASE("the items of Enumerations are mapped by their names") {
              Contains("the target 5 of the mapping is not an item of the Enumeration of 'b.u'"));
 }
 
+TEST_CASE("items of the same names are the same, whatever their numbers") {
+  const EnumerationItems other{{"on", 3}, {"Off", 4}, {"broken", 5}};
+  const Conversion c = of({items("a.y", kLamp), items("b.u", other)}, {{}});
+  CHECK(c.map == NumberMap{{0, 4}, {1, 3}});
+  CHECK(c.valid.empty());
+  const Conversion back =
+      of({items("a.y", other), items("s.x", {{"broken", 0}, {"off", 1}, {"on", 2}}),
+          items("b.u", {{"broken", 7}, {"off", 8}, {"on", 9}})},
+         {{}, {}});
+  CHECK(back.map == NumberMap{{3, 9}, {4, 8}, {5, 7}});
+  const std::vector<PathSegment> segments{{}, {}};
+  CHECK(compose_text("2 on 1",
+                     {{"the value", {}, {}, {}, true},
+                      items("s.x", {{"off", 1}, {"on", 2}}),
+                      items("b.u", kLamp)},
+                     segments, {})
+            .text == "1 on 0");
+}
+
+TEST_CASE("items of the same names and other numbers are an error where not all are in both") {
+  const EnumerationItems other{{"on", 0}, {"red", 1}};
+  CHECK_THAT(reason({items("a.y", kLamp), items("b.u", other)}, {{}}),
+             Contains("cannot connect 'a.y' to 'b.u': items of the same names") &&
+                 Contains("'on' is 1 and 0") && Contains("EnumerationMappingTransformation"));
+  CHECK_THAT(reason({items("a.y", kLamp), items("b.u", other)}, {names({{"off", "red"}})}),
+             Contains("accepted"));
+  CHECK(of({items("a.y", kLamp), items("b.u", other)}, {numbers(Kind::IntegerMapping, {})})
+            .is_identity());
+}
+
 TEST_CASE("an Enumeration goes to an integer that holds its items, and back if they are items") {
   const auto to = [](ValueType type) { return point("b.u", type); };
   CHECK(of({items("a.y", kLamp), to(ValueType::UInt8)}, {{}}).is_identity());

@@ -872,6 +872,12 @@ std::shared_ptr<const UnitDescription> thermal() {
   return unit;
 }
 
+std::shared_ptr<const UnitDescription> thermal_with_output(const std::string& name) {
+  auto unit = std::make_shared<UnitDescription>(*thermal());
+  unit->variables[*unit->find(name)].causality = Causality::Output;
+  return unit;
+}
+
 SystemDeclaration thermal_system(std::vector<ConnectionDeclaration> connections) {
   SystemDeclaration system;
   system.name = "thermal";
@@ -935,4 +941,55 @@ TEST_CASE("an unnamed unit is the connector's, an undefined one the scenario's")
   CHECK(unit_of(0, "bare") == "degC");
   CHECK(unit_of(1, "bare").empty());
   CHECK(unit_of(0, "odd") == "league");
+}
+
+TEST_CASE("a connection has the units of measure that connectors declare, not their variables'") {
+  SystemDeclaration declared = thermal_system({from_to("a.t", "b.bare")});
+  CHECK(only_conversion(System(declared)).is_identity());
+  declared.components[0].connectors = {
+      {"t", ValueType::Float64, Causality::Output, {"K", {}}, {"s.ssd", 5}}};
+  CHECK(only_conversion(System(declared)) == LinearConversion{1, 273.15});
+  declared.connections = {from_to("a.t", "b.k")};
+  CHECK(only_conversion(System(declared)) == LinearConversion{1, 273.15});
+  declared.connections[0].suppress_unit_conversion = true;
+  CHECK(only_conversion(System(declared)) == LinearConversion{1, 273.15});
+  declared.components[1].connectors = {
+      {"k", ValueType::Float64, Causality::Input, {"degC", {}}, {"s.ssd", 6}}};
+  declared.components[0].connectors.clear();
+  declared.connections = {from_to("a.rise", "b.k")};
+  CHECK(only_conversion(System(declared)).is_identity());  // a difference
+  declared.connections = {from_to("a.bare", "b.k")};
+  declared.components[0].description = thermal_with_output("bare");
+  CHECK(only_conversion(System(declared)) == LinearConversion{1, 273.15});
+}
+
+TEST_CASE("Enumerations that differ in numbers or names are connected with a warning") {
+  const auto unit = [](EnumerationItems items) {
+    auto described =
+        std::make_shared<UnitDescription>(*Describe("mode")
+                                               .add("y", ValueType::Enumeration, Causality::Output)
+                                               .add("u", ValueType::Enumeration, Causality::Input)
+                                               .done());
+    for (Variable& variable : described->variables) {
+      if (variable.type == ValueType::Enumeration) variable.items = items;
+    }
+    return described;
+  };
+  SystemDeclaration declared;
+  declared.components = {{"a", unit({{"off", 1}, {"on", 2}}), {}, {"s.ssd", 3}},
+                         {"b", unit({{"off", 0}, {"on", 1}, {"idle", 2}}), {}, {"s.ssd", 4}}};
+  declared.connections = {from_to("a.y", "b.u")};
+  const System by_name(declared);
+  CHECK(by_name.connections()[0].conversion.map == NumberMap{{1, 0}, {2, 1}});
+  REQUIRE(by_name.warnings().size() == 1);
+  CHECK_THAT(by_name.warnings()[0], StartsWith("s.ssd:9: the Enumerations of 'a.y' and 'b.u'") &&
+                                        Contains("mapped by their names"));
+  declared.components[1].description = unit({{"closed", 1}, {"open", 2}});
+  const System by_number(declared);
+  CHECK(by_number.connections()[0].conversion.is_identity());
+  REQUIRE(by_number.warnings().size() == 1);
+  CHECK_THAT(by_number.warnings()[0],
+             Contains("'off' (1) becomes 'closed', 'on' (2) becomes 'open'"));
+  declared.components[1].description = unit({{"on", 1}, {"up", 2}});
+  CHECK_THAT(reason(declared), Contains("'on' is 2 and 1"));
 }
