@@ -23,7 +23,7 @@ RunContext::RunContext(const System& system_of_run, std::vector<std::unique_ptr<
       options(std::move(run_options)),
       observed(observed_variables(options)),
       outputs(system, observed),
-      exchange(system, outputs.sources()),
+      exchange(system, outputs.sources(), FirstValues(system, options.start, options.warn)),
       statistics{.units = std::vector<UnitStatistics>(units.size())},
       until(options.stop),
       clock(options.measure_time) {

@@ -7,6 +7,7 @@
 #include <csignal>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -148,6 +149,8 @@ struct RunOptions {
   bool steps_in_rows = true;           ///< for tests: else each unit steps by itself
   bool steps_in_stretches = true;  ///< for tests: else each communication step is made by itself
   bool measure_time = true;        ///< wall-clock time per unit and phase (TimeSampling)
+  /// Takes what is odd and does not end the run; without it, it does.
+  std::function<void(const std::string&)> warn{};
   /// The run ends at its next communication point after this is no longer 0.
   const volatile std::sig_atomic_t* interrupted = nullptr;
 };

@@ -362,6 +362,7 @@ std::vector<bool> LoadedScenario::permissions(std::span<const PermissionRule> ru
 
 void LoadedScenario::choose_times(const ScenarioRequest& request) {
   options_.start = chosen_start(request);
+  options_.warn = [](const std::string& text) { spdlog::warn("{}", core::message_text(text)); };
   has_stop_ = !request.may_lack_stop || !request.stop.empty() || declared_stop();
   const Time beyond_all(Time::max().time_since_epoch() / 2);  // no difference overflows
   options_.stop = has_stop_ ? chosen_stop(request) : beyond_all;

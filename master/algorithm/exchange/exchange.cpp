@@ -77,7 +77,9 @@ void copy_mapped(void* to, const void* from, const Conversion& conversion) {
 
 }  // namespace
 
-Exchange::Exchange(const System& system, std::span<const VariableId> observed) : system_(system) {
+Exchange::Exchange(const System& system, std::span<const VariableId> observed,
+                   FirstValues first_values)
+    : system_(system), first_values_(std::move(first_values)) {
   std::set<VariableId> outputs;
   std::set<VariableId> inputs;
   std::set<VariableId> jumps;  // fed by sampled values, which change by events
@@ -454,8 +456,8 @@ void Exchange::route_other_types(Time time) {
 
 void Exchange::check_mapped(const MappedCopy& copy, Time time) const {
   const Connection& connection = *copy.connection;
-  check_converted(system_, connection.from, connection.to, connection.conversion, copy.target,
-                  time);
+  check_converted(system_, connection.from, connection.to, connection.conversion, copy.target, time,
+                  &first_values_);
 }
 
 void Exchange::check_values(Time time) const {

@@ -44,7 +44,13 @@ struct ContinuousLink {
 class Exchange {
  public:
   /// `observed`: variables that are read even where they are not connected.
-  Exchange(const System& system, std::span<const VariableId> observed);
+  Exchange(const System& system, std::span<const VariableId> observed)
+      : Exchange(system, observed, FirstValues(system, Time::min())) {}
+  Exchange(const System& system, std::span<const VariableId> observed, FirstValues first_values);
+  Exchange(const Exchange&) = delete;
+  Exchange& operator=(const Exchange&) = delete;
+
+  const FirstValues& first_values() const { return first_values_; }
 
   /// Reads a unit's outputs and observed variables.
   void read_outputs(std::size_t component, Unit& unit);
@@ -310,7 +316,8 @@ class Exchange {
   std::vector<Copy<std::string>> strings_;
   std::vector<Copy<Binary>> binaries_;
   std::vector<MappedCopy> mapped_;
-  ItemCheck items_{system_};  ///< of all outputs that are read
+  const FirstValues first_values_;
+  ItemCheck items_{system_, first_values_};  ///< of all outputs that are read
   RealLists<double, float> doubles_;
   RealLists<float, double> floats_;
   bool has_other_types_ = false;  ///< than Float64, to be copied or checked

@@ -24,6 +24,7 @@ SystemOutputs::SystemOutputs(const System& system, std::span<const VariableId> o
 }
 
 void SystemOutputs::connect(Exchange& exchange) {
+  first_values_ = &exchange.first_values();
   for (Output& output : outputs_) output.source = exchange.signal(output.output->from);
 }
 
@@ -33,7 +34,7 @@ void SystemOutputs::update_all(Time time) {
     const Conversion& conversion = output.output->conversion;
     copy_elements(output.block, 0, *output.source.block, first, output.block.size(), conversion);
     check_converted(system_, output.output->from, output.id, conversion,
-                    {&output.block, 0, output.block.size()}, time);
+                    {&output.block, 0, output.block.size()}, time, first_values_);
   }
 }
 

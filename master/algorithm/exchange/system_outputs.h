@@ -40,6 +40,7 @@ class SystemOutputs {
   };
 
   const System& system_;
+  const FirstValues* first_values_ = nullptr;
   std::vector<VariableId> sources_;
   std::vector<Output> outputs_;  ///< pointers into it stay valid
   std::map<VariableId, ValueBlock> constants_;

@@ -66,6 +66,30 @@ TEST_CASE("items, and what nobody reads, are no mistake") {
   CHECK(failure(unread.build(3, std::chrono::seconds(1))) == "none");
 }
 
+TEST_CASE("before its first step, a unit may give what is not an item, which is said once") {
+  const std::int64_t later = GENERATE(5, 0);
+  ScriptedSystem system;
+  ScriptedUnit& a = system.add("a", signal_unit("a", Causality::Output));
+  a.on_initialize = [](ScriptedUnit& self) { mode(self) = 0; };
+  a.on_step = [later](ScriptedUnit& self, Time, Time to) {
+    mode(self) = later;
+    return reached(to);
+  };
+  system.add("b", signal_unit("b", Causality::Input));
+  system.wire("a", "mode", "b", "mode");
+  std::vector<std::string> warnings;
+  system.options.warn = [&](const std::string& text) { warnings.push_back(text); };
+  const std::string result = failure(system.build(3, std::chrono::seconds(1), {{0, 0}}));
+  REQUIRE(warnings.size() == 1);
+  CHECK_THAT(warnings[0], Contains("unit 'a', variable 'mode', at 0 s: the unit gives 0") &&
+                              Contains("until the unit's first step"));
+  if (later == 5) {
+    CHECK(result == "none");
+  } else {
+    CHECK_THAT(result, Contains("at 1 s: the unit gives 0, which is not an item"));
+  }
+}
+
 TEST_CASE("a message whose value is not an item ends the run") {
   ScriptedSystem system;
   ScriptedUnit& a =
