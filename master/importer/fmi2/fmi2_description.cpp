@@ -88,6 +88,7 @@ class Variables {
     if (first) return;
     variable.reference = places_.back();
     if (variable.causality == Causality::Input) check_input(element, variable, reference);
+    note_unit(element, variable, reference);
     references_.push_back(reference);
     unit_.variables.push_back(std::move(variable));
   }
@@ -149,8 +150,23 @@ class Variables {
                              variable.name, reference, same->second));
   }
 
+  /// One number cannot be in two units of measure.
+  void note_unit(const xml::Element& element, const core::Variable& variable,
+                 fmi2ValueReference reference) {
+    if (variable.type != ValueType::Float64 || variable.unit.empty()) return;
+    const auto [same, is_new] = units_.emplace(reference, std::pair(variable.name, variable.unit));
+    const auto& [name, unit] = same->second;
+    if (unit == variable.unit) return;
+    unit_.warnings.push_back(
+        core::to_text({.where = element.where()}) +
+        fmt::format("'{}' has the value of '{}', by its valueReference, and another unit of "
+                    "measure, '{}', not '{}': each is taken for what it says",
+                    variable.name, name, variable.unit, unit));
+  }
+
   core::UnitDescription& unit_;
   std::vector<fmi2ValueReference> references_;
+  std::map<fmi2ValueReference, std::pair<std::string, std::string>> units_;  ///< first names
   std::vector<core::ValueReference> places_;
   TypeDefinitions types_;
   VariableNames names_;

@@ -327,3 +327,13 @@ TEST_CASE("a variable of FMI 2.0 whose name is there already is left out, and in
   CHECK(unit.initial_unknowns[1].reference == unit.find("heat"));
   CHECK(unit.fmi2->references.size() == unit.variables.size());
 }
+
+TEST_CASE("two units of measure of one value reference are a warning") {
+  CHECK(fmi2_with("<Real declaredType=\"Temperature\" start=\"20\"/>", "<Real start=\"20\"/>")
+            .warnings.empty());
+  const auto unit = fmi2_with("<Real declaredType=\"Temperature\" start=\"20\"/>",
+                              "<Real unit=\"mm/s\" start=\"20\"/>");
+  REQUIRE(unit.warnings.size() == 1);
+  CHECK_THAT(unit.warnings[0], Contains("'T2' has the value of 'T'") &&
+                                   Contains("another unit of measure, 'mm/s', not 'degC'"));
+}
