@@ -215,6 +215,7 @@ typedef struct stride_variable {
   int is_message;           /* belongs to a clock that ticks at events: see stride_send() */
   const size_t* clocks;     /* the indices of the clocks to which it belongs */
   size_t clock_count;
+  int is_relative; /* a difference, whose unit is converted without its offset */
 } stride_variable;
 
 /* Variables are numbered from 0, in the order of the components and of their descriptions, behind

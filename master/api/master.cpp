@@ -251,7 +251,8 @@ stride_status stride_describe(stride_simulation* simulation, size_t index,
           .is_connected = is_of_component && !system.connections_to(id).empty(),
           .is_message = is_of_component && system.is_message(id),
           .clocks = simulation->clocks.data(),
-          .clock_count = simulation->clocks.size()});
+          .clock_count = simulation->clocks.size(),
+          .is_relative = described.is_relative});
   });
 }
 

@@ -79,6 +79,11 @@ std::string verdict(const core::UnitDescription& unit) {
                      unit.variables[*unit.verdict_text].name);
 }
 
+std::string unit_of_measure(const core::Variable& variable) {
+  if (!variable.is_relative) return variable.unit;
+  return variable.unit + (variable.unit.empty() ? "difference" : " (difference)");
+}
+
 std::string items(const core::Variable& variable) {
   std::string text;
   for (const auto& [name, value] : variable.items) {
@@ -148,8 +153,8 @@ void inspect(const std::filesystem::path& file) {
   Table table({{"variable"}, {"causality"}, {"type"}, {"unit"}, {"start"}, {"range"}, {"meaning"}});
   for (const core::Variable& variable : unit.variables) {
     table.add({variable.name, core::name(variable.causality),
-               type(variable) + clock_names(unit, variable), variable.unit, variable.start,
-               range(variable), meaning(variable)});
+               type(variable) + clock_names(unit, variable), unit_of_measure(variable),
+               variable.start, range(variable), meaning(variable)});
   }
   print_text("\n{}", table.text());
   warn_of_failure([&] { print_text("{}", terminal_table(*fmu)); });

@@ -68,6 +68,12 @@ TEST_CASE("inspect shows arrays, clocks and enumerations") {
   CHECK_THAT(line_of(outcome.out, "colour"), Contains("Enumeration") && Contains("1 red, 2 green"));
 }
 
+TEST_CASE("inspect shows which variables are differences") {
+  const Outcome outcome = run_program({"inspect", "gain.fmu"});
+  CHECK_THAT(line_of(outcome.out, "k"), Contains(" difference "));
+  CHECK_THAT(line_of(outcome.out, "u"), !Contains("difference"));
+}
+
 TEST_CASE("inspect of a unit that is not there") {
   const Outcome outcome = run_program({"inspect", "minimla.fmu"});
   CHECK(outcome.exit_code == 2);

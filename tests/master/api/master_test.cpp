@@ -286,6 +286,10 @@ TEST_CASE("variables are described") {
   REQUIRE(stride_describe(simulation.get(), find(simulation, "types.gained"), &variable) ==
           STRIDE_OK);
   CHECK(variable.unit == std::string("m"));
+  CHECK_FALSE(variable.is_relative);
+  const Simulation other = open(unit("gain"), {{"stop", "1"}, {"step", "0.1"}});
+  REQUIRE(stride_describe(other.get(), find(other, "gain.k"), &variable) == STRIDE_OK);
+  CHECK(variable.is_relative);
 }
 
 TEST_CASE("a structure of an earlier version is filled as far as it goes") {
