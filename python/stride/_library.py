@@ -74,6 +74,7 @@ class Variable(ctypes.Structure):
         ("is_message", c_int),
         ("clocks", POINTER(c_size_t)),
         ("clock_count", c_size_t),
+        ("is_relative", c_int),
     ]
 
 

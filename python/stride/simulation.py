@@ -65,6 +65,7 @@ class Variable:
         shape: Of an array; () is a scalar.
         is_connected: It is an input with a source, so it cannot be set, but forced.
         is_message: It has values at ticks of a clock only; `clocks` are the names of its clocks.
+        is_relative: It is a difference, whose unit is converted without its offset.
     """
 
     name: str
@@ -77,6 +78,7 @@ class Variable:
     is_connected: bool
     is_message: bool
     clocks: tuple[str, ...]
+    is_relative: bool = False
 
 
 @dataclass(frozen=True)
@@ -341,6 +343,7 @@ class Simulation:
             shape=tuple(raw.dimensions[i] for i in range(raw.dimension_count)),
             is_connected=bool(raw.is_connected),
             is_message=bool(raw.is_message),
+            is_relative=bool(raw.is_relative),
         )
         return name, lambda names: Variable(**known, clocks=tuple(names[clock] for clock in clocks))
 
@@ -675,7 +678,9 @@ def _elements(variable: Variable, value: Any) -> tuple[Any, int]:
         converted = given.astype(dtype)
     is_exact = dtype.kind != "f" and np.array_equal(converted.astype(object), given.astype(object))
     if dtype.kind == "f":
-        is_exact = np.array_equal(np.isfinite(converted), np.isfinite(given.astype(float)))
+        exact = given.astype(float)
+        is_exact = np.array_equal(np.isfinite(converted), np.isfinite(exact))
+        is_exact = is_exact and np.array_equal(converted == 0, exact == 0)  # 1e-50 as Float32
     if not is_exact or (dtype.kind != "b" and given.dtype.kind == "b"):
         raise fail(wanted_text)
     space = (np.ctypeslib.as_ctypes_type(dtype) * count)()

@@ -62,6 +62,18 @@ def test_a_unit_calls_its_own_functions(folder, unit):
     assert signals["unit.own"][-1] == signals["unit.called"][-1]
 
 
+def test_units_that_bring_along_libraries_of_one_name_have_their_own_ones(folder):
+    simulations = []
+    for answer in (1, 2, 3, 4, 3):
+        (folder / "own.ssd").write_text(scenario(f"unit=bundling_{answer}"), encoding="utf-8")
+        simulations.append(stride.Simulation("own.ssd"))
+    for answer, sim in zip((1, 2, 3, 4, 3), simulations):
+        sim.run()
+        assert sim["unit.value"] == answer
+        assert sim["unit.own"] == sim["unit.called"]
+        sim.close()
+
+
 @pytest.mark.parametrize(
     ("name", "value"),
     [
@@ -108,8 +120,15 @@ def test_variables_are_described(types):
         frame = sim.variables["types.receive.frame"]
         assert frame.is_message and frame.clocks == ("types.receive.clock",)
         assert sim.variables["types.gained"].unit == "m"
+        assert not sim.variables["types.gained"].is_relative
         assert "types.gain" in sim and "types.nothing" not in sim
         assert "types.float32" in list(sim)
+
+
+def test_a_difference_is_known(folder):
+    (folder / "gain.ssd").write_text(scenario("unit=gain"), encoding="utf-8")
+    with stride.Simulation("gain.ssd") as sim:
+        assert sim.variables["unit.k"].is_relative
 
 
 def test_messages_are_sent_and_received(types):
@@ -227,6 +246,7 @@ def test_a_closed_one_cannot_be_entered(folder):
         ("float64", [1.0], "Float64"),
         ("float64", None, "Float64"),
         ("float32", 1e300, "Float32"),
+        ("float32", 1e-50, "Float32"),
         ("matrix", [1.0, 2.0], "shape"),
         ("string", b"x", "text"),
         ("words", ["a"], r"an array of text \(str\) with the shape \(2,\), not \['a'\]"),
@@ -388,6 +408,19 @@ def test_a_hundred_simulations_leave_nothing(folder, isolate):
     assert _open_files() == files
     assert _memory() - memory < 8 << 20
     assert processes_below() == set()
+
+
+def test_a_library_that_cannot_be_unloaded_is_loaded_once(folder):
+    def libraries():
+        with open("/proc/self/maps") as maps:
+            return {line.split()[-1] for line in maps if "/registrar.so" in line}
+
+    (folder / "registrar.ssd").write_text(scenario("unit=registrar"), encoding="utf-8")
+    for _ in range(5):
+        with stride.Simulation("registrar.ssd") as sim:
+            sim.run()
+            assert sim["unit.listeners"] == 1
+    assert len(libraries()) == 1
 
 
 def test_one_that_is_forgotten_is_closed(folder):
