@@ -15,7 +15,7 @@ namespace {
 template <class Real>
 bool is_lost(long double exact, Real value) {
   constexpr long double kDeviation = 1e-3L;
-  return exact != 0 && std::abs(value) < std::numeric_limits<Real>::min() &&
+  return exact != 0 && std::abs(exact) < std::numeric_limits<Real>::min() &&
          std::abs(exact - value) > kDeviation * std::abs(exact);
 }
 
