@@ -11,12 +11,16 @@
 namespace stride::core {
 namespace {
 
-/// Whether the nearest number of the type, which has fewer digits near 0, is another one.
-template <class Real>
-bool is_lost(long double exact, Real value) {
+/// Whether the type has fewer digits there than elsewhere, or none.
+bool is_near_zero(long double number, ValueType type) {
+  const long double least = type == ValueType::Float32 ? std::numeric_limits<float>::min()
+                                                       : std::numeric_limits<double>::min();
+  return number != 0 && std::abs(number) < least;
+}
+
+bool is_near(long double number, const std::string& text) {
   constexpr long double kDeviation = 1e-3L;
-  return exact != 0 && std::abs(exact) < std::numeric_limits<Real>::min() &&
-         std::abs(exact - value) > kDeviation * std::abs(exact);
+  return std::abs(number - std::strtold(text.c_str(), nullptr)) <= kDeviation * std::abs(number);
 }
 
 }  // namespace
@@ -28,13 +32,11 @@ std::optional<std::string> lost_number(const std::string& text, const ValueBlock
   for (std::size_t i = 0; i < words.size() && i < block.size(); ++i) {
     const long double exact =
         conversion.factor * std::strtold(words[i].c_str(), nullptr) + conversion.offset;
-    const bool is_float = block.type() == ValueType::Float32;
-    if (is_float ? !is_lost(exact, block.numbers<float>()[i])
-                 : !is_lost(exact, block.numbers<double>()[i])) {
-      continue;
-    }
-    return fmt::format("{} becomes {}: {} has no such number so near to 0", words[i],
-                       element_text(block, i), name(block.type()));
+    if (!is_near_zero(exact, block.type())) continue;
+    const std::string value = element_text(block, i);
+    if (is_near(exact, value)) continue;
+    return fmt::format("{} becomes {}: {} has no such number so near to 0", words[i], value,
+                       name(block.type()));
   }
   return std::nullopt;
 }

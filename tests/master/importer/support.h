@@ -22,6 +22,11 @@ inline fs::path raw_library(const std::string& name) {
   return test_unit_folder() / "raw" / (name + ".so");
 }
 
+inline fs::path fmi2_library(const std::string& unit) {
+  const char* const platform = importer::fmi2_platform();
+  return build_folder() / "tests/test_units" / unit / "binaries" / platform / (unit + ".so");
+}
+
 /// Whether units are to live in processes of their own: the tests of instances run in both ways,
 /// but for those that look into the memory of a unit's library, which have the tag [here].
 inline bool is_hosted() { return std::getenv("STRIDE_TEST_HOSTED") != nullptr; }

@@ -14,15 +14,6 @@ using importer::find_symbol_scope;
 using importer::read_libraries;
 using importer::SymbolScope;
 
-namespace {
-
-fs::path fmi2_library(const std::string& unit) {
-  const char* const platform = importer::fmi2_platform();
-  return build_folder() / "tests/test_units" / unit / "binaries" / platform / (unit + ".so");
-}
-
-}  // namespace
-
 TEST_CASE("a unit whose symbols nothing else has is bound as usual") {
   for (const fs::path& library : {unit_library("minimal"), unit_library("types"),
                                   fmi2_library("fmi2_relaxation"), raw_library("raw")}) {
