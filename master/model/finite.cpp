@@ -18,9 +18,9 @@ bool is_near_zero(long double number, ValueType type) {
   return number != 0 && std::abs(number) < least;
 }
 
-bool is_near(long double number, const std::string& text) {
+bool are_near(long double number, long double other) {
   constexpr long double kDeviation = 1e-3L;
-  return std::abs(number - std::strtold(text.c_str(), nullptr)) <= kDeviation * std::abs(number);
+  return std::abs(number - other) <= kDeviation * std::abs(number);
 }
 
 }  // namespace
@@ -33,8 +33,10 @@ std::optional<std::string> lost_number(const std::string& text, const ValueBlock
     const long double exact =
         conversion.factor * std::strtold(words[i].c_str(), nullptr) + conversion.offset;
     if (!is_near_zero(exact, block.type())) continue;
-    const std::string value = element_text(block, i);
-    if (is_near(exact, value)) continue;
+    const std::string value = element_text(block, i);  // the shortest text that stands for it
+    if (are_near(exact, real(block, i)) || are_near(exact, std::strtold(value.c_str(), nullptr))) {
+      continue;
+    }
     return fmt::format("{} becomes {}: {} has no such number so near to 0", words[i], value,
                        name(block.type()));
   }

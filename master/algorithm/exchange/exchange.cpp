@@ -392,33 +392,34 @@ void Exchange::add_changes(const Transfer& transfer, const ValueBlock& before,
 
 template <class Real, class Other>
 bool Exchange::RealLists<Real, Other>::route() const {
-  bool has_nan = false;
+  bool is_odd = false;
   for (const auto& [to, from] : plain) {
     const Real value = *from;
     *to = value;
-    has_nan |= std::isnan(value);
+    is_odd |= std::isnan(value);
   }
   const auto route_converted =
-      [&has_nan]<class To>(const std::vector<ConvertedCopy<To, Real>>& copies) {
+      [&is_odd]<class To>(const std::vector<ConvertedCopy<To, Real>>& copies) {
         for (const auto& copy : copies) {
           const Real value = *copy.from;
-          *copy.to = static_cast<To>(copy.factor * value + copy.offset);
-          has_nan |= std::isnan(value);
+          const To result = static_cast<To>(copy.factor * value + copy.offset);
+          *copy.to = result;
+          is_odd |= !std::isfinite(result) && !std::isinf(value);
         }
       };
   route_converted(converted);
   route_converted(changed);
-  return has_nan;
+  return is_odd;
 }
 
 void Exchange::route(Time time) {
   ++route_;
-  bool has_nan = doubles_.route();
+  bool is_odd = doubles_.route();
   if (has_other_types_) {
     route_other_types(time);
-    has_nan |= floats_.route();
+    is_odd |= floats_.route();
   }
-  if (has_nan) [[unlikely]]
+  if (is_odd) [[unlikely]]
     check_nan(time);
   for (const Forced& forced : forced_) keep(forced);
 }
@@ -481,6 +482,22 @@ void Exchange::check_nan(const RealLists<Real, Other>& lists, Time time) const {
         "the output is NaN (not a number), and another unit is connected to it",
         "look at what this unit received before this instant; a parameter may be out of range");
   }
+  const auto check_range = [&]<class To>(const std::vector<ConvertedCopy<To, Real>>& copies) {
+    for (const auto& [to, from, factor, offset] : copies) {
+      const To result = static_cast<To>(factor * *from + offset);
+      if (std::isfinite(result) || std::isinf(*from)) [[likely]]
+        continue;
+      const auto source = std::ranges::find(lists.checked, from, &Checked<Real>::value);
+      const VariableId id = source->id;
+      fail_run({{}, system_.components()[id.component].name, system_.variable(id).name, time},
+               fmt::format("the output is {}, which is beyond the range of {} in the input that it "
+                           "is connected to",
+                           *from, sizeof(To) == sizeof(float) ? "Float32" : "Float64"),
+               "connect it to a Float64, or look at the units of measure of both");
+    }
+  };
+  check_range(lists.converted);
+  check_range(lists.changed);
 }
 
 }  // namespace stride::core

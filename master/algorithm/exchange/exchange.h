@@ -59,7 +59,7 @@ class Exchange {
   void route(Time time);
   /// Throws as route() does, which has nothing to copy.
   void check_values(Time time) const;
-  /// Of connected outputs only.
+  /// Of connected outputs only; throws for what is beyond the range of their inputs, too.
   void check_nan(Time time) const;
   /// Whether a discrete input of the unit has changed since it was written; FMI requires Event
   /// Mode then.
@@ -239,7 +239,7 @@ class Exchange {
     std::vector<ConvertedCopy<Other, Real>> changed;  ///< to another type
     std::vector<Checked<Real>> checked;               ///< the sources of all of them
 
-    /// Returns whether one of the sources is NaN.
+    /// Returns whether a source is NaN, or its value beyond the range of its target.
     bool route() const;
   };
   /// A whole number that is mapped or becomes one of another type.

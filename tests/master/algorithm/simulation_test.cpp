@@ -410,6 +410,28 @@ TEST_CASE("a chain may pass through one unit several times") {
   CHECK(b.number(5) == 6);
 }
 
+TEST_CASE("an output beyond the range of the input that it is connected to ends the run") {
+  const bool is_float = GENERATE(true, false);
+  Fixture f;
+  auto& a = f.add("a", one_in_one_out());
+  f.add("b", Describe("b").add("u", ValueType::Float32, Causality::Input).done());
+  f.add("c", one_in_one_out());
+  f.wire("a", "y", is_float ? "b" : "c", "u");
+  a.on_step = [](ScriptedUnit& unit, Time, Time to) {
+    unit.number(1) = to < time_from_seconds(0.003) ? 3e38 : -1e39;
+    StepResult result;
+    result.reached = to;
+    return result;
+  };
+  const std::string result = failure(f.build(1, 1ms));
+  if (is_float) {
+    CHECK_THAT(result, Contains("unit 'a', variable 'y', at 0.003 s: the output is -1e+39, which "
+                                "is beyond the range of Float32"));
+  } else {
+    CHECK(result == "none");
+  }
+}
+
 TEST_CASE("NaN is looked for once the initial values have arrived") {
   Fixture f;
   auto& root = f.add("root", one_in_one_out());
