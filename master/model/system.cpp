@@ -12,6 +12,7 @@
 #include "master/model/array_element.h"
 #include "master/model/declared_dimensions.h"
 #include "master/model/item_match.h"
+#include "master/model/item_text.h"
 #include "master/model/number_range.h"
 #include "master/model/unknown_variable.h"
 #include "master/model/way.h"
@@ -24,6 +25,15 @@ namespace {
 /// Hints at near names: each compares a name with those of all variables of a unit. They are enough
 /// for all warnings and for the mistakes that Diagnostics shows.
 constexpr std::size_t kMostHints = 120;
+
+/// The first one that is not an item of the unit's Enumeration, if that has items; or empty.
+std::string other_item(const EnumerationItems& declared, const EnumerationItems& items) {
+  for (const auto& item : declared) {
+    const bool is_known = items.empty() || std::ranges::find(items, item) != items.end();
+    if (!is_known) return fmt::format("'{}' ({})", item.first, item.second);
+  }
+  return "";
+}
 
 }  // namespace
 
@@ -229,6 +239,13 @@ void System::check_element(const Context& context, const ConnectorDeclaration& c
                                     core::name(*connector.type), core::name(variable.type)));
   }
   note_other_kin(context, connector, variable);
+  if (const std::string other = other_item(connector.items, variable.items); !other.empty()) {
+    warnings_.push_back(
+        to_text(context) +
+        fmt::format("the connector's Enumeration has the item {}, and the unit's has not: {}; the "
+                    "unit's items are used",
+                    other, item_text(variable.items)));
+  }
   if (connector.unit.name.empty()) return;
   const std::size_t component = element.id.component;
   const UnitOfMeasure unit = known_unit(connector.unit, component);

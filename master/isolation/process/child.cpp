@@ -19,6 +19,7 @@
 #include "master/isolation/process/descriptor.h"
 #include "master/isolation/process/keeper.h"
 #include "master/isolation/process/surroundings.h"
+#include "master/util/archive/temporary_folder.h"
 #include "master/util/outliving_memory.h"
 #include "master/util/process/own_exit.h"
 
@@ -52,6 +53,7 @@ void settle(pid_t parent, int output) {
 /// of these has called exit(0), that is no good end.
 void end_at_once(int status, void*) {
   std::fflush(nullptr);
+  archive::TemporaryFolder::remove_all(::getpid());
   const bool is_own = core::OwnExit::is_caller_of(__builtin_frame_address(0));
   ::_exit(is_own || status != 0 ? status : 1);
 }

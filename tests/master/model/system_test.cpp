@@ -992,4 +992,14 @@ TEST_CASE("Enumerations that differ in numbers or names are connected with a war
              Contains("'off' (1) becomes 'closed', 'on' (2) becomes 'open'"));
   declared.components[1].description = unit({{"on", 1}, {"up", 2}});
   CHECK_THAT(reason(declared), Contains("'on' is 2 and 1"));
+  declared.connections.clear();
+  declared.components[1].connectors = {
+      {"u", ValueType::Enumeration, Causality::Input, {}, {"s.ssd", 5}, {{"on", 1}}}};
+  CHECK(System(declared).warnings().empty());
+  declared.components[1].connectors[0].items = {{"on", 2}};
+  const System other(declared);
+  REQUIRE(other.warnings().size() == 1);
+  CHECK_THAT(other.warnings()[0],
+             StartsWith("s.ssd:5: unit 'b', variable 'u': the connector's Enumeration has the item "
+                        "'on' (2), and the unit's has not: on (1), up (2)"));
 }
