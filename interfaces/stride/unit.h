@@ -70,7 +70,9 @@ struct UnitInfo {
   /// is, it may be of any size.
   std::optional<Duration> maximum_step;
   std::optional<Duration>
-      default_step;  ///< the communication step it prefers, where none is chosen
+      default_step;                   ///< the communication step it prefers, where none is chosen
+  std::optional<Time> default_start;  ///< where a run of it begins, likewise
+  std::optional<Time> default_stop;   ///< where it ends
 };
 
 /// A unit. The kit calls the virtual functions in this order and never at the same time:

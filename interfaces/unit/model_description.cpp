@@ -86,9 +86,7 @@ class Writer {
     write_units();
     write_types();
     write_log_categories();
-    if (const auto& step = unit_.info().default_step) {
-      xml_.open("DefaultExperiment").attribute("stepSize", to_seconds(*step)).close();
-    }
+    write_default_experiment();
     xml_.open("ModelVariables");
     for (std::size_t i = 0; i < table_.size(); ++i) write_variable(i);
     xml_.close();
@@ -99,6 +97,16 @@ class Writer {
   }
 
  private:
+  void write_default_experiment() {
+    const UnitInfo& info = unit_.info();
+    if (!info.default_start && !info.default_stop && !info.default_step) return;
+    xml_.open("DefaultExperiment");
+    if (info.default_start) xml_.attribute("startTime", to_seconds(*info.default_start));
+    if (info.default_stop) xml_.attribute("stopTime", to_seconds(*info.default_stop));
+    if (info.default_step) xml_.attribute("stepSize", to_seconds(*info.default_step));
+    xml_.close();
+  }
+
   void write_interface_type() {
     const UnitInfo& info = unit_.info();
     xml_.open("CoSimulation").attribute("modelIdentifier", name_);

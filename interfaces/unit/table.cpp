@@ -6,9 +6,10 @@
 #include <numeric>
 #include <stdexcept>
 
+#include <stride/variable_name.h>
+
 #include "interfaces/unit/legal_calls.h"
 #include "interfaces/unit/units_of_measure.h"
-#include "interfaces/unit/variable_name.h"
 #include "interfaces/unit/xml_writer.h"
 
 namespace stride {

@@ -105,6 +105,19 @@ TEST_CASE("the step that a unit prefers is in its default experiment") {
   CHECK_THAT(describe(Sample()), !Contains("DefaultExperiment"));
 }
 
+TEST_CASE("the times between which a unit is meant to run are in its default experiment") {
+  class Played : public Unit {
+   public:
+    Played() {
+      UnitInfo& info = describe("A recording");
+      info.default_start = time_from_seconds(-1);
+      info.default_stop = time_from_seconds(2.5);
+    }
+    void step(Step&) override {}
+  };
+  CHECK_THAT(describe(Played()), Contains(R"(<DefaultExperiment startTime="-1" stopTime="2.5"/>)"));
+}
+
 namespace {
 
 class Measured : public Unit {

@@ -1,8 +1,8 @@
-#include "interfaces/unit/variable_name.h"
-
 #include <catch2/catch.hpp>
 
-using stride::kit::is_structured_name;
+#include <stride/variable_name.h>
+
+using stride::is_structured_name;
 
 TEST_CASE("names that follow the grammar") {
   for (const char* name : {"a",

@@ -1,24 +1,17 @@
-#include "interfaces/unit/variable_name.h"
+// The names that FMI knows as structured.
+#ifndef STRIDE_VARIABLE_NAME_H
+#define STRIDE_VARIABLE_NAME_H
 
-namespace stride::kit {
-namespace {
+#include <string_view>
 
-// not those of <cctype>, which depend on the locale
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
-bool is_nondigit(char c) { return c == '_' || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
-bool is_one_of(std::string_view characters, char c) {
-  return characters.find(c) != std::string_view::npos;
-}
-bool is_plain_in_quotes(char c) {
-  return is_nondigit(c) || is_digit(c) || is_one_of("!#$%&()*+,-./:;<>=?@[]^{}|~ ", c);
-}
-bool is_escapable(char c) { return is_one_of("'\"?\\abfnrtv", c); }
+namespace stride {
+namespace detail {
 
 /// Each function takes a rule of the grammar from the front of what is left; where it answers
 /// false, the name is wrong.
-class Parser {
+class NameParser {
  public:
-  explicit Parser(std::string_view name) : left_(name) {}
+  explicit NameParser(std::string_view name) : left_(name) {}
 
   bool name() {
     // '(' is in no identifier, so this is the derivative
@@ -78,11 +71,30 @@ class Parser {
   }
   void skip() { left_.remove_prefix(1); }
 
+  // not those of <cctype>, which depend on the locale
+  static bool is_digit(char c) { return c >= '0' && c <= '9'; }
+  static bool is_nondigit(char c) {
+    return c == '_' || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+  }
+  static bool is_one_of(std::string_view characters, char c) {
+    return characters.find(c) != std::string_view::npos;
+  }
+  static bool is_plain_in_quotes(char c) {
+    return is_nondigit(c) || is_digit(c) || is_one_of("!#$%&()*+,-./:;<>=?@[]^{}|~ ", c);
+  }
+  static bool is_escapable(char c) { return is_one_of("'\"?\\abfnrtv", c); }
+
   std::string_view left_;
 };
 
-}  // namespace
+}  // namespace detail
 
-bool is_structured_name(std::string_view name) { return Parser(name).name(); }
+/// Whether a name follows the grammar of variableNamingConvention="structured" (FMI 3.0,
+/// 2.4.7.5.1): parts joined by dots, each an identifier or quoted, with array indices if it is an
+/// element ("robot.axes[2,1]", "'left arm'.angle"), or the derivative of such ("der(x)",
+/// "der(x,2)").
+inline bool is_structured_name(std::string_view name) { return detail::NameParser(name).name(); }
 
-}  // namespace stride::kit
+}  // namespace stride
+
+#endif
