@@ -50,8 +50,8 @@ std::string CsvRows::take_quoted() {
   return field;
 }
 
-void CsvRows::fail(const std::string& message) const {
-  throw std::runtime_error(file_ + ":" + std::to_string(line_) + ": " + message);
+void CsvRows::fail_at(int line, const std::string& message) const {
+  throw std::runtime_error(file_ + ":" + std::to_string(line) + ": " + message);
 }
 
 }  // namespace player

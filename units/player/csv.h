@@ -28,7 +28,9 @@ class CsvRows {
   bool at_end() const { return at_ == text_.size(); }
 
   /// Throws std::runtime_error "FILE:LINE: message".
-  [[noreturn]] void fail(const std::string& message) const;
+  [[noreturn]] void fail(const std::string& message) const { fail_at(line_, message); }
+  /// Of another line.
+  [[noreturn]] void fail_at(int line, const std::string& message) const;
 
  private:
   std::string take_field();

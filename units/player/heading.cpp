@@ -5,16 +5,12 @@
 #include <stdexcept>
 #include <string_view>
 
+#include <stride/variable_name.h>
+
 namespace player {
 namespace {
 
-constexpr std::string_view kBlanks = " \t";
-
-std::string trimmed(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(kBlanks);
-  if (first == std::string_view::npos) return "";
-  return std::string(text.substr(first, text.find_last_not_of(kBlanks) - first + 1));
-}
+constexpr const char* kTimeName = "time";
 
 std::optional<Course> course_named(const std::string& word) {
   static const std::map<std::string, Course> kCourses = {
@@ -32,28 +28,70 @@ std::optional<Type> value_type_named(const std::string& word) {
   return std::nullopt;
 }
 
-/// Whether all words say what the values are.
-bool read_words(const std::string& text, Heading& heading) {
+std::string lower_case(std::string text) {
+  for (char& c : text) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  }
+  return text;
+}
+
+/// What other tools and languages call a type or a course.
+std::string meant_word(const std::string& word) {
+  static const std::map<std::string, const char*> kOthers = {
+      {"int", "Int32"},         {"integer", "Int32"},   {"short", "Int16"},
+      {"long", "Int64"},        {"uint", "UInt32"},     {"unsigned", "UInt32"},
+      {"byte", "UInt8"},        {"float", "Float64"},   {"double", "Float64"},
+      {"real", "Float64"},      {"number", "Float64"},  {"single", "Float32"},
+      {"bool", "Boolean"},      {"logical", "Boolean"}, {"str", "String"},
+      {"text", "String"},       {"bytes", "Binary"},    {"hex", "Binary"},
+      {"held", "hold"},         {"previous", "hold"},   {"step", "hold"},
+      {"discrete", "hold"},     {"constant", "hold"},   {"interpolated", "linear"},
+      {"continuous", "linear"}, {"events", "event"},    {"message", "event"}};
+  const std::string small = lower_case(word);
+  for (const char* course : {"linear", "hold", "event"}) {
+    if (small == course) return course;
+  }
+  for (const char* type : stride::kTypeNames) {
+    if (small == lower_case(type) && value_type_named(type)) return type;
+  }
+  const auto found = kOthers.find(small);
+  return found == kOthers.end() ? "" : found->second;
+}
+
+[[noreturn]] void refuse_word(const std::string& word) {
+  const std::string meant = meant_word(word);
+  throw std::invalid_argument(
+      "'" + word + "' behind the colon is neither a type nor a course; " +
+      (meant.empty() ? "expected NAME [UNIT]: TYPE COURSE, with a type of FMI 3.0 such as Float64, "
+                       "Int32, Boolean or String, and linear, hold or event"
+                     : "did you mean '" + meant + "'?"));
+}
+
+void read_words(const std::string& text, Heading& heading) {
   std::istringstream words(text);
-  bool has_any = false;
-  for (std::string word; words >> word; has_any = true) {
+  for (std::string word; words >> word;) {
     const auto type = value_type_named(word);
     const auto course = course_named(word);
-    if (!type && !course) return false;
-    if (type ? heading.type.has_value() : heading.course.has_value()) return false;
+    if (!type && !course) refuse_word(word);
+    if (type ? heading.type.has_value() : heading.course.has_value()) {
+      throw std::invalid_argument("'" + word + "' is a second " + (type ? "type" : "course") +
+                                  "; expected one");
+    }
     if (type) heading.type = type;
     if (course) heading.course = course;
   }
-  return has_any;
 }
 
-/// The text before a colon with such words behind it.
+/// The text before the colon, if there is one outside of single quotes.
 std::string without_words(const std::string& text, Heading& heading) {
-  const std::size_t colon = text.rfind(':');
-  Heading read;
-  if (colon == std::string::npos || !read_words(text.substr(colon + 1), read)) return text;
-  heading = read;
-  return text.substr(0, colon);
+  bool is_quoted = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] == '\'') is_quoted = !is_quoted;
+    if (text[i] != ':' || is_quoted) continue;
+    read_words(text.substr(i + 1), heading);
+    return text.substr(0, i);
+  }
+  return text;
 }
 
 /// Takes "[UNIT]" off the end; an index of an array follows its name without a blank.
@@ -64,6 +102,34 @@ void take_unit(std::string& text, std::string& unit) {
   text = trimmed(std::string_view(text).substr(0, bracket));
 }
 
+/// "speed (m/s)" or "speed[m/s]", which is "speed [m/s]"; empty for other names.
+std::string with_unit_apart(const std::string& name) {
+  const std::size_t open = name.find_first_of("([");
+  if (open == std::string::npos || open == 0) return "";
+  const char close = name[open] == '(' ? ')' : ']';
+  if (name.back() != close || open + 2 >= name.size()) return "";
+  const std::string before = trimmed(std::string_view(name).substr(0, open));
+  if (!stride::is_structured_name(before)) return "";
+  return before + " [" + name.substr(open + 1, name.size() - open - 2) + "]";
+}
+
+void check_name(const std::string& name) {
+  if (name.empty()) throw std::invalid_argument("a column has no name");
+  if (name == kTimeName) {
+    throw std::invalid_argument("'time' is the name of the first column; expected another one");
+  }
+  if (stride::is_structured_name(name)) return;
+  if (const std::string meant = with_unit_apart(name); !meant.empty()) {
+    throw std::invalid_argument("'" + name + "' is not a name; did you mean '" + meant +
+                                "'? A unit of measure stands in brackets, behind a blank");
+  }
+  const std::string quoted = "'" + name + "'";
+  throw std::invalid_argument(
+      "\"" + name +
+      "\" is not a name of FMI; expected parts of letters, digits and '_', joined by dots" +
+      (stride::is_structured_name(quoted) ? ", or anything else in single quotes: " + quoted : ""));
+}
+
 }  // namespace
 
 Heading parse_heading(const std::string& text) {
@@ -71,7 +137,7 @@ Heading parse_heading(const std::string& text) {
   std::string rest = trimmed(without_words(text, heading));
   take_unit(rest, heading.unit);
   heading.name = rest;
-  if (heading.name.empty()) throw std::invalid_argument("a column has no name");
+  check_name(heading.name);
   return heading;
 }
 
@@ -87,7 +153,7 @@ std::int64_t parse_time_heading(const std::string& text) {
   std::string unit;
   take_unit(name, unit);
   const auto found = kUnits.find(unit);
-  if ((name == "time" || name == "Time") && found != kUnits.end()) return found->second;
+  if ((name == kTimeName || name == "Time") && found != kUnits.end()) return found->second;
   throw std::invalid_argument("the first column is '" + text +
                               "'; expected 'time', in seconds, or 'time [UNIT]' with s, ms, us, "
                               "ns, min or h");

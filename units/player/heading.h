@@ -24,8 +24,9 @@ struct Heading {
   std::optional<Course> course;
 };
 
-/// Reads "NAME", "NAME [UNIT]", and either followed by ": TYPE COURSE", or one of the two. What
-/// follows a colon and is no such word belongs to the name. Throws std::invalid_argument.
+/// Reads "NAME", "NAME [UNIT]", and either followed by ": TYPE COURSE", or one of the two, in any
+/// order. The name is a structured one of FMI. Throws std::invalid_argument that says how to write
+/// what was meant.
 Heading parse_heading(const std::string& text);
 
 /// That of the first column, "time" or "time [UNIT]": how many picoseconds its unit has. Throws

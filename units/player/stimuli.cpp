@@ -46,7 +46,9 @@ class Reader {
   Stimuli read() {
     read_head();
     while (next_row()) {
-      if (read_row()) return std::move(result_);
+      if (!read_row()) continue;
+      result_.begin = result_.start();
+      return std::move(result_);
     }
     rows_.fail(
         "the file is cut off: its end mark is missing; capture again, or end it with a line "

@@ -55,6 +55,7 @@ struct Stimuli {
   std::vector<Entry> entries;  ///< in the order of the file; the last one is the End
   std::string ending;          ///< why the run ended
   bool is_table = false;       ///< none of this was captured: there is no unit, and no step
+  stride::Time begin{};        ///< that of the first row
 
   stride::Time start() const { return entries.front().time; }
   stride::Time end() const { return entries.back().time; }

@@ -1,5 +1,6 @@
 #include "units/player/table.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <map>
@@ -29,12 +30,70 @@ struct Column {
 
 bool is_number(const std::string& text) {
   double number = 0;
-  const char* const last = text.data() + text.size();
-  const auto [end, mistake] = std::from_chars(text.data(), last, number);
+  const std::string plain = plain_value(Type::Float64, text);
+  const char* const last = plain.data() + plain.size();
+  const auto [end, mistake] = std::from_chars(plain.data(), last, number);
   return mistake == std::errc() && end == last;
 }
 
-bool is_truth(const std::string& text) { return text == "true" || text == "false"; }
+/// 0 and 1 are numbers.
+bool is_truth(const std::string& text) {
+  const std::string plain = plain_value(Type::Boolean, text);
+  return (plain == "true" || plain == "false") && !is_number(text);
+}
+
+/// What the values of a column look like that does not name its type.
+class Looks {
+ public:
+  void add(const std::string& text, int line, bool is_quoted) {
+    Kind& kind = is_number(text) ? number_ : is_truth(text) ? truth_ : other_;
+    if (kind.line == 0) kind = {line, text};
+    has_bare_value_ |= !is_quoted && &kind != &other_;
+  }
+
+  /// Boolean or Float64 if all of them are such values, else String. Throws std::invalid_argument
+  /// for a column of several kinds, unless quotation marks say that it is text.
+  Type type() const {
+    const Kind* const kinds[] = {&number_, &truth_, &other_};
+    std::vector<const Kind*> seen;
+    for (const Kind* kind : kinds) {
+      if (kind->line != 0) seen.push_back(kind);
+    }
+    if (seen.size() > 1 && has_bare_value_) refuse(seen);
+    if (seen.size() > 1 || other_.line != 0) return Type::String;
+    return truth_.line != 0 ? Type::Boolean : Type::Float64;
+  }
+
+  struct Mixture : std::invalid_argument {
+    Mixture(int where, const std::string& text) : std::invalid_argument(text), line(where) {}
+    int line;
+  };
+
+ private:
+  struct Kind {
+    int line = 0;  ///< of the first one; 0: there is none
+    std::string text{};
+  };
+
+  [[noreturn]] void refuse(std::vector<const Kind*> seen) const {
+    std::sort(seen.begin(), seen.end(),
+              [](const Kind* a, const Kind* b) { return a->line < b->line; });
+    const Kind &first = *seen.front(), &odd = *seen[1];
+    const char* const name = &first == &number_  ? "a number"
+                             : &first == &truth_ ? "true or false"
+                                                 : "text";
+    const bool has_comma = &odd == &other_ && odd.text.find(',') != std::string::npos;
+    throw Mixture(odd.line, "'" + odd.text + "' is not " + name + " as '" + first.text +
+                                "' in line " + std::to_string(first.line) + " is; " +
+                                (has_comma ? "expected a decimal point; " : "") +
+                                "leave the field empty if there is no value, or write ': " +
+                                (other_.line == 0 ? "Boolean" : "String") +
+                                "' behind the heading if all of them are meant so");
+  }
+
+  Kind number_, truth_, other_;
+  bool has_bare_value_ = false;  ///< without quotation marks, and not text anyhow
+};
 
 /// Of the last value and the one before it.
 bool ends_with_change(const Values& values) {
@@ -79,7 +138,8 @@ class TableReader {
     complete_types();
     for (std::size_t i = 0; i < columns_.size(); ++i) in_column(i, [&] { add_input(i); });
     while (next_row()) read_row();
-    for (std::size_t i = 0; i < columns_.size(); ++i) in_column(i, [&] { finish_column(i); });
+    if (is_first_) rows_.fail_at(1, "the table has headings, and no rows");
+    for (std::size_t i = 0; i < columns_.size(); ++i) finish_column(i);
     result_.entries.push_back(entry(Entry::Kind::End, 0));
     result_.ending = "completed";
     return std::move(result_);
@@ -89,40 +149,77 @@ class TableReader {
   // ---- The headings ----
 
   void read_headings() {
+    refuse_other_files();
     if (!rows_.next()) rows_.fail("the table is empty; expected a line of headings");
     const auto& fields = rows_.fields();
+    refuse_other_separators(fields);
     checked([&] { ticks_ = parse_time_heading(fields[0]); });
-    if (fields.size() == 1) rows_.fail("the table has no column behind 'time', or no commas");
-    for (std::size_t i = 1; i < fields.size(); ++i) {
-      checked([&] { columns_.push_back({parse_heading(fields[i])}); });
-      const std::string& name = columns_.back().heading.name;
-      const auto [first, is_new] = places_.emplace(name, i);
-      if (!is_new) {
-        rows_.fail("columns " + std::to_string(first->second + 1) + " and " +
-                   std::to_string(i + 1) + " have one name, '" + name + "'");
-      }
+    if (fields.size() == 1) {
+      rows_.fail("the table has no column behind 'time'; expected others, separated by commas");
+    }
+    for (std::size_t i = 1; i < fields.size(); ++i) read_heading(i, fields[i]);
+  }
+
+  void read_heading(std::size_t i, const std::string& field) {
+    const std::string place = "column " + std::to_string(i + 1);
+    try {
+      columns_.push_back({parse_heading(field)});
+    } catch (const std::invalid_argument& mistake) {
+      rows_.fail(place + ": " + mistake.what());
+    }
+    const std::string& name = columns_.back().heading.name;
+    const auto [first, is_new] = places_.emplace(name, i);
+    if (is_new) return;
+    rows_.fail("columns " + std::to_string(first->second + 1) + " and " + std::to_string(i + 1) +
+               " have one name, '" + name + "'");
+  }
+
+  /// Tables that are none in UTF-8 with line feeds.
+  void refuse_other_files() const {
+    const std::string mark = text_.substr(0, 2);
+    if (mark == "\xff\xfe" || mark == "\xfe\xff") {
+      rows_.fail_at(1, "the file is in UTF-16; expected UTF-8: save it as 'CSV UTF-8'");
+    }
+    if (text_.find('\n') + 1 < text_.size() || text_.find('\r') == std::string::npos) return;
+    if (text_.find('\r') + 2 >= text_.size()) return;
+    rows_.fail_at(1,
+                  "the lines end with a carriage return alone, as on an old Macintosh; expected a "
+                  "line feed, alone or behind it: save it as CSV with the line ends of Unix or "
+                  "Windows");
+  }
+
+  void refuse_other_separators(const std::vector<std::string>& fields) const {
+    if (fields.size() > 1) return;
+    for (const auto& [separator, name] : {std::pair{';', "';'"}, {'\t', "tabs"}, {'|', "'|'"}}) {
+      if (fields[0].find(separator) == std::string::npos) continue;
+      rows_.fail(std::string("the fields are separated by ") + name +
+                 "; expected commas, and numbers with a decimal point: save it with the separator "
+                 "',', or convert it, as by pandas.read_csv(FILE, sep=…, decimal=…).to_csv(…)");
     }
   }
 
-  /// Of columns that do not name one: Boolean or Float64 if all of their values are, else String.
   void complete_types() {
-    std::vector<bool> numbers(columns_.size(), true), truths(columns_.size(), true);
+    std::vector<Looks> looks(columns_.size());
     for (CsvRows rows(text_, file_); rows.next();) {
       if (rows.line() == rows_.line()) continue;
       for (std::size_t i = 0; i < columns_.size() && i + 1 < rows.fields().size(); ++i) {
         const std::string& field = rows.fields()[i + 1];
-        if (field.empty() && !rows.is_quoted(i + 1)) continue;
-        numbers[i] = numbers[i] && is_number(field);
-        truths[i] = truths[i] && is_truth(field);
+        const bool is_quoted = rows.is_quoted(i + 1);
+        if (is_quoted || !trimmed(field).empty()) looks[i].add(field, rows.line(), is_quoted);
       }
     }
     for (std::size_t i = 0; i < columns_.size(); ++i) {
       Heading& heading = columns_[i].heading;
-      if (!heading.type) {
-        heading.type = truths[i] ? Type::Boolean : numbers[i] ? Type::Float64 : Type::String;
-        if (numbers[i] && truths[i]) heading.type = Type::Float64;  // it has no value at all
-      }
+      if (!heading.type) heading.type = type_of(looks[i], heading.name);
       if (!heading.course) heading.course = is_real(i) ? Course::Linear : Course::Hold;
+    }
+  }
+
+  Type type_of(const Looks& looks, const std::string& name) const {
+    try {
+      return looks.type();
+    } catch (const Looks::Mixture& mixture) {
+      rows_.fail_at(mixture.line, "column '" + name + "': " + mixture.what());
     }
   }
 
@@ -192,12 +289,12 @@ class TableReader {
 
   void read_time() {
     stride::Time time;
-    checked([&] { time = parse_time(rows_.fields()[0]); });
+    checked([&] { time = parse_time(plain_value(Type::Float64, rows_.fields()[0])); });
     if (!is_first_ && time < time_) {
       rows_.fail("column 'time': " + rows_.fields()[0] + " is before the time of the line above");
     }
     time_ = time;
-    is_first_ = false;
+    if (std::exchange(is_first_, false)) result_.begin = time;
   }
 
   stride::Time parse_time(const std::string& text) const {
@@ -212,10 +309,11 @@ class TableReader {
     throw std::invalid_argument("column 'time': '" + text + "' is not a time; expected a number");
   }
 
-  bool has_field(std::size_t i) const {
-    return !rows_.fields()[i + 1].empty() || rows_.is_quoted(i + 1);
+  bool has_field(std::size_t i) const { return rows_.is_quoted(i + 1) || !field(i).empty(); }
+  /// In a form that can be read; blanks are a value of a String only.
+  std::string field(std::size_t i) const {
+    return plain_value(*columns_[i].heading.type, rows_.fields()[i + 1]);
   }
-  const std::string& field(std::size_t i) const { return rows_.fields()[i + 1]; }
 
   void read_value(std::size_t i) {
     Column& column = columns_[i];
@@ -229,6 +327,8 @@ class TableReader {
   }
 
   void add_point(std::size_t i, Input& input) {
+    Values own = values_of(input.type);
+    append_parsed(own, input.type, field(i));  // which has the range of its type
     Values number = values_of(Type::Float64);
     append_parsed(number, Type::Float64, field(i));
     const double value = std::get<std::vector<double>>(number).front();
@@ -280,7 +380,9 @@ class TableReader {
   }
 
   void finish_column(std::size_t i) {
-    if (!columns_[i].has_value) throw std::invalid_argument("the column has no value");
+    if (!columns_[i].has_value) {
+      rows_.fail_at(1, "column '" + columns_[i].heading.name + "' has no value in any row");
+    }
     Input& input = result_.inputs[columns_[i].input];
     if (!input.curve) return;
     append_nothing(input.values);  // the unit shows its curve

@@ -70,6 +70,8 @@ class PlayerUnit : public stride::Unit {
     auto& info = describe(origin_text());
     info.split_invariant = true;
     info.promises_idle = true;
+    if (has_values() && stimuli_.begin != stride::Time{}) info.default_start = stimuli_.begin;
+    if (stimuli_.begin < stimuli_.end()) info.default_stop = stimuli_.end();
     for (std::size_t i = 0; i < stimuli_.inputs.size(); ++i) list_clock(i);
     for (std::size_t i = 0; i < stimuli_.inputs.size(); ++i) list_value(i);
     state(playback_.position());
@@ -133,6 +135,13 @@ class PlayerUnit : public stride::Unit {
     if (stimuli_.is_table) return "Plays a table of values over time";
     return "Plays to '" + stimuli_.unit + "' what '" + stimuli_.component + "' received in '" +
            stimuli_.system + "'";
+  }
+
+  /// Outside of messages, so that it says something of each instant.
+  bool has_values() const {
+    return std::any_of(stimuli_.inputs.begin(), stimuli_.inputs.end(), [](const auto& input) {
+      return !input.clock && input.type != player::Type::Clock;
+    });
   }
 
   bool has_clock() const {

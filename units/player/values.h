@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -25,6 +26,14 @@ Type type_named(const std::string& name);
 
 /// No values yet, of this type.
 Values values_of(Type type);
+
+/// Without the blanks around it.
+std::string trimmed(std::string_view text);
+
+/// A value as a person or a spreadsheet writes it, in the form that append_parsed() reads: without
+/// blanks around it, "+1" as 1, of a whole number "2.0" as 2, of a Boolean "True" as true and "0"
+/// as false. A String, and what is no such value, is returned as it is.
+std::string plain_value(Type type, const std::string& text);
 
 /// Reads one value and adds it. Throws std::invalid_argument that contains what was expected.
 void append_parsed(Values& values, Type type, const std::string& text);

@@ -1,6 +1,7 @@
 // What the unit player reads.
 #include "tests/fuzz/parser.h"
 #include "units/player/model.h"
+#include "units/player/table.h"
 
 namespace stride::tests {
 namespace {
@@ -25,6 +26,10 @@ void read_stimuli(const std::string& bytes) {
   refusing<std::runtime_error>("x.csv:", [&] { play(player::parse_stimuli(bytes, "x.csv")); });
 }
 
+void read_table(const std::string& bytes) {
+  refusing<std::runtime_error>("x.csv:", [&] { play(player::parse_table(bytes, "x.csv")); });
+}
+
 const Registration kPlayerParsers(
     "player", {
                   {.name = "stimuli",
@@ -32,6 +37,10 @@ const Registration kPlayerParsers(
                    .seed_files = {"tests/fuzz/seeds/stimuli", "units/player/resources/stimuli.csv",
                                   "scenarios/replay_sensor/player/stimuli.csv"},
                    .alphabet = ",\"\n.0123456789-stepnd"},
+                  {.name = "table",
+                   .read = read_table,
+                   .seed_files = {"tests/fuzz/seeds/table"},
+                   .alphabet = ",\"\n\r;: []'.0123456789-+eTrueFalsInt"},
               });
 
 }  // namespace

@@ -27,14 +27,42 @@ TEST_CASE("the words of a heading have any order, and one of them is enough") {
   CHECK(parse_heading("level [V]:linear").course == Course::Linear);
 }
 
-TEST_CASE("what is no such word, and an index of an array, belongs to the name") {
+TEST_CASE("what is in quotes, and an index of an array, belongs to the name") {
   CHECK(parse_heading("'a: b'").name == "'a: b'");
-  CHECK(parse_heading("a: Float64 Float32").name == "a: Float64 Float32");
-  CHECK(parse_heading("a: Enumeration").name == "a: Enumeration");
+  CHECK(parse_heading("'a: b' [m]: Int8").name == "'a: b'");
   const Heading element = parse_heading("pose[1,2] [m]");
   CHECK(element.name == "pose[1,2]");
   CHECK(element.unit == "m");
   CHECK(parse_heading("pose[1]").unit.empty());
+}
+
+TEST_CASE("a heading that is spelt otherwise is refused with what was meant") {
+  const std::pair<const char*, const char*> kMistakes[] = {
+      {"x: int", "'int' behind the colon is neither a type nor a course; did you mean 'Int32'?"},
+      {"x: float64", "did you mean 'Float64'?"},
+      {"x: Bool hold", "did you mean 'Boolean'?"},
+      {"x: STRING", "did you mean 'String'?"},
+      {"x: Linear", "did you mean 'linear'?"},
+      {"x: Float64 held", "did you mean 'hold'?"},
+      {"x: furlong", "expected NAME [UNIT]: TYPE COURSE"},
+      {"x: Enumeration", "'Enumeration' behind the colon is neither"},
+      {"x: Float64 Float32", "'Float32' is a second type; expected one"},
+      {"x: hold linear", "'linear' is a second course; expected one"},
+      {"x[m/s]", "did you mean 'x [m/s]'?"},
+      {"x (m/s)", "did you mean 'x [m/s]'?"},
+      {"x(m/s)", "did you mean 'x [m/s]'?"},
+      {"a b",
+       "expected parts of letters, digits and '_', joined by dots, or anything else in "
+       "single quotes: 'a b'"},
+      {"2nd", "in single quotes: '2nd'"},
+      {"x [", "in single quotes: 'x ['"},
+      {"'", "is not a name of FMI"},
+      {"time", "'time' is the name of the first column"},
+      {"time [ms]", "'time' is the name of the first column"},
+  };
+  for (const auto& [text, expected] : kMistakes) {
+    CHECK_THROWS_WITH(parse_heading(text), Contains(expected));
+  }
 }
 
 TEST_CASE("a heading without a name is refused") {

@@ -41,6 +41,34 @@ TEST_CASE("the types of columns follow from their values") {
   CHECK(stimuli.end() == time_from_seconds(10));
 }
 
+TEST_CASE("values may have blanks around them, and the forms that other programs write") {
+  const Stimuli stimuli = table(
+      "time, speed [m/s] ,door,gear: Int32,lamp: Boolean\n"
+      " 0 , 1.5,True , 1.0,1\n"
+      "+1,\t+2 ,FALSE,  ,0\n"
+      "2,   ,false,2,\n");
+  CHECK(stimuli.inputs[0].name == "speed");
+  CHECK(stimuli.inputs[0].type == Type::Float64);
+  CHECK(stimuli.inputs[0].curve->at(time_from_seconds(0.5)).value == 1.75);
+  CHECK(std::get<std::vector<bool>>(stimuli.inputs[1].values) == std::vector<bool>{true, false});
+  CHECK(std::get<std::vector<std::int32_t>>(stimuli.inputs[2].values) ==
+        std::vector<std::int32_t>{1, 2});
+  CHECK(std::get<std::vector<bool>>(stimuli.inputs[3].values) == std::vector<bool>{true, false});
+}
+
+TEST_CASE("a column of texts may have numbers where it says so, or they are in quotation marks") {
+  for (const char* text : {"time,id: String\n0,12\n1,A7\n", "time,id\n0,\"12\"\n1,\"A7\"\n"}) {
+    CHECK(std::get<std::vector<std::string>>(table(text).inputs[0].values) ==
+          std::vector<std::string>{"12", "A7"});
+  }
+  CHECK(table("time,u\n0,\"1\"\n1,\"2\"\n").inputs[0].type == Type::Float64);
+}
+
+TEST_CASE("the first row is the beginning, also where its values come later") {
+  CHECK(table("time,u\n2,\n3,1\n").begin == time_from_seconds(2));
+  CHECK(table("time,u\n-2,1\n").begin == time_from_seconds(-2));
+}
+
 TEST_CASE("a held column has an entry where its value changes") {
   const Stimuli stimuli = table("time [ms],gear:Int8\n0,1\n5,1\n7,2\n8,\n9,3\n");
   REQUIRE(kinds_of(stimuli) ==
@@ -73,6 +101,16 @@ TEST_CASE("a second row of the same time is a jump of a line") {
   CHECK(stimuli.entries[0].event == 1);
 }
 
+TEST_CASE("a second row of the same time is a jump of a held value") {
+  const Stimuli stimuli = table("time,k:Int32\n0,0\n1,2\n1,5\n2,5\n");
+  REQUIRE(kinds_of(stimuli) ==
+          std::vector{Entry::Kind::Value, Entry::Kind::Value, Entry::Kind::End});
+  CHECK(stimuli.entries[0].time == time_from_seconds(1));
+  CHECK(stimuli.entries[1].time == time_from_seconds(1));
+  CHECK(std::get<std::vector<std::int32_t>>(stimuli.inputs[0].values) ==
+        std::vector<std::int32_t>{0, 2, 5});
+}
+
 TEST_CASE("times are exact to the picosecond, and may be before the start") {
   const Stimuli stimuli = table("time,k:Int32\n-1.5,0\n0.1,1\n1e-1,2\n14.200358702064,3\n");
   CHECK(stimuli.entries[0].time == stride::Time(stride::Duration(100'000'000'000)));
@@ -84,8 +122,14 @@ TEST_CASE("mistakes in a table have the line and the column") {
   const std::pair<const char*, const char*> kMistakes[] = {
       {"", "x.csv:1: the table is empty"},
       {"t,u\n0,1\n", "x.csv:1: the first column is 't'"},
-      {"time;u\n0;1\n", "x.csv:1: the first column is 'time;u'"},
+      {"time;u\n0;1\n", "x.csv:1: the fields are separated by ';'; expected commas"},
+      {"time\tu\n0\t1\n", "x.csv:1: the fields are separated by tabs; expected commas"},
+      {"time,u\r0,1\r1,2\r", "x.csv:1: the lines end with a carriage return alone"},
+      {"\xff\xfet", "x.csv:1: the file is in UTF-16; expected UTF-8"},
       {"time\n0\n", "x.csv:1: the table has no column"},
+      {"time,u\n", "x.csv:1: the table has headings, and no rows"},
+      {"time,u,x: int\n0,1,2\n", "x.csv:1: column 3: 'int' behind the colon"},
+      {"time,time\n0,1\n", "x.csv:1: column 2: 'time' is the name of the first column"},
       {"time,u,v,u\n0,1,2,3\n", "x.csv:1: columns 2 and 4 have one name, 'u'"},
       {"time,k: Int32 linear\n0,1\n", "x.csv:1: column 'k': only Float64 and Float32"},
       {"time,k: Int32 event\n0,1\n", "x.csv:1: column 'k': expected a name such as 'k.value'"},
@@ -98,7 +142,15 @@ TEST_CASE("mistakes in a table have the line and the column") {
       {"time,u:Float64\n0,1\n1,x\n", "x.csv:3: column 'u': 'x' is not a valid Float64"},
       {"time,k:Int8\n0,1\n1,128\n", "x.csv:3: column 'k': '128' is not a valid Int8"},
       {"time,u\n0,nan\n", "x.csv:2: column 'u': 'nan' is not finite"},
-      {"time,u,v\n0,1,\n", "column 'v': the column has no value"},
+      {"time,u,v\n0,1,\n1,1,\n", "x.csv:1: column 'v' has no value in any row"},
+      {"time,u:Float32\n0,1e39\n", "x.csv:2: column 'u': '1e39' is not a valid Float32"},
+      {"time,u\n0,1\n1,\n2,n/a\n3,2\n",
+       "x.csv:4: column 'u': 'n/a' is not a number as '1' in line 2 is; leave the field empty if "
+       "there is no value, or write ': String' behind the heading"},
+      {"time,u\n0,1\n1,\"1,5\"\n", "x.csv:3: column 'u': '1,5' is not a number"},
+      {"time,u\n0,x\n1,2\n", "x.csv:3: column 'u': '2' is not text as 'x' in line 2 is"},
+      {"time,b\n0,1\n1,true\n", "or write ': Boolean' behind the heading"},
+      {"time,k:Int32\n0,1.5\n", "x.csv:2: column 'k': '1.5' is not a valid Int32"},
       {"time,f.a:Int8 event,f.b:Int8 event\n0,1,\n", "x.csv:2: column 'f.b': the message has"},
   };
   for (const auto& [text, expected] : kMistakes) {

@@ -1,4 +1,5 @@
 // The player seen by an importer.
+#include <algorithm>
 #include <stdexcept>
 #include <string>
 
@@ -44,6 +45,21 @@ TEST_CASE("without stimuli, or with bad ones, the error has what is expected") {
                     Contains("stimuli.csv:20: 'x' is not a valid Float64"));
 }
 
+TEST_CASE("the first and the last row are where a run begins and ends") {
+  const UnitLibrary library(unit_library("player"));
+  const auto experiment = [&](const char* table) {
+    const Resources resources(table);
+    const std::string xml = library.describe(resources.path());
+    const std::size_t begin = std::min(xml.find("<DefaultExperiment"), xml.size());
+    return xml.substr(begin, begin < xml.size() ? xml.find("/>", begin) - begin : 0);
+  };
+  CHECK(experiment("time,u\n0,1\n10,2\n") == "<DefaultExperiment stopTime=\"10\"");
+  CHECK(experiment("time [min],u\n-1,1\n1,2\n") ==
+        "<DefaultExperiment startTime=\"-60\" stopTime=\"60\"");
+  CHECK(experiment("time,f.a:Int8 event\n1,1\n2,2\n") == "<DefaultExperiment stopTime=\"2\"");
+  CHECK(experiment("time,u\n0,1\n") == "");
+}
+
 TEST_CASE("a table's columns are outputs; lines are continuous, with a tangent") {
   const UnitLibrary library(unit_library("player"));
   const Resources resources("time,car.speed [m/s],gear: Int32\n0,72,1\n10,100,2\n");
@@ -52,8 +68,10 @@ TEST_CASE("a table's columns are outputs; lines are continuous, with a tangent")
   CHECK(attribute(xml, "name=\"car.speed\"", "unit") == "m/s");
   CHECK(attribute(xml, "name=\"gear\"", "variability") == "discrete");
   CHECK(xml.find("captured.unit") == std::string::npos);
-  const Resources bad("time,u\n0,1\n1,\"a\"\n");
-  CHECK_NOTHROW(library.describe(bad.path()));  // a text
+  const Resources texts("time,u: String\n0,1\n1,\"a\"\n");
+  CHECK_NOTHROW(library.describe(texts.path()));
+  const Resources mixed("time,u\n0,1\n1,\"a\"\n");
+  CHECK_THROWS_WITH(library.describe(mixed.path()), Contains("stimuli.csv:3: column 'u': 'a'"));
   const Resources twice("time,u,u\n0,1,2\n");
   CHECK_THROWS_WITH(library.describe(twice.path()), Contains("stimuli.csv:1: columns 2 and 3"));
 }

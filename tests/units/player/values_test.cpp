@@ -68,3 +68,25 @@ TEST_CASE("types have the names of FMI 3.0") {
   CHECK_THROWS_WITH(type_named("Real"),
                     Catch::Contains("'Real' is not a type; expected Float32, "));
 }
+
+TEST_CASE("a value has the form in which it is read, where it can be meant in one way only") {
+  CHECK(plain_value(Type::Float64, " 1.5\t") == "1.5");
+  CHECK(plain_value(Type::Float64, "+1e3") == "1e3");
+  CHECK(plain_value(Type::Float64, "+-1") == "+-1");
+  CHECK(plain_value(Type::Float32, "2.0") == "2.0");
+  CHECK(plain_value(Type::Int32, "2.0") == "2");
+  CHECK(plain_value(Type::UInt8, "-1e1") == "-10");
+  CHECK(plain_value(Type::Int64, "2.5") == "2.5");
+  CHECK(plain_value(Type::Int64, "9007199254740993") == "9007199254740993");
+  CHECK(plain_value(Type::UInt64, "1e300") == "1e300");
+  CHECK(plain_value(Type::Int8, "nan") == "nan");
+  for (const char* text : {"true", " True", "TRUE ", "1"}) {
+    CHECK(plain_value(Type::Boolean, text) == "true");
+  }
+  for (const char* text : {"false", "False", "FALSE", "0"}) {
+    CHECK(plain_value(Type::Boolean, text) == "false");
+  }
+  CHECK(plain_value(Type::Boolean, "yes") == "yes");
+  CHECK(plain_value(Type::Binary, " 0aff ") == "0aff");
+  CHECK(plain_value(Type::String, " a ") == " a ");
+}
