@@ -170,7 +170,8 @@ void add_inspect(CLI::App& app) {
   const auto file = std::make_shared<std::filesystem::path>();
   command
       ->add_option("FILE", *file,
-                   "A .fmu, its unpacked folder, a .so of the unit kit, a table (.csv), or an SSP "
+                   "A .fmu, its unpacked folder, a .so of the unit kit, a table (.csv, .parquet, "
+                   ".mcap), or an SSP "
                    "system file (.ssd) or package (.ssp)")
       ->required()
       ->type_name("");

@@ -117,9 +117,9 @@ void add_pack(CLI::App& app) {
   command
       ->add_option(
           "FILE", request->library,
-          "The unit's shared library (.so) or .fmu, captured stimuli or a table (.csv), the "
-          "declaration of a program (.xml), or a scenario (.ssd; .ssp with all systems in it, or "
-          "FILE.ssp/VARIANT.ssd; or the name of one that comes with stride)")
+          "The unit's shared library (.so) or .fmu, captured stimuli or a table (.csv, .parquet, "
+          ".mcap), the declaration of a program (.xml), or a scenario (.ssd; .ssp with all systems "
+          "in it, or FILE.ssp/VARIANT.ssd; or the name of one that comes with stride)")
       ->required()
       ->type_name("");
   command->add_option("--output,--out,-o", request->output, "The .fmu or .ssp to write")

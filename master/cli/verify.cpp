@@ -6,6 +6,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -16,9 +17,12 @@
 #include "master/cli/interruption.h"
 #include "master/cli/output.h"
 #include "master/cli/table.h"
+#include "master/scenario/file_units.h"
 #include "master/scenario/unit_path.h"
 #include "master/settings/parse_option.h"
+#include "master/util/archive/temporary_folder.h"
 #include "master/util/error.h"
+#include "master/util/input_file.h"
 #include "master/util/number_text.h"
 #include "master/util/output_file.h"
 #include "master/util/time_text.h"
@@ -65,6 +69,11 @@ void run(const Options& options) {
   verify::VerifyRequest request = options.request;
   request.file = scenario::find_unit(request.file, {});
   const CrashGuard guard;
+  const archive::TemporaryFolder folder;
+  if (!core::is_folder(request.file) && scenario::is_stimuli(request.file)) {
+    request.shown_as = std::exchange(request.file, folder.path() / "player.fmu");
+    scenario::pack_stimuli({request.shown_as, {}, {}, request.file});
+  }
   const verify::TestedUnit tested(std::move(request));
   const LimitedEnd end;
   std::optional<core::OutputFile> json;
@@ -142,7 +151,9 @@ void add_verify(CLI::App& app) {
       app.add_subcommand("verify", "Test whether a single unit keeps what it declares");
   const auto options = std::make_shared<Options>();
   verify::VerifyRequest& request = options->request;
-  command->add_option("FILE", request.file, "An FMU: a .fmu, or its unpacked folder")
+  command
+      ->add_option("FILE", request.file,
+                   "An FMU: a .fmu, or its unpacked folder; or a table (.csv, .parquet, .mcap)")
       ->required()
       ->type_name("");
   command

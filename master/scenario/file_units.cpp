@@ -9,11 +9,13 @@
 
 #include <fmt/format.h>
 
+#include "master/scenario/foreign_table.h"
 #include "master/scenario/unit_path.h"
 #include "master/util/archive/temporary_folder.h"
 #include "master/util/error.h"
 #include "master/util/input_file.h"
 #include "master/util/output_file.h"
+#include "master/util/table_file.h"
 #include "master/util/xml/document.h"
 
 namespace stride::scenario {
@@ -57,7 +59,11 @@ bool is_captured(const fs::path& path) {
 std::vector<std::string> pack_stimuli_as(const fs::path& shown_as, importer::PackRequest request) {
   const archive::TemporaryFolder resources;
   const fs::path copy = resources.path() / "stimuli.csv";
-  core::copy_input(request.library, copy);
+  if (core::is_foreign_table_name(request.library)) {
+    write_as_csv(request.library, copy, shown_as);
+  } else {
+    core::copy_input(request.library, copy);
+  }
   const std::string table = is_captured(request.library) ? "" : shown_as.stem().string();
   request.library = shown_as;
   return pack_unit("player", resources.path(), copy, request, table);
@@ -110,12 +116,13 @@ ProgramFiles program_files(const fs::path& declaration) {
 
 }  // namespace
 
-bool is_stimuli(const fs::path& path) { return path.extension() == ".csv" || is_captured(path); }
+bool is_stimuli(const fs::path& path) { return core::is_table_name(path) || is_captured(path); }
 
 std::vector<std::string> pack_stimuli(const importer::PackRequest& request) {
   require_no_resources(request, "stimuli are", "player");
   return pack_stimuli_as(request.library, request);
 }
+
 std::shared_ptr<importer::Fmu> load_unit(const fs::path& path, const core::Location& where,
                                          const fs::path& shown_as) {
   if (!core::is_file(path) || !is_stimuli(path)) return importer::Fmu::load(path, where, shown_as);

@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include "master/importer/pack.h"
+#include "master/scenario/file_units.h"
 #include "master/scenario/unit_path.h"
 #include "master/util/archive/zip.h"
 #include "master/util/input_file.h"
+#include "master/util/table_file.h"
 
 namespace stride::scenario {
 
@@ -13,10 +15,13 @@ std::filesystem::path FmuArchives::operator()(const std::filesystem::path& sourc
                                               const core::Location& where) {
   const std::filesystem::path unit = find_unit(source, where);
   const bool is_library = unit.extension() == ".so";
-  if (!is_library && !core::is_folder(unit)) return unit;
+  const bool is_table = core::is_foreign_table_name(unit) && !core::is_folder(unit);
+  if (!is_library && !is_table && !core::is_folder(unit)) return unit;
   const std::filesystem::path made = folder_.path() / fmt::format("{}.fmu", ++count_);
   if (is_library) {
     importer::pack({unit, {}, {}, made});
+  } else if (is_table) {  // which needs Python, and perhaps not everywhere has it
+    pack_stimuli({unit, {}, {}, made});
   } else {
     archive::Contents contents;
     archive::add_folder(contents, "", unit);

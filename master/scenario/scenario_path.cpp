@@ -23,12 +23,13 @@ bool can_be_name(const fs::path& path) {
 
 /// A file beside which its ending was left out, or a scenario that comes with stride.
 std::string hint_for(const std::string& name, const fs::path& folder) {
-  for (const char* ending : {".ssd", ".ssp", ".fmu"}) {
+  for (const char* ending : {".ssd", ".ssp", ".fmu", ".csv", ".parquet", ".mcap"}) {
     if (core::path_exists(name + ending)) return fmt::format("did you mean '{}{}'?", name, ending);
   }
   const std::vector<std::string> names = scenario_names(folder);
-  return names.empty() ? "name a system file (.ssd), a package (.ssp) or an FMU (.fmu)"
-                       : core::suggestion(name, names);
+  return names.empty()
+             ? "name a system file (.ssd), a package (.ssp), an FMU (.fmu) or a table (.csv)"
+             : core::suggestion(name, names);
 }
 
 }  // namespace

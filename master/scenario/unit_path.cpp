@@ -7,18 +7,20 @@
 #include "master/util/input_file.h"
 #include "master/util/program_root.h"
 #include "master/util/suggest.h"
+#include "master/util/table_file.h"
 
 namespace stride::scenario {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// The FMUs in the folders, for suggestions.
+/// The FMUs in the folders, and the tables in the first one, for suggestions.
 std::vector<std::string> known_units(const std::vector<fs::path>& folders) {
   std::vector<std::string> names;
   for (const fs::path& folder : folders) {
     for (const fs::path& unit : core::folder_entries(folder)) {
       const bool is_unit = unit.extension() == ".fmu" || unit.extension() == ".so" ||
+                           (core::is_table_name(unit) && &folder == folders.data()) ||
                            core::path_exists(unit / "modelDescription.xml");
       if (is_unit) names.push_back(unit.filename().string());
     }

@@ -178,8 +178,10 @@ void add_scenario_argument(CLI::App& command, std::filesystem::path& scenario,
 }
 
 void add_scenario_options(CLI::App& command, scenario::ScenarioRequest& request) {
-  add_scenario_argument(command, request.scenario,
-                        "An SSP system file (.ssd) or package (.ssp), an FMU (.fmu) alone");
+  add_scenario_argument(
+      command, request.scenario,
+      "An SSP system file (.ssd) or package (.ssp), an FMU (.fmu) or a table (.csv, "
+      ".parquet, .mcap) alone");
   command.add_option("--start", request.start, "Simulated time at which to begin")
       ->type_name("SECONDS");
   command.add_option("--stop", request.stop, "Simulated time at which to end")

@@ -17,6 +17,7 @@
 #include "master/util/loose_path.h"
 #include "master/util/lower_case.h"
 #include "master/util/suggest.h"
+#include "master/util/table_file.h"
 
 namespace stride::ssp {
 namespace {
@@ -150,6 +151,7 @@ fs::path Files::scenario_file(const fs::path& path) {
 bool Files::is_unit(const fs::path& path) {
   const std::string extension = core::lower_case(path.extension().string());
   if (extension == ".fmu" || (extension == ".so" && core::is_file(path))) return true;
+  if (core::is_table_name(path) && !core::is_folder(path)) return true;
   const bool is_packed = core::is_file(path) && begins_as_archive(path);
   if (!is_packed && !core::is_folder(path)) return false;
   const fs::path folder = is_packed ? unpack(path, kPackage, {}) : path;

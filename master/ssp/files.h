@@ -34,8 +34,8 @@ class Files {
   std::filesystem::path system_file(const std::filesystem::path& path,
                                     const core::Location& where = {});
   /// The .ssd of a scenario, which a path of the command line names: likewise. An FMU (.fmu, the
-  /// folder that one unpacks to, or a library, .so) is one itself: document() gives a system of it
-  /// alone, with a component of its name.
+  /// folder that one unpacks to, or a library, .so) is one itself, and so is a table (.csv,
+  /// .parquet, .mcap): document() gives a system of it alone, with a component of its name.
   std::filesystem::path scenario_file(const std::filesystem::path& path);
   /// The .ssd files at the top of a package, or of the folder that one unpacks to, in the order of
   /// their names; none for what is no package. The file is one that scenario_file() has found for

@@ -64,7 +64,7 @@ TestedUnit::TestedUnit(VerifyRequest request) : request_(std::move(request)) {
                                  file.string()),
                      "make an FMU of it: stride pack LIBRARY --output FILE.fmu");
   }
-  fmu_ = importer::Fmu::load(file);
+  fmu_ = importer::Fmu::load(file, {}, request_.shown_as);
   system_.emplace(declaration(request_, *fmu_));
   choose_observed();
   choose_times();

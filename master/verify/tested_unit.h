@@ -20,7 +20,8 @@ namespace stride::verify {
 
 /// What the user asks for.
 struct VerifyRequest {
-  std::filesystem::path file{};  ///< a .fmu or its unpacked folder
+  std::filesystem::path file{};      ///< a .fmu or its unpacked folder
+  std::filesystem::path shown_as{};  ///< the file in messages, if that is another one
   std::vector<std::string>
       settings{};                     ///< "variable=value"; an input that is set is not stimulated
   std::vector<std::string> checks{};  ///< only these; empty = all

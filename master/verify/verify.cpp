@@ -126,7 +126,7 @@ bool all_good(const std::vector<Result>& results) {
 
 std::string json_text(const TestedUnit& tested, const std::vector<Result>& results) {
   const core::UnitDescription& unit = tested.description();
-  OrderedJson json = {{"file", tested.request().file.string()},
+  OrderedJson json = {{"file", tested.fmu().path().string()},
                       {"model", unit.model_name},
                       {"fmi_version", unit.fmi_version},
                       {"step", to_seconds(tested.step())},

@@ -3,9 +3,16 @@
 from __future__ import annotations
 
 import os
+import sys
 from pathlib import Path
 
-__all__ = ["prefix", "program"]
+__all__ = ["choose_python", "prefix", "program"]
+
+
+def choose_python() -> None:
+    """By which stride reads tables in Parquet and MCAP files: this one, unless STRIDE_PYTHON names another."""
+    if sys.executable:
+        os.environ.setdefault("STRIDE_PYTHON", sys.executable)
 
 
 def prefix() -> Path:
@@ -26,4 +33,5 @@ def program(name: str = "stride") -> Path:
             f"there is no program {file}: install the package from a wheel, or set STRIDE_PREFIX to where stride is"
             " installed"
         )
+    choose_python()
     return file

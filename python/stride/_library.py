@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any, Optional
 
 from ._errors import Error, InputError, MisuseError, RunError
-from ._installed import prefix
+from ._installed import choose_python, prefix
 
 UNKNOWN_TIME = -(2**63)
 END_OF_TIME = 2**63 - 1
@@ -150,6 +150,7 @@ def _find() -> Path:
 @functools.lru_cache(maxsize=None)
 def library() -> Any:
     """The library with the types of its functions. Raises FileNotFoundError, or OSError for one that cannot be loaded."""
+    choose_python()
     loaded = ctypes.CDLL(str(_find()))
     for name, (result, arguments) in _FUNCTIONS.items():
         function = getattr(loaded, name)

@@ -1,8 +1,12 @@
 // Tables of values over time as components.
+#include <cstdlib>
+
 #include "tests/cli/failures.h"
 
 using namespace stride::tests;
 using Catch::Matchers::Contains;
+using Catch::Matchers::EndsWith;
+using Catch::Matchers::StartsWith;
 
 namespace {
 
@@ -101,4 +105,55 @@ TEST_CASE("a table is inspected like a unit, by its name") {
   const Outcome outcome = workspace.stride({"inspect", "cycle.csv"});
   CHECK(outcome.exit_code == 0);
   CHECK_THAT(outcome.out, Contains("cycle: FMI 3.0") && Contains("gear") && Contains("Int32"));
+}
+
+TEST_CASE("a table runs alone, from its first row to its last one") {
+  const Driven workspace("time,speed [m/s],gear: Int32\n1,0,1\n2,10,2\n3,10,2\n");
+  const Outcome outcome =
+      workspace.stride({"run", "cycle.csv", "--quiet", "--step", "0.5", "--no-idle-skip"});
+  INFO(outcome.err);
+  REQUIRE(outcome.exit_code == 0);
+  const std::string signals = read(workspace / "results/cycle/signals.csv");
+  CHECK_THAT(signals, StartsWith("time,cycle.speed [m/s],cycle.gear\n1,0,1\n"));
+  CHECK_THAT(signals, Contains("\n1.5,5,1\n") && Contains("\n2,10,2\n") && EndsWith("\n3,10,2\n"));
+  CHECK_THAT(workspace.stride({"check", "cycle.csv"}).out, Contains("cycle"));
+  CHECK(workspace.stride({"verify", "cycle.csv"}).exit_code == 0);
+  CHECK_THAT(input_error_of(workspace.stride({"run", "cycle"})),
+             Contains("did you mean 'cycle.csv'?"));
+}
+
+TEST_CASE("messages of a table do not say when a run begins") {
+  const Driven workspace("time,frame.data: Binary event\n1,0a\n2,0b\n");
+  REQUIRE(workspace.stride({"run", "cycle.csv", "--quiet"}).exit_code == 0);
+  CHECK_THAT(read(workspace / "results/cycle/signals.csv"), StartsWith("time\n0\n"));
+}
+
+TEST_CASE("a misspelt table is named") {
+  const Driven workspace(kCycle);
+  fs::rename(workspace / "cycle.csv", workspace / "cycles.csv");
+  CHECK_THAT(input_error_of(workspace.run({"--quiet"})), Contains("did you mean 'cycles.csv'?"));
+  CHECK_THAT(input_error_of(workspace.stride({"run", "cycle.csv"})),
+             Contains("did you mean 'cycles.csv'?"));
+}
+
+TEST_CASE("a table of another kind needs Python") {
+  const Driven workspace(kCycle);
+  workspace.scratch().write("cycle.parquet", "PAR1");
+  ::setenv("STRIDE_PYTHON", "no_such_python", 1);
+  const std::string error = input_error_of(workspace.stride({"inspect", "cycle.parquet"}));
+  ::unsetenv("STRIDE_PYTHON");
+  CHECK_THAT(error, Contains("cycle.parquet: ") && Contains("no program 'no_such_python'") &&
+                        Contains("STRIDE_PYTHON=PROGRAM"));
+  CHECK(workspace.left_behind().empty());
+}
+
+TEST_CASE("two rows of one time are a jump at that time, whatever the step is") {
+  const Driven workspace("time,wanted,gear: Int32\n0,1,1\n1.1,1,1\n1.1,3,4\n2,3,4\n");
+  const Outcome outcome = workspace.run({"--quiet", "--step", "1", "--stop", "2"});
+  INFO(outcome.err);
+  REQUIRE(outcome.exit_code == 0);
+  using Words = std::vector<std::string>;
+  CHECK(column(workspace, "time") == Words{"0", "1", "1.1", "2"});
+  CHECK(column(workspace, "cycle.wanted") == Words{"1", "1", "3", "3"});
+  CHECK(column(workspace, "cycle.gear") == Words{"1", "1", "4", "4"});
 }
