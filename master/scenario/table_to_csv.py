@@ -40,6 +40,11 @@ def _quoted(text: str) -> str:
     return f'"{doubled}"'
 
 
+def _bytes(value: bytes) -> str:
+    """In quotation marks, since there may be none of them."""
+    return _quoted(value.hex())
+
+
 def _truth(value: bool) -> str:
     return "true" if value else "false"
 
@@ -78,7 +83,7 @@ def _type_of(kind: Any, types: Any) -> Optional[tuple[str, _Text]]:
     if types.is_string(kind) or types.is_large_string(kind):
         return "String", _quoted
     if types.is_binary(kind) or types.is_large_binary(kind) or types.is_fixed_size_binary(kind):
-        return "Binary", bytes.hex
+        return "Binary", _bytes
     return None
 
 
@@ -161,7 +166,7 @@ _COMMENT = re.compile(
     r"(?:; array of (?P<shape>\d+(?: x \d+)*), row by row)?\n",
     re.DOTALL,
 )
-_TEXTS: dict[str, _Text] = {"Boolean": _truth, "String": _quoted, "Binary": bytes.hex}
+_TEXTS: dict[str, _Text] = {"Boolean": _truth, "String": _quoted, "Binary": _bytes}
 
 
 class _Field:
