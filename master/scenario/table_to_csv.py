@@ -97,12 +97,14 @@ def _column(field: Any, types: Any) -> tuple[str, _Text]:
         )
     kind, text = found
     unit = (field.metadata or {}).get(b"unit", b"").decode()
-    has_unit = not unit or name.endswith("]")
+    has_own = re.search(r" \[[^\[\]]*\]$", name) is not None
+    if (unit or has_own) and types.is_integer(field.type):
+        kind = "Float64"  # which alone has a unit of measure in FMI
     courses = [word for word in words.split() if word in ("linear", "hold", "event")]
     if words and words.split() not in ([kind, *courses], [*courses, kind], courses):
         kind = ""  # what else stands there is for the reader of the table to judge
         courses = words.split()
-    return _heading(name, "" if has_unit else unit, " ".join([kind, *courses]).strip()), text
+    return _heading(name, "" if has_own else unit, " ".join([kind, *courses]).strip()), text
 
 
 def _time_column(schema: Any, types: Any) -> tuple[int, str, _Text]:
@@ -178,6 +180,8 @@ class _Field:
         self._text = _TEXTS.get(kind, repr)
         self._is_array = comment["shape"] is not None
         held = kind.startswith("Float") and comment["variability"] != "continuous"
+        if comment["unit"] and not kind.startswith("Float"):
+            kind, held = "Float64", True
         name = f"{component}.{comment['name']}"
         indices = _indices([int(size) for size in comment["shape"].split(" x ")]) if self._is_array else [""]
         self.headings = [

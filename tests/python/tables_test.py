@@ -66,6 +66,7 @@ def test_types_and_units_of_measure_are_in_the_schema(here):
         {
             "speed": pa.array([36.0, 72.0], pa.float32()),
             "count: hold": pa.array([1, 2], pa.uint16()),
+            "height [m]": pa.array([1, 4], pa.int64()),
             "bytes": pa.array([b"\x01\xff", b""], pa.binary()),
             "kind": pa.array(["x", "y"]).dictionary_encode(),
             "time": pa.array([0, 1500], pa.duration("ms")),
@@ -76,11 +77,13 @@ def test_types_and_units_of_measure_are_in_the_schema(here):
     assert {signal["name"]: (signal["type"], signal["unit"]) for signal in run.info["signals"]} == {
         "cycle.speed": ("Float32", "km/h"),
         "cycle.count": ("UInt16", ""),
+        "cycle.height": ("Float64", "m"),
         "cycle.bytes": ("Binary", ""),
         "cycle.kind": ("String", ""),
     }
     assert list(run.time) == [0, 0.5, 1, 1.5]
     assert signals["speed"] == [36, 48, 60, 72]
+    assert signals["height"] == [1, 2, 3, 4]
 
 
 def test_a_table_of_pandas_with_the_time_as_index(here):

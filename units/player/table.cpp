@@ -234,6 +234,10 @@ class TableReader {
     if (course == Course::Linear && !is_real(i)) {
       throw std::invalid_argument("only Float64 and Float32 can be linear; expected hold or event");
     }
+    if (!unit.empty() && !is_real(i)) {
+      throw std::invalid_argument("a value with a unit of measure, [" + unit +
+                                  "], is a Float64 or Float32; expected ': Float64', or no unit");
+    }
     std::optional<std::size_t> clock;
     if (column.is_event()) clock = clock_named(clock_of(name));
     column.input = result_.inputs.size();

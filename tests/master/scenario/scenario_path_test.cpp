@@ -66,6 +66,8 @@ TEST_CASE("an unknown name is answered with what could be meant") {
         "there is no file 'nearr', and no scenario of this name comes with stride\n"
         "  hint: did you mean 'near'?");
   CHECK_THAT(answer("something"), Contains("hint: known are: far, near"));
-  CHECK_THAT(error_of([&] { refuse_unknown_name("far", scenarios.path() / "nothing"); }),
-             Contains("hint: name a system file (.ssd), a package (.ssp) or an FMU (.fmu)"));
+  CHECK_THAT(
+      error_of([&] { refuse_unknown_name("far", scenarios.path() / "nothing"); }),
+      Contains(
+          "hint: name a system file (.ssd), a package (.ssp), an FMU (.fmu) or a table (.csv)"));
 }

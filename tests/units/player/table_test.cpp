@@ -132,6 +132,7 @@ TEST_CASE("mistakes in a table have the line and the column") {
       {"time,time\n0,1\n", "x.csv:1: column 2: 'time' is the name of the first column"},
       {"time,u,v,u\n0,1,2,3\n", "x.csv:1: columns 2 and 4 have one name, 'u'"},
       {"time,k: Int32 linear\n0,1\n", "x.csv:1: column 'k': only Float64 and Float32"},
+      {"time,k [m]: Int32\n0,1\n", "x.csv:1: column 'k': a value with a unit of measure, [m], is"},
       {"time,k: Int32 event\n0,1\n", "x.csv:1: column 'k': expected a name such as 'k.value'"},
       {"time,u,v\n0,1\n", "x.csv:2: the line has 2 fields, the headings 3"},
       {"time,u\n0,1\n\n", "x.csv:3: the line has 1 fields"},
