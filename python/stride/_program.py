@@ -108,8 +108,8 @@ def run(scenario: PathLike, *, out: Optional[PathLike] = None, **options: Any) -
     >>> run.signals["sensor.capacitor.voltage"].max()
 
     Args:
-        scenario: A system file (.ssd), a package (.ssp), an FMU (.fmu), or the name of a scenario that comes with
-            stride, such as "nfc_approach".
+        scenario: A system file (.ssd), a package (.ssp), an FMU (.fmu), a table (.csv, .parquet, .mcap), or the name of
+            a scenario that comes with stride, such as "nfc_approach".
         out: The folder of the results; None: a temporary one, which is removed with the Run that is returned, and its
             signals.
         options: Those of `stride run`, with "_" for "-"; a mapping or a list repeats the option: `stop=3`,

@@ -131,7 +131,7 @@ class Simulation:
     (`time_ps`). Values are Python's bool, int, float, str and bytes, and numpy arrays with the shape of the variable.
 
     Args:
-        scenario: A system file (.ssd), a package (.ssp) or an FMU (.fmu).
+        scenario: A system file (.ssd), a package (.ssp), an FMU (.fmu) or a table (.csv, .parquet, .mcap).
         results: The folder of the results, which is made; None: none are written.
         checkpoint: A file that `save` has written, of the same scenario and options, to go on from.
         can_save: Whether `save` will be called; units are journaled then, which takes memory.
