@@ -178,6 +178,22 @@ Interval::Ratio Interval::ratio() const {
           static_cast<double>(denominator_ * (kPicoseconds / divisor))};
 }
 
+std::optional<Interval> sum(const Interval& shift, const Interval& interval, std::uint64_t count) {
+  const std::uint64_t factor =
+      interval.denominator_ / std::gcd(shift.denominator_, interval.denominator_);
+  std::uint64_t denominator = 0;
+  if (__builtin_mul_overflow(shift.denominator_, factor, &denominator)) return std::nullopt;
+  Wide first = 0;
+  Wide second = 0;
+  Wide numerator = 0;
+  const bool overflows =
+      denominator > kMaxDenominator || __builtin_mul_overflow(shift.numerator_, factor, &first) ||
+      __builtin_mul_overflow(interval.numerator_, count, &second) ||
+      __builtin_mul_overflow(second, denominator / interval.denominator_, &second) ||
+      __builtin_add_overflow(first, second, &numerator);
+  return overflows ? std::nullopt : std::optional(Interval(numerator, denominator));
+}
+
 std::optional<Interval> common_multiple(const Interval& a, const Interval& b) {
   const Wide factor = b.numerator_ / greatest_common_divisor(a.numerator_, b.numerator_);
   if (factor > ~Wide{0} / a.numerator_) return std::nullopt;

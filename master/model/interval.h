@@ -78,6 +78,7 @@ class Interval {
 
  private:
   friend std::optional<Time> tick_time(Time, const Interval&, const Interval&, std::uint64_t);
+  friend std::optional<Interval> sum(const Interval&, const Interval&, std::uint64_t);
   friend std::optional<Interval> common_multiple(const Interval& a, const Interval& b);
 
   Interval(Wide numerator, std::uint64_t denominator);
@@ -90,6 +91,9 @@ class Interval {
 /// later than any Time.
 std::optional<Time> tick_time(Time base, const Interval& shift, const Interval& interval,
                               std::uint64_t count);
+
+/// shift + count * interval; nothing if it does not fit.
+std::optional<Interval> sum(const Interval& shift, const Interval& interval, std::uint64_t count);
 
 /// The least interval that is a multiple of both, which are above 0; nothing if it does not fit.
 std::optional<Interval> common_multiple(const Interval& a, const Interval& b);

@@ -1,15 +1,52 @@
 #include "master/algorithm/events/clocks.h"
 
 #include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "master/util/state_archive.h"
 
 namespace stride::core {
+namespace {
 
-Clocks::Clocks(const System& system, std::span<const std::unique_ptr<Unit>> units)
-    : system_(system), units_(units), intervals_(capabilities<ClockIntervals>(units)) {
+constexpr Duration kResolution{1};
+/// Of shorter intervals a picosecond is more than a millionth.
+constexpr Duration kLeastMerged = std::chrono::microseconds(1);
+
+}  // namespace
+
+std::optional<Time> Clocks::Rhythm::instant(std::uint64_t k) const {
+  return tick_time(base, shift, interval, k);
+}
+
+/// From the rounded one where its fraction has no room.
+Clocks::Rhythm Clocks::Rhythm::from(std::uint64_t k) const {
+  if (const auto exact = sum(shift, interval, k)) return {base, *exact, interval};
+  return {instant(k).value_or(base), {}, interval};
+}
+
+std::optional<std::uint64_t> Clocks::Rhythm::number_at(Time time) const {
+  constexpr double kRoundingPerSecond = 1e-15;
+  const double since = to_seconds(time - base) - shift.seconds();
+  const double size = interval.seconds();
+  const double number = std::round(since / size);
+  const double tolerance = 2e-12 + std::abs(since) * kRoundingPerSecond;
+  if (!(number >= 0) || std::abs(number * size - since) > tolerance) return std::nullopt;
+  const auto k = static_cast<std::uint64_t>(number);
+  const std::optional<Time> nearest = instant(k);
+  const bool is_there = nearest && *nearest - time <= kResolution && time - *nearest <= kResolution;
+  return is_there ? std::optional(k) : std::nullopt;
+}
+
+Clocks::Clocks(const System& system, std::span<const std::unique_ptr<Unit>> units,
+               std::vector<Grid> steps)
+    : system_(system),
+      units_(units),
+      steps_(std::move(steps)),
+      intervals_(capabilities<ClockIntervals>(units)) {
   std::size_t most = 0;
   for (std::size_t i = 0; i < system.components().size(); ++i) {
     const auto& variables = system.components()[i].description->variables;
@@ -58,29 +95,29 @@ void Clocks::persist(StateArchive& state, Time start_time, Time now) {
 }
 
 void Clocks::persist(StateArchive& state, Schedule& clock, Time start_time, Time now) {
-  if (clock.attributes->is_periodic()) {
-    persist_period(state, clock, start_time, now);
+  if (clock.attributes->is_periodic() && clock.attributes->interval) {
+    clock.rhythm = {start_time, clock.attributes->shift, *clock.attributes->interval};
+  } else {
+    persist_rhythm(state, clock, start_time, now);
+  }
+  state.value(clock.count);
+  if (clock.is_constant()) {
+    clock.next = clock.rhythm.instant(clock.count);
   } else {
     state.value(clock.next);
   }
   if (clock.next && *clock.next <= now) state.fail("a tick has not been made");
 }
 
-void Clocks::persist_period(StateArchive& state, Schedule& clock, Time start_time, Time now) {
-  if (clock.attributes->interval) {
-    clock.base = start_time;
-    clock.shift = clock.attributes->shift;
-    clock.interval = *clock.attributes->interval;
-  } else {
-    state.value(clock.base);
-    clock.shift.persist(state);
-    clock.interval.persist(state);
-    if (clock.base < start_time || clock.base > now || clock.interval.is_below_picosecond()) {
-      state.fail("a clock has another beginning, or interval, than is possible");
-    }
+void Clocks::persist_rhythm(StateArchive& state, Schedule& clock, Time start_time, Time now) {
+  auto& [base, shift, interval] = clock.rhythm;
+  state.value(base);
+  shift.persist(state);
+  interval.persist(state);
+  const bool is_too_short = clock.attributes->is_periodic() && interval.is_below_picosecond();
+  if (base < start_time || base > now || is_too_short) {
+    state.fail("a clock has another beginning, or interval, than is possible");
   }
-  state.value(clock.count);
-  clock.next = tick_time(clock.base, clock.shift, clock.interval, clock.count);
 }
 
 void Clocks::resume(const Clocks& other) {
@@ -92,20 +129,70 @@ void Clocks::resume(const Clocks& other) {
 }
 
 void Clocks::start(Schedule& clock, Time start_time) {
-  clock.base = start_time;
+  Rhythm& rhythm = clock.rhythm;
+  rhythm = {start_time, {}, {}};
   if (clock.attributes->interval) {
-    clock.interval = *clock.attributes->interval;
-    clock.shift = clock.attributes->shift;
+    rhythm.interval = *clock.attributes->interval;
+    rhythm.shift = clock.attributes->shift;
   } else {
     const ClockInterval reported = query_interval(clock, start_time);
     if (reported.state == ClockInterval::State::NotYetKnown) return;
-    clock.interval = reported.interval;
+    rhythm.interval = reported.interval;
     const bool periodic = clock.attributes->is_periodic();
-    clock.shift = periodic ? intervals_[clock.id.component]->clock_shift(system_.variable(clock.id))
-                           : reported.interval;
+    rhythm.shift = periodic
+                       ? intervals_[clock.id.component]->clock_shift(system_.variable(clock.id))
+                       : reported.interval;
   }
   check_interval(clock, start_time);
-  clock.next = tick_time(start_time, clock.shift, {}, 0);
+  choose_next(clock, start_time);
+}
+
+/// The tick of number `count`, which is later than `now` or there.
+void Clocks::choose_next(Schedule& clock, Time now) const {
+  clock.next = clock.rhythm.instant(clock.count);
+  if (!clock.next || clock.is_constant()) return;
+  if (*clock.next - now >= kLeastMerged) clock.next = merged(clock, *clock.next);
+}
+
+/// The time of what is within a picosecond of this tick, or that of the tick itself.
+Time Clocks::merged(const Schedule& clock, Time tick) const {
+  if (const auto there = constant_rhythm_at(tick)) return *there->instant(0);
+  for (const ComponentClocks& own : clocked_) {
+    for (const Schedule& other : own.clocks) {
+      if (&other == &clock || !other.next) continue;
+      if (*other.next - tick <= kResolution && tick - *other.next <= kResolution)
+        return *other.next;
+    }
+  }
+  return tick;
+}
+
+/// What this instant was before it was rounded, for a clock that gets another interval at it.
+Clocks::Rhythm Clocks::exact_instant(const Schedule& clock, Time time, bool ticked) const {
+  if (const auto there = constant_rhythm_at(time); there && *there->instant(0) == time) {
+    return *there;
+  }
+  return ticked ? clock.rhythm.from(clock.count - 1) : Rhythm{time, {}, {}};
+}
+
+/// From the point or tick on that is within a picosecond of this time.
+std::optional<Clocks::Rhythm> Clocks::constant_rhythm_at(Time time) const {
+  const Interval least(kLeastMerged);
+  const auto beginning_at = [&](const Rhythm& rhythm) -> std::optional<Rhythm> {
+    if (rhythm.interval < least) return std::nullopt;
+    const auto number = rhythm.number_at(time);
+    return number ? std::optional(rhythm.from(*number)) : std::nullopt;
+  };
+  for (const Grid& grid : steps_) {
+    if (const auto there = beginning_at({grid.start(), {}, grid.step()})) return there;
+  }
+  for (const ComponentClocks& own : clocked_) {
+    for (const Schedule& other : own.clocks) {
+      if (!other.is_constant()) continue;
+      if (const auto there = beginning_at(other.rhythm)) return there;
+    }
+  }
+  return std::nullopt;
 }
 
 ClockInterval Clocks::query_interval(const Schedule& clock, Time time) {
@@ -121,10 +208,10 @@ ClockInterval Clocks::query_interval(const Schedule& clock, Time time) {
 }
 
 void Clocks::check_interval(const Schedule& clock, Time time) const {
-  if (!clock.attributes->is_periodic() || !clock.interval.is_below_picosecond()) return;
+  if (!clock.attributes->is_periodic() || !clock.rhythm.interval.is_below_picosecond()) return;
   fail(clock, time,
        fmt::format("the clock's interval is {} s, and times are counted in picoseconds",
-                   clock.interval.seconds()));
+                   clock.rhythm.interval.seconds()));
 }
 
 void Clocks::fail(const Schedule& clock, Time time, const std::string& message) const {
@@ -163,9 +250,9 @@ std::span<const std::size_t> Clocks::tick(Time time) {
     for (Schedule& clock : ticking.clocks) {
       if (!clock.next || *clock.next > time) continue;
       ticking.ticking.push_back(clock.reference);
-      clock.next = clock.attributes->is_periodic()
-                       ? tick_time(clock.base, clock.shift, clock.interval, ++clock.count)
-                       : std::nullopt;
+      ++clock.count;
+      clock.next.reset();
+      if (clock.attributes->is_periodic()) choose_next(clock, time);
     }
     units_[component]->set(ticking.ticking, ticks_[ticking.ticking.size() - 1]);
     is_stale_ = true;
@@ -200,12 +287,11 @@ void Clocks::update(Schedule& clock, Time time, bool ticked) {
   if (!is_tunable && !is_next && variability != IntervalVariability::Countdown) return;
   const ClockInterval reported = query_interval(clock, time);
   if (reported.state != ClockInterval::State::Changed && !is_next) return;
-  clock.interval = reported.interval;
+  clock.rhythm = exact_instant(clock, time, ticked);
+  clock.rhythm.interval = reported.interval;
   check_interval(clock, time);
-  clock.base = time;
-  clock.shift = {};
   clock.count = 1;
-  clock.next = tick_time(time, {}, reported.interval, 1);
+  choose_next(clock, time);
   is_stale_ = true;
 }
 

@@ -12,6 +12,8 @@
 
 #include "master/algorithm/capabilities/clock_intervals.h"
 #include "master/algorithm/unit.h"
+#include "master/model/grid.h"
+#include "master/model/interval.h"
 #include "master/model/system.h"
 
 namespace stride::core {
@@ -23,15 +25,21 @@ class StateArchive;
 ///
 /// Tick k of a periodic clock is at start + shift + k * interval, rounded once to the
 /// picosecond, and never at a sum of earlier ticks. An interval that a unit names in an event
-/// counts from that event, as a whole number of picoseconds.
+/// counts from that event before it was rounded: from the point of a grid of steps or the tick of a
+/// constant, fixed or calculated clock that is there, else from the clock's own tick, so intervals
+/// of 1/30 s meet each whole second. A tick of such an interval of 1 us or more that would be a
+/// picosecond beside a point or tick of those kinds, or beside the next tick of another clock, is
+/// made together with it.
 ///
 /// Ticks are made, and counted, at communication points that all units have reached, so a rollback
 /// never undoes one. Call order: begin(), then at each instant {due(), tick(), update() for the
 /// units that had an event} until nothing is due.
 class Clocks {
  public:
-  /// `units` in the order of system.components(); both must outlive this object.
-  Clocks(const System& system, std::span<const std::unique_ptr<Unit>> units);
+  /// `units` in the order of system.components(); both must outlive this object. `steps`: the grids
+  /// of communication points.
+  Clocks(const System& system, std::span<const std::unique_ptr<Unit>> units,
+         std::vector<Grid> steps = {});
 
   /// Reads the intervals and shifts that units determine; these are in Initialization Mode and have
   /// all their parameters. Throws Error (Run) with unit, clock and time where an interval is not
@@ -63,15 +71,31 @@ class Clocks {
   void update(std::size_t component, Time time);
 
  private:
+  /// Instants at base + shift + k * interval.
+  struct Rhythm {
+    Time base{};
+    Interval shift{};
+    Interval interval{};
+
+    std::optional<Time> instant(std::uint64_t k) const;
+    /// The same ones from number k on.
+    Rhythm from(std::uint64_t k) const;
+    /// The one within a picosecond of this time.
+    std::optional<std::uint64_t> number_at(Time time) const;
+  };
   struct Schedule {
     VariableId id;
     ValueReference reference;
     const ClockAttributes* attributes;
-    Time base{};  ///< from where the ticks are counted
-    Interval shift{};
-    Interval interval{};
-    std::uint64_t count = 0;  ///< the number of the next tick since `base`
+    Rhythm rhythm{};
+    std::uint64_t count = 0;  ///< the number of the next tick since then
     std::optional<Time> next{};
+
+    /// Whether the rhythm is the same in the whole run.
+    bool is_constant() const {
+      return attributes->is_periodic() &&
+             (attributes->interval || attributes->variability != IntervalVariability::Tunable);
+    }
   };
   /// The time-based clocks of one component.
   struct ComponentClocks {
@@ -84,8 +108,12 @@ class Clocks {
   ComponentClocks* clocks_of(std::size_t component);
   void start(Schedule& clock, Time start);
   static void persist(StateArchive& state, Schedule& clock, Time start, Time now);
-  static void persist_period(StateArchive& state, Schedule& clock, Time start, Time now);
+  static void persist_rhythm(StateArchive& state, Schedule& clock, Time start, Time now);
   void update(Schedule& clock, Time time, bool ticked);
+  void choose_next(Schedule& clock, Time now) const;
+  Time merged(const Schedule& clock, Time tick) const;
+  Rhythm exact_instant(const Schedule& clock, Time time, bool ticked) const;
+  std::optional<Rhythm> constant_rhythm_at(Time time) const;
   /// The interval that the unit gives, checked.
   ClockInterval query_interval(const Schedule& clock, Time time);
   void check_interval(const Schedule& clock, Time time) const;
@@ -93,6 +121,7 @@ class Clocks {
 
   const System& system_;
   std::span<const std::unique_ptr<Unit>> units_;
+  std::vector<Grid> steps_;
   std::vector<ClockIntervals*> intervals_;  ///< by component; null = never known
   std::vector<ComponentClocks> clocked_;    ///< of the components that have such clocks
   std::vector<std::size_t> index_of_;       ///< by component; clocked_.size() = none

@@ -20,6 +20,16 @@ void bring_forward(Time& time, const std::optional<Time>& event) {
   if (event && *event < time) time = *event;
 }
 
+std::vector<Grid> step_grids(const RunContext& context) {
+  const RunOptions& options = context.options;
+  std::vector<Grid> grids;
+  if (options.step.policy->has_grid) grids.emplace_back(options.start, options.step.size);
+  for (const Component& component : context.system.components()) {
+    if (component.own_step) grids.emplace_back(options.start, *component.own_step);
+  }
+  return grids;
+}
+
 }  // namespace
 
 EventHandler::EventHandler(RunContext& context, IdleScheduler* idle, OwnSteps* own_steps)
@@ -28,7 +38,7 @@ EventHandler::EventHandler(RunContext& context, IdleScheduler* idle, OwnSteps* o
       exchange_(context.exchange),
       messages_(system_, units_, *this),
       texts_(capabilities<MessageText>(units_)),
-      clocks_(system_, units_),
+      clocks_(system_, units_, step_grids(context)),
       observers_(context.observers),
       activities_(context.activities),
       statistics_(context.statistics),

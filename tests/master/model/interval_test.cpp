@@ -134,3 +134,14 @@ TEST_CASE("multiples of intervals are exact") {
   CHECK(common_multiple(Interval(4ms), Interval(6ms)) == Interval(12ms));
   CHECK(common_multiple(third, Interval::from_fraction(2, 9)) == Interval::from_fraction(2, 3));
 }
+
+TEST_CASE("sums of intervals are exact, as far as they fit") {
+  const Interval third = Interval::from_fraction(1, 3);
+  CHECK(sum(third, Interval::from_fraction(1, 6), 4) == Interval(1s));
+  CHECK(sum({}, third, 3) == Interval(1s));
+  CHECK(sum(third, {}, 1000) == third);
+  CHECK(sum(Interval::from_fraction(1, 30), Interval::from_fraction(1, 30), 299) == Interval(10s));
+  const Interval fine = Interval::from_fraction(1, (std::uint64_t{1} << 61) - 1);
+  CHECK(sum(fine, fine, 1) == Interval::from_fraction(2, (std::uint64_t{1} << 61) - 1));
+  CHECK_FALSE(sum(fine, third, 1));
+}

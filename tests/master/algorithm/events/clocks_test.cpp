@@ -217,6 +217,117 @@ TEST_CASE("a changing clock gives the next interval at each tick") {
   CHECK(watch.ticks == times({1ms, 3ms, 6ms, 10ms, 15ms}));
 }
 
+namespace {
+
+/// That of a clock of 30 ticks a second, as a unit may give it: as a fraction, as the double that
+/// is nearest to it, as a decimal, or as the difference of two doubles.
+Interval thirtieth(int way, std::size_t tick) {
+  const auto number = static_cast<double>(tick);
+  switch (way) {
+    case 0:
+      return Interval::from_fraction(1, 30);
+    case 1:
+      return Interval::from_seconds(1.0 / 30);
+    case 2:
+      return every(Duration(33'333'333'333));
+    default:
+      return Interval::from_seconds((number + 1) / 30 - number / 30);
+  }
+}
+
+Ticks thirtieths(int first, int last) {
+  Ticks ticks;
+  for (int k = first; k <= last; ++k) {
+    ticks.emplace_back(Duration((k * 1'000'000'000'000 + 15) / 30));
+  }
+  return ticks;
+}
+
+void count_thirtieths(ScriptedUnit& unit, const Watch& watch, int way) {
+  unit.on_clock_interval = [&watch, way](ScriptedUnit&, ValueReference) {
+    return ClockInterval{State::Changed, thirtieth(way, watch.ticks.size())};
+  };
+}
+
+}  // namespace
+
+TEST_CASE("clocks of one period tick together, however their intervals are given") {
+  const auto kind = GENERATE(IntervalVariability::Changing, IntervalVariability::Countdown,
+                             IntervalVariability::Tunable);
+  const int way = GENERATE(0, 1, 2, 3);
+  CAPTURE(name(kind), way);
+  ScriptedSystem f;
+  Watch constant(f.add(
+      "constant", Describe("constant")
+                      .clock("tick", IntervalVariability::Constant, Interval::from_fraction(1, 30))
+                      .done()));
+  auto& a = f.add("a", Describe("a").clock("tick", kind).done());
+  Watch watch(a);
+  count_thirtieths(a, watch, way);
+  CHECK(points(f, 10, Interval(10s)).size() == 301);
+  CHECK(constant.ticks == thirtieths(0, 300));
+  CHECK(watch.ticks == thirtieths(kind == IntervalVariability::Tunable ? 0 : 1, 300));
+}
+
+TEST_CASE("a clock that counts 1/30 s again and again meets the steps of 1/30 s") {
+  const int way = GENERATE(0, 1, 2, 3);
+  ScriptedSystem f;
+  auto& a = f.add("a", Describe("a").clock("tick", IntervalVariability::Changing).done());
+  Watch watch(a);
+  count_thirtieths(a, watch, way);
+  CHECK(points(f, 10, Interval::from_fraction(1, 30)).size() == 301);
+  CHECK(watch.ticks == thirtieths(1, 300));
+}
+
+TEST_CASE("a changing clock by itself adds its intervals exactly") {
+  const int way = GENERATE(0, 1);
+  ScriptedSystem f;
+  auto& a = f.add("a", Describe("a").clock("tick", IntervalVariability::Changing).done());
+  Watch watch(a);
+  count_thirtieths(a, watch, way);
+  f.build(10, 7s).run();
+  CHECK(watch.ticks == thirtieths(1, 300));
+}
+
+TEST_CASE("short intervals are not merged with anything") {
+  ScriptedSystem f;
+  auto& a = f.add("a", Describe("a").clock("tick", IntervalVariability::Changing).done());
+  Watch watch(a);
+  a.on_clock_interval = [](ScriptedUnit&, ValueReference) { return changed(Duration(3)); };
+  f.build(20e-12, Duration(4)).run();
+  CHECK(watch.ticks ==
+        times({Duration(3), Duration(6), Duration(9), Duration(12), Duration(15), Duration(18)}));
+}
+
+TEST_CASE("a changing clock goes on from a state with the fraction of its last tick") {
+  ScriptedSystem f;
+  f.add("a", Describe("a").clock("tick", IntervalVariability::Changing).done()).on_clock_interval =
+      [](ScriptedUnit&, ValueReference) {
+        return ClockInterval{State::Changed, Interval::from_fraction(1, 3)};
+      };
+  const System system(f.declaration);
+  Clocks clocks(system, f.units);
+  clocks.begin(Time());
+  const auto tick = [](Clocks& ticking) {
+    const Time now = *ticking.next();
+    ticking.due(now);
+    ticking.tick(now);
+    ticking.update(0, now);
+    ticking.due(now);
+    return now;
+  };
+  StateArchive written;
+  const Time now = tick(clocks);
+  clocks.persist(written, Time(), now);
+  Clocks other(system, f.units);
+  StateArchive read(written.bytes());
+  other.persist(read, Time(), now);
+  read.end();
+  CHECK(other.next() == Time(Duration(666'666'666'667)));
+  tick(other);
+  CHECK(other.next() == Time(1s));
+}
+
 TEST_CASE("the interval of a countdown clock is queried at every event, until it is known") {
   ScriptedSystem f;
   auto& a = f.add("a", Describe("a").clock("tick", IntervalVariability::Countdown).done());
