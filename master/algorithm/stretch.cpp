@@ -33,7 +33,14 @@ std::uint64_t Stretch::steps_from(Time now) const {
 std::optional<Time> Stretch::make(Time& time, std::uint64_t steps) {
   const Grid& grid = *parts_.policy.regular_grid(time);
   const double size_seconds = grid.seconds(size_);
-  Grid::Walk next(grid, time);
+  return grid.is_whole() ? walk(Grid::WholeWalk(grid, time), size_seconds, time, steps)
+                         : walk(Grid::Walk(grid, time), size_seconds, time, steps);
+}
+
+/// `next` is at `time`.
+template <class Walk>
+inline std::optional<Time> Stretch::walk(Walk next, double size_seconds, Time& time,
+                                         std::uint64_t steps) {
   double seconds = next.seconds();
   for (std::uint64_t made = 0; made < steps && !is_interrupted(); ++made) {
     parts_.sampling.pass_step();

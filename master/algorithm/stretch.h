@@ -50,6 +50,8 @@ class Stretch {
  private:
   bool is_interrupted() const { return interrupted_ != nullptr && *interrupted_ != 0; }
   Time free_until() const;
+  template <class Walk>
+  std::optional<Time> walk(Walk next, double size_seconds, Time& time, std::uint64_t steps);
   void observe(Time time);
 
   RunContext& context_;

@@ -18,6 +18,8 @@ class Grid {
   Grid(Time start, const Interval& step);
 
   Time start() const { return start_; }
+  /// Whether each point is a whole number of picoseconds before it is rounded.
+  bool is_whole() const { return is_whole_; }
   const Interval& step() const { return step_; }
 
   /// Time::max() if it would be later than that.
@@ -49,7 +51,22 @@ class Grid {
     return !is_whole_ && is_regular(size) ? step_.seconds() : to_seconds(size);
   }
 
-  /// Goes from point to point, without a division.
+  /// Goes from point to point of a grid that is_whole(), by one addition.
+  class WholeWalk {
+   public:
+    /// From a point.
+    WholeWalk(const Grid& grid, Time point) : time_(point), size_(grid.regular_) {}
+
+    Time time() const { return time_; }
+    double seconds() const { return to_seconds(time_); }
+    void advance() { time_ += size_; }
+
+   private:
+    Time time_;
+    const Duration size_;
+  };
+
+  /// Goes from point to point of any grid, without a division.
   class Walk {
    public:
     /// From a point.

@@ -67,6 +67,18 @@ TEST_CASE("a walk meets the points of its grid") {
   }
 }
 
+TEST_CASE("a walk over a grid of whole picoseconds is that of any grid") {
+  const Grid grid(Time(-2s), Interval(100ms));
+  REQUIRE(grid.is_whole());
+  CHECK_FALSE(Grid(Time(), fraction(1, 3)).is_whole());
+  Grid::Walk walk(grid, grid.point(7));
+  Grid::WholeWalk whole(grid, grid.point(7));
+  for (int k = 0; k < 100; ++k, walk.advance(), whole.advance()) {
+    REQUIRE(whole.time() == walk.time());
+    REQUIRE(whole.seconds() == walk.seconds());
+  }
+}
+
 TEST_CASE("seconds are those of the point before it was rounded") {
   const Grid thirds(Time(), fraction(1, 3));
   for (std::uint64_t k = 0; k < 1000; ++k) {
