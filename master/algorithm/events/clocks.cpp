@@ -169,9 +169,8 @@ Time Clocks::merged(const Schedule& clock, Time tick) const {
 
 /// What this instant was before it was rounded, for a clock that gets another interval at it.
 Clocks::Rhythm Clocks::exact_instant(const Schedule& clock, Time time, bool ticked) const {
-  if (const auto there = constant_rhythm_at(time); there && *there->instant(0) == time) {
-    return *there;
-  }
+  const auto there = constant_rhythm_at(time);
+  if (there && *there->instant(0) == time) return *there;
   return ticked ? clock.rhythm.from(clock.count - 1) : Rhythm{time, {}, {}};
 }
 
@@ -287,8 +286,11 @@ void Clocks::update(Schedule& clock, Time time, bool ticked) {
   if (!is_tunable && !is_next && variability != IntervalVariability::Countdown) return;
   const ClockInterval reported = query_interval(clock, time);
   if (reported.state != ClockInterval::State::Changed && !is_next) return;
-  clock.rhythm = exact_instant(clock, time, ticked);
-  clock.rhythm.interval = reported.interval;
+  Rhythm instant = exact_instant(clock, time, ticked);
+  // the tick may have been made with another one, a picosecond beside it
+  const bool is_short = reported.interval < Interval(kLeastMerged);
+  if (is_short && instant.instant(0) != time) instant = {time, {}, {}};
+  clock.rhythm = {instant.base, instant.shift, reported.interval};
   check_interval(clock, time);
   clock.count = 1;
   choose_next(clock, time);

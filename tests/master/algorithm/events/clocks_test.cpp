@@ -289,6 +289,21 @@ TEST_CASE("a changing clock by itself adds its intervals exactly") {
   CHECK(watch.ticks == thirtieths(1, 300));
 }
 
+TEST_CASE("a countdown of 0 after a tick that was made with another one is at the same instant") {
+  ScriptedSystem f;
+  f.add("constant",
+        Describe("constant")
+            .clock("tick", IntervalVariability::Constant, Interval::from_fraction(1, 30))
+            .done());
+  auto& a = f.add("a", Describe("a").clock("tick", IntervalVariability::Countdown).done());
+  Watch watch(a);
+  a.on_clock_interval = [&](ScriptedUnit&, ValueReference) {
+    return watch.ticks.size() % 2 == 1 ? changed(0ms) : changed(Duration(33'333'333'333));
+  };
+  CHECK(points(f, 10, Interval(10s)).size() == 301);
+  CHECK(watch.ticks.size() == 600);
+}
+
 TEST_CASE("short intervals are not merged with anything") {
   ScriptedSystem f;
   auto& a = f.add("a", Describe("a").clock("tick", IntervalVariability::Changing).done());
