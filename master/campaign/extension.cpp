@@ -201,7 +201,7 @@ void read_aggregate(const xml::Element& element, const Extension& to) {
                       {},
                       element.where()};
   const bool is_at = aggregate.function == Aggregate::Function::At;
-  if (is_at) aggregate.at = Time(parsed(element, "at", core::parse_seconds));
+  if (is_at) aggregate.at = parsed(element, "at", core::parse_time);
   if (!is_at && element.attribute("at")) {
     element.fail(
         fmt::format("at=\"…\" is for the function at, not for {}", name(aggregate.function)));

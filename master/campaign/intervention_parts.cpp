@@ -52,9 +52,9 @@ void set_part(scenario::InterventionDeclaration& declared, const std::string& pa
   if (part == "value" || part == "time") {
     declared.value = text;
   } else if (part == "at" || part == "from") {
-    declared.from = Time(core::parse_seconds(text));
+    declared.from = core::parse_time(text);
   } else if (part == "until") {
-    declared.until = Time(core::parse_seconds(text));
+    declared.until = core::parse_time(text);
   } else if (part == "seed") {
     const auto seed = xml::to_number<std::uint64_t>(text);
     if (!seed) {

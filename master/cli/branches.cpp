@@ -32,9 +32,7 @@ BranchRequest parse_branch(const std::string& text) {
     core::fail_input({}, fmt::format("--branch {}: expected SECONDS:FILE", text),
                      "name the instant at which the branches begin, and the file that lists them");
   }
-  const auto instant = [&](const std::string&) {
-    return Time(core::parse_seconds(text.substr(0, colon)));
-  };
+  const auto instant = [&](const std::string&) { return core::parse_time(text.substr(0, colon)); };
   return {settings::parse_option("--branch", text, instant), text.substr(colon + 1)};
 }
 

@@ -26,18 +26,14 @@ constexpr std::string_view kLatest = "latest_";
 constexpr std::string_view kEnding = "s.zip";
 constexpr std::size_t kLatestKept = 2;
 
-Duration seconds_of(const char* option, const std::string& text) {
-  return settings::parse_option(option, text, core::parse_seconds);
-}
-
 /// The simulated time in the name of a checkpoint.
-std::optional<Duration> time_in(const fs::path& file) {
+std::optional<Time> time_in(const fs::path& file) {
   std::string name = file.filename().string();
   const auto prefix = name.starts_with(kNamed) ? kNamed : kLatest;
   if (!name.starts_with(prefix) || !name.ends_with(kEnding)) return std::nullopt;
   name = name.substr(prefix.size(), name.size() - prefix.size() - kEnding.size());
   try {
-    return core::parse_seconds(name);
+    return core::parse_time(name);
   } catch (const std::invalid_argument&) {
     return std::nullopt;
   }
@@ -51,7 +47,7 @@ void add_checkpoint_options(CLI::App& command, CheckpointTimes& times) {
           "--checkpoint",
           [&times](const std::vector<std::string>& texts) {
             for (const std::string& text : texts) {
-              times.at.push_back(Time(seconds_of("--checkpoint", text)));
+              times.at.push_back(settings::parse_option("--checkpoint", text, core::parse_time));
             }
           },
           "Write the state of the run at this simulated time, for 'stride resume'; may be given "
@@ -62,7 +58,7 @@ void add_checkpoint_options(CLI::App& command, CheckpointTimes& times) {
       .add_option_function<std::string>(
           "--checkpoint-every",
           [&times](const std::string& text) {
-            times.every = seconds_of("--checkpoint-every", text);
+            times.every = settings::parse_option("--checkpoint-every", text, core::parse_seconds);
           },
           "Likewise, each time that so much simulated time has passed, and where a signal ends the "
           "run; the last two stay")
@@ -72,7 +68,7 @@ void add_checkpoint_options(CLI::App& command, CheckpointTimes& times) {
 }
 
 std::vector<fs::path> checkpoints_in(const fs::path& results) {
-  std::vector<std::pair<Duration, fs::path>> found;
+  std::vector<std::pair<Time, fs::path>> found;
   for (const fs::path& file : core::folder_entries(results / kCheckpointsFolder)) {
     if (const auto time = time_in(file)) found.emplace_back(*time, file);
   }

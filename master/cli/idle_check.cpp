@@ -31,9 +31,7 @@ struct Difference {
   std::optional<core::VariableId> id{};  ///< what differs, if it is a variable
 };
 
-Time time_of(const CsvReader& reader) {
-  return Time(core::parse_seconds(reader.fields().front().text));
-}
+Time time_of(const CsvReader& reader) { return core::parse_time(reader.fields().front().text); }
 
 std::string value_of(const CsvReader& reader, std::size_t column) {
   return reader.fields().at(column).value();

@@ -191,14 +191,23 @@ void VcdRecorder::on_start(std::span<const core::Signal> signals) {
   declare_messages(top);
   file_.write("$version stride $end\n$timescale 1 ps $end\n");
   top.write(file_);
+}
+
+/// Time stamps are not negative in a dump; viewers add $timezero to them.
+void VcdRecorder::end_header(Time start) {
+  if (start < Time()) {
+    origin_ = start;
+    file_.write(fmt::format("$timezero {} $end\n", start.time_since_epoch().count()));
+  }
   file_.write("$enddefinitions $end\n");
 }
 
 void VcdRecorder::move_to(Time time) {
   if (written_time_ == time) return;
+  if (!written_time_) end_header(time);
   written_time_ = time;
   file_.write('#');
-  file_.write_number(time.time_since_epoch().count());
+  file_.write_number((time - origin_).count());
   file_.write('\n');
 }
 
@@ -253,11 +262,13 @@ void VcdRecorder::persist(core::StateArchive& state) {
     state.value(variable.text);
   });
   state.value(written_time_);
+  state.value(origin_);
   state.value(last_point_);
   state.value(is_first_point_);
 }
 
 void VcdRecorder::on_finish() {
+  if (!written_time_) end_header(Time());
   if (written_time_ && *written_time_ < last_point_) move_to(last_point_);
   file_.close();
 }

@@ -74,6 +74,7 @@ class VcdRecorder : public core::Observer {
   void declare_signals(std::span<const core::Signal> signals, VcdScope& top);
   void declare_messages(VcdScope& top);
   std::string declare(VcdScope& top, core::VariableId id, std::size_t element);
+  void end_header(Time start);
   void move_to(Time time);
   void write_changes(bool all);
 
@@ -83,6 +84,7 @@ class VcdRecorder : public core::Observer {
   std::vector<VcdVariable> recorded_;
   std::vector<std::vector<MessageCodes>> messages_;  ///< by component and variable
   std::optional<Time> written_time_;
+  Time origin_{};  ///< of the time stamps
   Time last_point_{};
   bool is_first_point_ = true;
 };

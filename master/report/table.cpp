@@ -75,7 +75,7 @@ std::optional<Table::Unread> Table::for_each_row(const std::function<bool()>& ta
 
 std::int64_t Table::time(std::size_t place) const {
   try {
-    return core::parse_seconds(field(place).text).count();
+    return core::parse_time(field(place).text).time_since_epoch().count();
   } catch (const std::invalid_argument& mistake) {
     fail(place, mistake.what());
   }

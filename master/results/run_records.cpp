@@ -94,8 +94,8 @@ void RunRecords::collect_verdicts(bool is_complete) {
 
 bool RunRecords::is_complete() const {
   const core::RunStatistics& statistics = simulation_.statistics();
-  const bool is_cut_short =
-      subject_.options.stop < subject_.loaded.scenario().stop.value_or(Time{});
+  const Time stop = subject_.options.stop;
+  const bool is_cut_short = stop < subject_.loaded.scenario().stop.value_or(stop);
   return statistics.end == core::RunEnd::EndedByUnit ||
          (statistics.end == core::RunEnd::Completed && !is_cut_short);
 }

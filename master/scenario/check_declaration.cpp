@@ -12,14 +12,10 @@
 namespace stride::scenario {
 namespace {
 
-std::optional<Duration> read_duration(const xml::Element& element, const char* attribute) {
-  return parse_optional_attribute(element, attribute, core::parse_seconds);
-}
-
 checks::Window read_window(const xml::Element& element) {
   checks::Window window;
-  if (const auto from = read_duration(element, "from")) window.from = Time(*from);
-  if (const auto to = read_duration(element, "to")) window.to = Time(*to);
+  window.from = parse_optional_attribute(element, "from", core::parse_time);
+  window.to = parse_optional_attribute(element, "to", core::parse_time);
   if (window.from && window.to && *window.from > *window.to) {
     element.fail(fmt::format("the interval ends at {} s, before it begins at {} s",
                              core::to_text(*window.to), core::to_text(*window.from)));

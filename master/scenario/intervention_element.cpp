@@ -14,7 +14,7 @@ namespace stride::scenario {
 namespace {
 
 Time read_time(const xml::Element& element, const char* attribute) {
-  return Time(parse_attribute(element, attribute, core::parse_seconds));
+  return parse_attribute(element, attribute, core::parse_time);
 }
 
 InterventionDeclaration read_set(const xml::Element& element) {

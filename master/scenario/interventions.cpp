@@ -35,7 +35,7 @@ constexpr const char* kCorruptForm = "COMPONENT.VARIABLE[=BITS[,HEADER[,SEED]]]@
 
 Time parse_time(const char* option, const std::string& text, const std::string& seconds) {
   try {
-    return Time(core::parse_seconds(seconds));
+    return core::parse_time(seconds);
   } catch (const std::invalid_argument& mistake) {
     core::fail_input({}, fmt::format("{} {}: {}", option, text, mistake.what()));
   }

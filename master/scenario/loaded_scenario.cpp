@@ -34,22 +34,13 @@
 namespace stride::scenario {
 namespace {
 
-Duration parse_option(const std::string& option, const std::string& text,
-                      Duration (*parse)(std::string_view) = &core::parse_seconds) {
+template <class Parse>
+auto parse_option(const std::string& option, const std::string& text, Parse&& parse) {
   try {
     return parse(text);
   } catch (const std::invalid_argument& mistake) {
     core::fail_input({}, fmt::format("{} {}: {}", option, text, mistake.what()));
   }
-}
-
-[[noreturn]] void fail_early_start(const core::ComponentDeclaration& component, Time start) {
-  core::fail_input({component.where, component.name, {}, {}},
-                   fmt::format("the start time {} s of its DefaultExperiment is before 0 s, where "
-                               "simulated time begins",
-                               core::to_text(start)),
-                   "choose another one by --start SECONDS, or <ssd:DefaultExperiment "
-                   "startTime=\"…\"/>");
 }
 
 std::vector<std::string> names_of(std::span<const core::ComponentDeclaration> components) {
@@ -383,7 +374,7 @@ void LoadedScenario::choose_times(const ScenarioRequest& request) {
 }
 
 Time LoadedScenario::chosen_start(const ScenarioRequest& request) const {
-  if (!request.start.empty()) return Time(parse_option("--start", request.start));
+  if (!request.start.empty()) return parse_option("--start", request.start, &core::parse_time);
   return scenario_.start ? *scenario_.start : earliest_start_of_units();
 }
 
@@ -397,7 +388,6 @@ Time LoadedScenario::earliest_start_of_units() const {
   if (starts.empty()) return {};
   const auto [first, last] = std::ranges::minmax(starts);
   const core::ComponentDeclaration& earliest = components[first.second];
-  if (first.first < Time{}) fail_early_start(earliest, first.first);
   if (first.first != last.first) {
     spdlog::warn(
         "the run begins at {} s, the start time of '{}'; that of '{}' is {} s; --start "
@@ -409,7 +399,7 @@ Time LoadedScenario::earliest_start_of_units() const {
 }
 
 Time LoadedScenario::chosen_stop(const ScenarioRequest& request) const {
-  if (!request.stop.empty()) return Time(parse_option("--stop", request.stop));
+  if (!request.stop.empty()) return parse_option("--stop", request.stop, &core::parse_time);
   const std::optional<Time> stop = declared_stop();
   const std::string hint =
       "use --stop SECONDS; a system has it in <ssd:DefaultExperiment stopTime=\"…\"/>";
@@ -606,7 +596,7 @@ void LoadedScenario::choose_idle_skips(const ScenarioRequest& request) {
   }
   IdleSettings settings = scenario_.annotation.idle;
   if (!request.max_skip.empty()) {
-    const Duration skip(parse_option("--max-skip", request.max_skip, &parse_max_skip));
+    const Duration skip = parse_option("--max-skip", request.max_skip, &parse_max_skip);
     for (IdleRule& rule : settings.rules) rule.max_skip = skip;
     settings.rules.insert(settings.rules.begin(), {{"*"}, true, skip, {"--max-skip", 0}});
   }
@@ -662,7 +652,7 @@ std::vector<core::Intervention> LoadedScenario::resolve(
 void LoadedScenario::choose_interventions(const ScenarioRequest& request) {
   latest_intervention_ = request.stop.empty()
                              ? options_.stop
-                             : std::max(options_.stop, scenario_.stop.value_or(Time{}));
+                             : std::max(options_.stop, scenario_.stop.value_or(options_.stop));
   std::vector<InterventionDeclaration>& declared = further_interventions_;
   declared = request.interventions;
   const auto parse_all = [&](std::span<const std::string> texts, auto& parse) {

@@ -30,8 +30,7 @@ std::optional<T> read_seconds(const xml::Element& element, const char* attribute
 }
 
 std::optional<Time> read_instant(const xml::Element& element, const char* attribute) {
-  const auto seconds = read_seconds(element, attribute, &core::parse_seconds);
-  return seconds ? std::optional(Time(*seconds)) : std::nullopt;
+  return read_seconds(element, attribute, &core::parse_time);
 }
 
 /// Which the element of this name has in FMI, and not in SSP.
@@ -58,11 +57,10 @@ void read_default_experiment(const xml::Element& root, Scenario& scenario) {
   scenario.start = read_instant(*experiment, "startTime");
   scenario.stop = read_instant(*experiment, "stopTime");
   read_fmi_attributes(*experiment, scenario);
-  if (scenario.stop && *scenario.stop < scenario.start.value_or(Time{})) {
-    experiment->fail(
-        fmt::format("the run would end at {} s, before it starts ({} s)",
-                    core::to_text(*scenario.stop), core::to_text(scenario.start.value_or(Time{}))),
-        "give a stopTime that is not below the startTime");
+  if (scenario.start && scenario.stop && *scenario.stop < *scenario.start) {
+    experiment->fail(fmt::format("the run would end at {} s, before it starts ({} s)",
+                                 core::to_text(*scenario.stop), core::to_text(*scenario.start)),
+                     "give a stopTime that is not below the startTime");
   }
 }
 

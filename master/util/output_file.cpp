@@ -139,8 +139,11 @@ void OutputFile::write_slowly(std::string_view text) {
 
 void OutputFile::write_seconds(Time time) {
   constexpr std::int64_t kPerSecond = 1'000'000'000'000;
-  const std::int64_t ticks = time.time_since_epoch().count();
-  if (ticks < 0) return write(to_text(time));  // no run begins before 0
+  std::int64_t ticks = time.time_since_epoch().count();
+  if (ticks < 0) {
+    write('-');
+    ticks = -ticks;
+  }
   write_number(ticks / kPerSecond);
   if (ticks % kPerSecond != 0) write_fraction(ticks % kPerSecond, kPerSecond);
 }

@@ -114,14 +114,9 @@ std::optional<Duration> parse_plain(std::string_view text) {
   return Duration(count);
 }
 
-}  // namespace
-
-Duration parse_seconds(std::string_view text) {
-  if (const auto plain = parse_plain(text)) return *plain;
-  const Decimal decimal = parse_decimal(text);
+/// Without the sign.
+Duration magnitude(const Decimal& decimal, std::string_view text) {
   if (decimal.digits.empty()) return Duration::zero();
-  if (decimal.is_negative) reject(text, "is negative");
-
   const std::int64_t kept = decimal.point + kDecimals;  // digits left of the picosecond's end
   constexpr std::int64_t kMostDigits = 19;
   if (kept > kMostDigits) reject(text, "is beyond 9.2e6 s, the largest time");
@@ -137,6 +132,22 @@ Duration parse_seconds(std::string_view text) {
     reject(text, "is beyond 9.2e6 s, the largest time");
   }
   return Duration(static_cast<std::int64_t>(count));
+}
+
+}  // namespace
+
+Duration parse_seconds(std::string_view text) {
+  if (const auto plain = parse_plain(text)) return *plain;
+  const Decimal decimal = parse_decimal(text);
+  if (decimal.is_negative && !decimal.digits.empty()) reject(text, "is negative");
+  return magnitude(decimal, text);
+}
+
+Time parse_time(std::string_view text) {
+  if (const auto plain = parse_plain(text)) return Time(*plain);
+  const Decimal decimal = parse_decimal(text);
+  const Duration since = magnitude(decimal, text);
+  return Time(decimal.is_negative ? -since : since);
 }
 
 std::string wall_seconds(std::chrono::nanoseconds time) {

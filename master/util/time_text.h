@@ -20,6 +20,9 @@ std::string to_text(Duration duration);
 /// no number.
 Duration parse_seconds(std::string_view text);
 
+/// Likewise an instant, which may be before 0: "-0.5".
+Time parse_time(std::string_view text);
+
 /// Seconds that a computation took, with three decimals.
 std::string wall_seconds(std::chrono::nanoseconds time);
 

@@ -96,12 +96,12 @@ core::Interval TestedUnit::chosen_step() const {
   const core::UnitDescription& unit = description();
   const auto& own = unit.default_step ? unit.default_step : unit.fixed_internal_step;
   const core::Interval step = own.value_or(core::Interval(kDefaultStep));
-  return unit.maximum_step ? std::min(step, core::Interval(*unit.maximum_step)) : step;
+  return unit.maximum_step ? std::min(step, *unit.maximum_step) : step;
 }
 
 void TestedUnit::choose_times() {
   const core::UnitDescription& unit = description();
-  grid_ = core::Grid(std::max(unit.default_start.value_or(Time{}), Time{}), chosen_step());
+  grid_ = core::Grid(unit.default_start.value_or(Time{}), chosen_step());
   std::int64_t steps = kDefaultSteps;
   const auto values = static_cast<std::int64_t>(std::max<std::size_t>(1, observed_count_));
   if (request_.stop) {

@@ -51,7 +51,7 @@ void Playback::note_irregular(stride::Time now) {
   if (after.time < now && after.kind != Entry::Kind::End && position_.late < 0) {
     position_.late = static_cast<std::int64_t>(position_.next + 1);
   }
-  if (now < after.time && next().time < now && position_.beside < 0) {
+  if (now < after.time && next().time < now && position_.beside == kNowhere) {
     position_.beside = now.time_since_epoch().count();
   }
 }

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -13,6 +14,9 @@
 #include "units/player/stimuli.h"
 
 namespace player {
+
+/// No instant.
+inline constexpr std::int64_t kNowhere = std::numeric_limits<std::int64_t>::min();
 
 /// Goes through the entries of stimuli, which must outlive it, from the first to the last, once
 /// begin() was called. At an instant come first those that arrived there in Step Mode or in the
@@ -25,7 +29,8 @@ class Playback {
     std::uint64_t next = 0;      ///< the first entry that has not been played
     std::int64_t iteration = 0;  ///< event iterations at the present instant
     std::int64_t late = -1;      ///< an entry that was played behind its time
-    std::int64_t beside = -1;    ///< [ps] an instant in a step that was not to be cut there
+    /// [ps] An instant in a step that was not to be cut there.
+    std::int64_t beside = kNowhere;
   };
 
   explicit Playback(const Stimuli& stimuli) : stimuli_(&stimuli), ticked_(stimuli.inputs.size()) {}

@@ -243,13 +243,14 @@ class PlayerUnit : public stride::Unit {
                                 " s, where it stopped by itself, comes late: the unit that it is "
                                 "played to does not stop there (see stop_at_stimuli)");
     }
-    if (position.beside >= 0) {
+    if (position.beside != player::kNowhere) {
       const stride::Time beside{stride::Duration(position.beside)};
       warn_once(told_beside_, "there is a communication point at " + text(beside) +
                                   " s where the captured unit had none, so steps are cut otherwise "
                                   "than they were; let the step policy be event-driven");
     }
-    position.late = position.beside = -1;
+    position.late = -1;
+    position.beside = player::kNowhere;
   }
 
   void warn_once(bool& has_warned, const std::string& message) const {

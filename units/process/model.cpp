@@ -264,9 +264,10 @@ Sync Session::take_sync(Time to, bool may_stop) {
 Time Session::take_time(std::string_view attribute) const {
   const auto number = tag_.value<std::int64_t>(attribute);
   const std::int64_t most = Time::max().time_since_epoch() / unit_;
-  if (number < 0 || number > most) {
+  if (number < -most || number > most) {
     throw std::invalid_argument(std::string(attribute) + "=\"" + std::to_string(number) +
-                                "\": expected from 0 to " + std::to_string(most));
+                                "\": expected from " + std::to_string(-most) + " to " +
+                                std::to_string(most));
   }
   return Time(number * unit_);
 }

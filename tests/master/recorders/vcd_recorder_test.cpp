@@ -115,6 +115,20 @@ TEST_CASE("GTKWave's reader takes the trace, and finds every change in it") {
   }
 }
 
+TEST_CASE("time stamps begin at 0 where the run begins before it") {
+  const TemporaryFolder folder;
+  SampleRun run;
+  VcdRecorder recorder(run.system, folder / "x.vcd");
+  recorder.on_start(std::vector<core::Signal>{{{0, 1}, &run.numbers, 3}});
+  recorder.on_communication_point(Time(-std::chrono::milliseconds(1)));
+  run.numbers.numbers<double>()[3] = 1;
+  recorder.on_communication_point(milliseconds(1));
+  recorder.on_finish();
+  CHECK_THAT(content(folder / "x.vcd"),
+             Contains("$timezero -1000000000 $end\n$enddefinitions $end\n#0\n") &&
+                 Catch::EndsWith("#2000000000\nr1 !\n"));
+}
+
 TEST_CASE("A value that is not a number changes once") {
   const TemporaryFolder folder;
   SampleRun run;

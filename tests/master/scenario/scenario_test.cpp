@@ -250,8 +250,10 @@ TEST_CASE("Start and stop time are exact and make sense") {
   CHECK(read(ssd(experiment("stopTime='0.1'"))).stop == Time(std::chrono::milliseconds(100)));
   CHECK_THROWS_WITH(read(ssd(experiment("stopTime='soon'"))),
                     Contains("x.ssd:4: stopTime='soon' is not a number"));
-  CHECK_THROWS_WITH(read(ssd(experiment("startTime='-1'"))),
-                    Contains("startTime='-1' is negative"));
+  const Scenario before_zero = read(ssd(experiment("startTime='-1' stopTime='-0.5'")));
+  CHECK(before_zero.start == Time(-std::chrono::seconds(1)));
+  CHECK(before_zero.stop == Time(-std::chrono::milliseconds(500)));
+  CHECK(read(ssd(experiment("stopTime='-1'"))).stop == Time(-std::chrono::seconds(1)));
   CHECK_THROWS_WITH(read(ssd(experiment("startTime='2' stopTime='1.5'"))),
                     Contains("the run would end at 1.5 s, before it starts (2 s)"));
   CHECK(read(ssd(experiment("startTime='2' stopTime='2'"))).stop == Time(std::chrono::seconds(2)));

@@ -87,6 +87,12 @@ TEST_CASE("Seconds of all lengths are written, also where the buffer is full") {
   CHECK((content(folder / "x") == expected));
 }
 
+TEST_CASE("times before 0 s are written like others") {
+  CHECK(text_of(Time(Duration(-1))) == "-0.000000000001");
+  CHECK(text_of(Time(-std::chrono::milliseconds(1'500))) == "-1.5");
+  CHECK(text_of(Time(-std::chrono::seconds(2))) == "-2");
+}
+
 TEST_CASE("A file that cannot be created is named, with the reason") {
   CHECK_THROWS_WITH(OutputFile("/nowhere/x.csv"),
                     Contains("/nowhere/x.csv: cannot create the file: No such file or directory") &&

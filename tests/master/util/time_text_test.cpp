@@ -73,6 +73,15 @@ TEST_CASE("What is not a time is refused, and the text says what was expected") 
                                              Catch::Contains("a number of seconds such as 0.001"));
 }
 
+TEST_CASE("an instant may be before 0 s") {
+  CHECK(parse_time("-0.5") == Time(-std::chrono::milliseconds(500)));
+  CHECK(parse_time(" -1e-12 ") == Time(Duration(-1)));
+  CHECK(parse_time("-0") == Time());
+  CHECK(parse_time("14.2") == Time(std::chrono::milliseconds(14'200)));
+  CHECK_THROWS_WITH(parse_time("-1e7"), Catch::Contains("'-1e7' is beyond 9.2e6 s"));
+  CHECK_THROWS_WITH(parse_time("--1"), Catch::Contains("is not a number"));
+}
+
 TEST_CASE("what is no time is quoted whole, also where it has a NUL") {
   CHECK_THROWS_WITH(parse_seconds(std::string_view("1\0x", 3)),
                     Catch::Contains("'1\\x00x' is not a number"));

@@ -118,7 +118,7 @@ TEST_CASE("a bad row is reported with its line, and what was expected") {
              Catch::Contains("the head has no input 'lever', only level, mode, "));
   CHECK_THAT(mistake_with("0.25,,level", "0.25,x,level"), Catch::Contains("'x' is not an event"));
   CHECK_THAT(mistake_with("0.25,,level", "1e-3,,level"), Catch::Contains("'1e-3' is not a time"));
-  CHECK_THAT(mistake_with("0.25,,level", "-1,,level"), Catch::Contains("'-1' is not a time"));
+  CHECK_THAT(mistake_with("0.25,,level", "--1,,level"), Catch::Contains("'--1' is not a time"));
   CHECK_THAT(mistake_with("0.25,,level", "0.2500000000001,,level"),
              Catch::Contains("is not a time"));
   CHECK_THAT(mistake_with("1,message.clock,", "1,message.clock,5"),

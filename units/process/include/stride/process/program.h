@@ -177,13 +177,16 @@ class Program {
   void answer(bool all);
   void write_answer();
 
-  Time time_of(std::string_view attribute) const { return Time(duration_of(attribute)); }
-  Duration duration_of(std::string_view attribute) const {
+  Time time_of(std::string_view attribute) const {
+    const std::int64_t most = Duration::max().count() / unit_;
+    return Time(duration_of(attribute, -most));
+  }
+  Duration duration_of(std::string_view attribute, std::int64_t least = 0) const {
     const auto number = tag_.value<std::int64_t>(attribute);
     const std::int64_t most = Duration::max().count() / unit_;
-    if (number >= 0 && number <= most) return Duration(number * unit_);
-    throw std::invalid_argument(std::string(attribute) + ": expected from 0 to " +
-                                std::to_string(most));
+    if (number >= least && number <= most) return Duration(number * unit_);
+    throw std::invalid_argument(std::string(attribute) + ": expected from " +
+                                std::to_string(least) + " to " + std::to_string(most));
   }
   /// Makes the unit of time a picosecond if the instant is not a multiple of it.
   void fit_unit_to(Time time) {
