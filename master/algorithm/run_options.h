@@ -70,9 +70,9 @@ struct StepOptions {
   const StepPolicyType* policy = &kFixedSteps;
   Interval size{};  ///< of the grid; error-controlled: of the first step
   /// No step is longer. Nothing: as long as the units allow; error-controlled: a tenth of the run.
-  std::optional<Duration> maximum{};
+  std::optional<Interval> maximum{};
   /// No shorter one is tried after a rejection.
-  Duration minimum = std::chrono::nanoseconds(1);
+  Interval minimum = std::chrono::nanoseconds(1);
   /// Error-controlled: an input v may be off by absolute_tolerance + relative_tolerance * |v|, in
   /// the unit of the output that feeds it.
   double relative_tolerance = 1e-3;

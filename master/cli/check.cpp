@@ -120,7 +120,7 @@ std::string own_steps(const core::System& system) {
 std::string steps(const core::System& system, const core::RunOptions& options) {
   const core::StepOptions& step = options.step;
   std::string steps = step.policy->describe(step);
-  if (step.maximum) steps += fmt::format(", of {} s at most", seconds(*step.maximum));
+  if (step.maximum) steps += fmt::format(", of {} s at most", core::to_text(*step.maximum));
   return fmt::format("{}{}\ncoupling {}, inputs {}", steps, own_steps(system),
                      name(options.coupling),
                      options.extrapolation == core::Extrapolation::Hold

@@ -186,7 +186,7 @@ struct UnitDescription {
   std::optional<std::size_t> verdict;
   std::optional<std::size_t> verdict_text;
   std::optional<Interval> fixed_internal_step;
-  std::optional<Duration> maximum_step;     ///< no step may be longer
+  std::optional<Interval> maximum_step;     ///< no step may be longer
   std::optional<Interval> default_step;     ///< DefaultExperiment
   std::optional<Time> default_start;        ///< likewise; may be negative
   std::optional<Time> default_stop;         ///< Time::max(): later than times can be counted

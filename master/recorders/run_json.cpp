@@ -82,8 +82,8 @@ Json component_steps(const core::System& system) {
 Json step_entry(const core::System& system, const core::RunOptions& options) {
   Json entry = {{"policy", name(options.step.policy)},
                 {"size", options.step.size.seconds()},
-                {"minimum", to_seconds(options.step.minimum)}};
-  if (options.step.maximum) entry["maximum"] = to_seconds(*options.step.maximum);
+                {"minimum", options.step.minimum.seconds()}};
+  if (options.step.maximum) entry["maximum"] = options.step.maximum->seconds();
   if (options.step.policy->controls_error) {
     entry["relative_tolerance"] = options.step.relative_tolerance;
     entry["absolute_tolerance"] = options.step.absolute_tolerance;

@@ -135,7 +135,7 @@ class ReplayWriter {
   /// Whether it is of the device's own parameters and inputs, and within the stimuli.
   bool is_own(const core::Intervention& change) const {
     return change.id.component == request_.component && !disturbs_messages(change.kind) &&
-           change.from <= Time(core::parse_seconds(request_.stimuli.end));
+           change.from <= core::parse_time(request_.stimuli.end);
   }
 
   void write_annotation() {
@@ -153,11 +153,13 @@ class ReplayWriter {
     writer_.close();
   }
 
-  /// A step that ends at the player's events only, or that which the unit demands.
+  /// A step that ends at the player's events only, or that which the unit demands, or that of the
+  /// run whose points have fractions of picoseconds, which no event of the player has.
   void write_steps() {
     const core::StepOptions& step = request_.loaded.options().step;
-    if (!component_.description->can_vary_step) {
-      const core::Interval size = component_.own_step.value_or(step.size);
+    const core::Interval size = component_.own_step.value_or(step.size);
+    const bool has_fractions = !size.is_whole() && (component_.own_step || step.policy->has_grid);
+    if (!component_.description->can_vary_step || has_fractions) {
       return write_element("stride:Step", {{"policy", "fixed"}, {"size", core::to_text(size)}});
     }
     const std::string run = core::to_text(run_length());
@@ -168,7 +170,7 @@ class ReplayWriter {
   }
 
   Duration run_length() const {
-    return core::parse_seconds(request_.stimuli.end) - core::parse_seconds(request_.stimuli.start);
+    return core::parse_time(request_.stimuli.end) - core::parse_time(request_.stimuli.start);
   }
 
   static bool is_default(const std::string& skip) {

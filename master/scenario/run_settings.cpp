@@ -46,8 +46,6 @@ core::Interval parse_size(std::string_view text) {
   return size;
 }
 
-Duration parse_step(std::string_view text) { return parse_above_zero(text, "a step"); }
-
 /// Replaces what is set already, if the other value is set.
 template <class T, class U>
 void take(T& mine, const std::optional<U>& other) {
@@ -98,8 +96,8 @@ void StepSettings::set_policy(std::string_view text) {
   policy = parse_word(text, core::kStepPolicies);
 }
 void StepSettings::set_size(std::string_view text) { size = parse_size(text); }
-void StepSettings::set_maximum(std::string_view text) { maximum = parse_step(text); }
-void StepSettings::set_minimum(std::string_view text) { minimum = parse_step(text); }
+void StepSettings::set_maximum(std::string_view text) { maximum = parse_size(text); }
+void StepSettings::set_minimum(std::string_view text) { minimum = parse_size(text); }
 void StepSettings::set_relative_tolerance(std::string_view text) {
   relative_tolerance = core::parse_at_least_zero(text);
 }

@@ -34,8 +34,8 @@ using ComponentSteps = std::vector<std::optional<core::Interval>>;
 struct StepSettings {
   std::optional<const core::StepPolicyType*> policy;
   std::optional<core::Interval> size;
-  std::optional<Duration> maximum;
-  std::optional<Duration> minimum;
+  std::optional<core::Interval> maximum;
+  std::optional<core::Interval> minimum;
   std::optional<double> relative_tolerance;
   std::optional<double> absolute_tolerance;
   std::optional<core::Coupling> coupling;

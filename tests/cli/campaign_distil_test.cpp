@@ -229,6 +229,17 @@ TEST_CASE("what a device was set to, by the scenario, the case and in the run, i
                  Contains("<stride:EarlyReturn components=\"sink\" allowed=\"false\"/>"));
 }
 
+TEST_CASE("a replay has the steps of the run where they have fractions of picoseconds") {
+  Parts parts = checked_filters();
+  const bool is_own = GENERATE(false, true);
+  parts.annotation += is_own ? "<stride:Step components='second' size='0.03333333333333333'/>"
+                             : "<stride:Step size='0.03333333333333333'/>";
+  const Distilled space(inputs({"0.5"}, kCapture), parts, 0);
+  space.check_distilled();
+  CHECK_THAT(read(space / "suite/case_000000.ssd"),
+             Contains("<stride:Step policy=\"fixed\" size=\"0.03333333333333333\"/>"));
+}
+
 TEST_CASE("inputs that were set, forced or held in the run are so in the replay") {
   const auto check = [](const std::string& connections, const std::string& interventions,
                         const std::string& unit = "feedthrough.fmu") {

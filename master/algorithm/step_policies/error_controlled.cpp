@@ -18,7 +18,7 @@ class ErrorControlledSteps : public StepPolicy {
   ErrorControlledSteps(const System& system, const RunOptions& options)
       : system_(system),
         limits_(system, options, std::max((options.stop - options.start) / 10, Duration(1))),
-        minimum_(options.step.minimum),
+        minimum_(options.step.minimum.rounded()),
         controller_(options.step.size.rounded(), 1.0 + static_cast<double>(options.extrapolation)) {
   }
 

@@ -16,7 +16,7 @@ class FixedSteps : public StepPolicy {
       : limits_(system, options),
         grid_(options.start, options.step.size),
         last_(std::max(options.start, limits_.stop() - grid_.negligible())),
-        is_limited_(limits_.maximum() && *limits_.maximum() < grid_.step().rounded()),
+        is_limited_(limits_.are_below(grid_.step())),
         point_(options.start) {}
 
   Time next(Time now) override {

@@ -6,18 +6,18 @@
 namespace stride::core {
 
 StepLimits::StepLimits(const System& system, const RunOptions& options,
-                       std::optional<Duration> default_maximum)
-    : start_(options.start),
-      stop_(options.stop),
-      maximum_(options.step.maximum ? options.step.maximum : default_maximum),
-      quantum_(start_, Duration(1)) {
+                       std::optional<Interval> default_maximum)
+    : start_(options.start), stop_(options.stop), quantum_(start_, Duration(1)) {
+  std::optional<Interval> maximum = options.step.maximum ? options.step.maximum : default_maximum;
   for (const Component& component : system.components()) {
     if (component.keeps_own_step()) continue;
     const UnitDescription& unit = *component.description;
-    if (unit.maximum_step)
-      maximum_ = std::min(maximum_.value_or(stop_ - start_), *unit.maximum_step);
+    if (unit.maximum_step) {
+      maximum = std::min(maximum.value_or(Interval(stop_ - start_)), *unit.maximum_step);
+    }
     if (unit.fixed_internal_step) refine_quantum(*unit.fixed_internal_step);
   }
+  if (maximum) maximum_ = maximum->rounded();
 }
 
 /// Where no multiple of all internal steps lies within the run, those that came first count.

@@ -18,12 +18,14 @@ class StepLimits {
  public:
   /// `default_maximum` applies where the user gives none.
   StepLimits(const System& system, const RunOptions& options,
-             std::optional<Duration> default_maximum = std::nullopt);
+             std::optional<Interval> default_maximum = std::nullopt);
 
   Time start() const { return start_; }
   Time stop() const { return stop_; }
   /// Nothing: neither the user nor a unit limits the steps.
   std::optional<Duration> maximum() const { return maximum_; }
+  /// Whether steps of this size would be too long; less than a picosecond does not count.
+  bool are_below(const Interval& size) const { return maximum_ && *maximum_ < size.rounded(); }
   /// A common multiple of all fixed internal steps; 1 ps where there are none.
   const Interval& quantum() const { return quantum_.step(); }
 

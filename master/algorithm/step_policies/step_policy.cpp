@@ -14,8 +14,7 @@ namespace {
 
 bool varies_steps(const System& system, const RunOptions& options) {
   const StepLimits limits(system, options);
-  return !options.step.policy->has_grid ||
-         (limits.maximum() && *limits.maximum() < options.step.size.rounded());
+  return !options.step.policy->has_grid || limits.are_below(options.step.size);
 }
 
 void check_own_step(const Component& component) {
@@ -23,7 +22,7 @@ void check_own_step(const Component& component) {
   const auto& maximum = component.description->maximum_step;
   if (component.own_step->is_below_picosecond())
     throw std::invalid_argument("a component's step must be positive");
-  if (!maximum || *component.own_step <= Interval(*maximum)) return;
+  if (!maximum || component.own_step->rounded() <= maximum->rounded()) return;
   fail_input({{}, component.name, {}, {}},
              fmt::format("its own step of {} s is longer than its unit's maximum of {} s",
                          to_text(*component.own_step), to_text(*maximum)),

@@ -21,7 +21,7 @@ OwnSteps::OwnSteps(RunContext& context, InputExtrapolator* inputs)
       inputs_(inputs),
       start_(context.options.start),
       stop_(context.options.stop),
-      minimum_(context.options.step.minimum),
+      minimum_(context.options.step.minimum.rounded()),
       states_(units_.size()) {
   for (std::size_t i = 0; i < states_.size(); ++i) {
     const Component& component = system_.components()[i];

@@ -38,7 +38,8 @@ class RejectionProbe {
   void run() {
     Duration size = trial_.tested.step();
     for (int i = 0; i < kDoublings && !is_over(); ++i, size *= 2) {
-      if (const auto& most = trial_.tested.description().maximum_step) size = std::min(size, *most);
+      const auto& most = trial_.tested.description().maximum_step;
+      if (most) size = std::min(size, most->rounded());
       attempt(size);
     }
   }

@@ -114,7 +114,7 @@ class Describe {
   Describe& can_save_state() { return description_->can_save_state = true, *this; }
   Describe& may_return_early() { return description_->may_return_early = true, *this; }
   Describe& fixed_step() { return description_->can_vary_step = false, *this; }
-  Describe& maximum_step(Duration step) { return description_->maximum_step = step, *this; }
+  Describe& maximum_step(const Interval& step) { return description_->maximum_step = step, *this; }
   Describe& fixed_internal_step(const Interval& step) {
     return description_->fixed_internal_step = step, *this;
   }

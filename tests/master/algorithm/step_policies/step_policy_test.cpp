@@ -103,6 +103,18 @@ TEST_CASE("steps of a third of a second meet the whole seconds") {
   }
 }
 
+TEST_CASE("a maximum of a third of a second allows steps of a third of a second") {
+  const auto third = GENERATE(Interval::from_fraction(1, 3), Interval(Duration(333'333'333'333)));
+  ScriptedSystem f;
+  f.add("a", Describe("a").maximum_step(third).done());
+  f.add("b", Describe("b").maximum_step(third).done());
+  f.declaration.components[1].own_step = Interval::from_fraction(1, 3);
+  f.options.step.maximum = third;
+  CHECK(points(f, 1, Interval::from_fraction(1, 3)) ==
+        std::vector<Time>{Time(), Time(Duration(333'333'333'333)), Time(Duration(666'666'666'667)),
+                          Time(1s)});
+}
+
 TEST_CASE("what remains of a run is part of its last step if it is negligible") {
   ScriptedSystem f;
   f.add("a", Describe("a").maximum_step(Duration(333'333'333'333)).done());
