@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "master/algorithm/statistics.h"
+#include "master/algorithm/capabilities/host_diagnostics.h"
 #include "master/isolation/host_link.h"
 #include "master/isolation/host_process.h"
 #include "master/isolation/hosted_unit_spec.h"

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "master/algorithm/capabilities/clock_intervals.h"
-#include "master/algorithm/statistics.h"
+#include "master/algorithm/capabilities/host_diagnostics.h"
 #include "master/algorithm/unit.h"
 #include "master/isolation/codec.h"
 #include "master/isolation/process/sandbox.h"

@@ -12,7 +12,7 @@
 #include <string>
 #include <string_view>
 
-#include "master/algorithm/statistics.h"
+#include "master/algorithm/capabilities/host_diagnostics.h"
 #include "master/isolation/output_tail.h"
 #include "master/remote/command_process.h"
 #include "master/remote/frame.h"
