@@ -8,7 +8,7 @@
 
 #include <stride/value_text.h>
 
-#include "master/util/message_text.h"
+#include "master/base/message_text.h"
 
 namespace stride::report {
 namespace {

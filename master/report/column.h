@@ -11,8 +11,8 @@
 #include <variant>
 #include <vector>
 
-#include "master/model/description.h"
-#include "master/util/csv_reader.h"
+#include "master/base/files/csv_reader.h"
+#include "master/engine/model/description.h"
 
 namespace stride::report {
 

@@ -9,8 +9,8 @@
 
 #include <fmt/format.h>
 
+#include "master/base/error.h"
 #include "master/report/table.h"
-#include "master/util/error.h"
 
 namespace stride::report {
 

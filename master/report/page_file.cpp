@@ -6,11 +6,11 @@
 
 #include <fmt/format.h>
 
+#include "master/base/error.h"
+#include "master/base/files/output_file.h"
+#include "master/base/files/replacement.h"
 #include "master/report/page.h"
 #include "master/report/page_data.h"
-#include "master/util/error.h"
-#include "master/util/output_file.h"
-#include "master/util/replacement.h"
 
 namespace stride::report {
 namespace {

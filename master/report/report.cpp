@@ -10,14 +10,14 @@
 
 #include <fmt/format.h>
 
-#include "master/coverage/coverage_json.h"
+#include "master/base/error.h"
+#include "master/base/files/untrusted_folder.h"
+#include "master/base/message_text.h"
+#include "master/observe/coverage/coverage_json.h"
 #include "master/report/page.h"
 #include "master/report/page_data.h"
 #include "master/report/page_file.h"
 #include "master/report/world_file.h"
-#include "master/util/error.h"
-#include "master/util/message_text.h"
-#include "master/util/untrusted_folder.h"
 
 namespace stride::report {
 namespace {

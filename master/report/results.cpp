@@ -7,15 +7,15 @@
 
 #include <fmt/format.h>
 
-#include "master/coverage/coverage_json.h"
-#include "master/recorders/results_folder.h"
-#include "master/recorders/unit_folders.h"
+#include "master/base/error.h"
+#include "master/base/files/input_file.h"
+#include "master/base/files/untrusted_folder.h"
+#include "master/observe/coverage/coverage_json.h"
+#include "master/observe/recorders/results_folder.h"
+#include "master/observe/recorders/unit_folders.h"
 #include "master/report/notes.h"
 #include "master/report/table.h"
 #include "master/report/world_file.h"
-#include "master/util/error.h"
-#include "master/util/input_file.h"
-#include "master/util/untrusted_folder.h"
 
 namespace stride::report {
 namespace {

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "master/coverage/report.h"
-#include "master/recorders/results_folder.h"
+#include "master/observe/coverage/report.h"
+#include "master/observe/recorders/results_folder.h"
 #include "master/report/message_rows.h"
 #include "master/report/run_file.h"
 #include "master/report/signals_file.h"

@@ -10,10 +10,10 @@
 
 #include <fmt/format.h>
 
-#include "master/recorders/results_folder.h"
-#include "master/util/error.h"
-#include "master/util/input_file.h"
-#include "master/util/readable_text.h"
+#include "master/base/error.h"
+#include "master/base/files/input_file.h"
+#include "master/base/text/readable_text.h"
+#include "master/observe/recorders/results_folder.h"
 
 namespace stride::report {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "master/recorders/results_folder.h"
+#include "master/observe/recorders/results_folder.h"
 #include "master/report/column.h"
 #include "master/report/page_data.h"
 

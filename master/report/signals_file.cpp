@@ -8,9 +8,9 @@
 
 #include <fmt/format.h>
 
+#include "master/base/files/input_file.h"
+#include "master/base/message_text.h"
 #include "master/report/thinning.h"
-#include "master/util/input_file.h"
-#include "master/util/message_text.h"
 
 namespace stride::report {
 namespace {

@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
-#include "master/util/error.h"
-#include "master/util/time_text.h"
+#include "master/base/error.h"
+#include "master/base/time_text.h"
 
 namespace stride::report {
 

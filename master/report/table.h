@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "master/util/csv_reader.h"
+#include "master/base/files/csv_reader.h"
 
 namespace stride::report {
 

@@ -9,9 +9,9 @@
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
-#include "master/checks/checks.h"
-#include "master/importer/fmu.h"
-#include "master/scenario/check_selection.h"
+#include "master/loader/fmu/fmu.h"
+#include "master/observe/checks/checks.h"
+#include "master/system/scenario/check_selection.h"
 #include "tests/bench/stopwatch.h"
 #include "tests/build.h"
 

@@ -13,7 +13,7 @@
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
-#include "master/recorders/csv_recorder.h"
+#include "master/observe/recorders/csv_recorder.h"
 #include "tests/bench/stopwatch.h"
 
 namespace {

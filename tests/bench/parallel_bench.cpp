@@ -12,7 +12,7 @@
 
 #include <benchmark/benchmark.h>
 
-#include "master/algorithm/simulation.h"
+#include "master/engine/run/simulation.h"
 
 namespace {
 

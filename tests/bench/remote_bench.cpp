@@ -16,9 +16,9 @@
 #include <poll.h>
 #include <unistd.h>
 
-#include "master/isolation/hosted_unit.h"
-#include "master/remote/command_process.h"
-#include "master/remote/remote_unit.h"
+#include "master/loader/network/command_process.h"
+#include "master/loader/network/remote_unit.h"
+#include "master/loader/process/hosted_unit.h"
 #include "tests/bench/stopwatch.h"
 #include "tests/build.h"
 

@@ -8,7 +8,7 @@
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
-#include "master/importer/fmu.h"
+#include "master/loader/fmu/fmu.h"
 #include "tests/bench/stopwatch.h"
 #include "tests/build.h"
 

@@ -4,7 +4,7 @@
 
 #include <chrono>
 
-#include "master/algorithm/simulation.h"
+#include "master/engine/run/simulation.h"
 
 namespace stride::bench {
 

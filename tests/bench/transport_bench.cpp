@@ -19,11 +19,11 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "master/importer/fmu.h"
-#include "master/isolation/hosted_unit.h"
+#include "master/loader/fmu/fmu.h"
+#include "master/loader/process/hosted_unit.h"
 #include "tests/bench/stopwatch.h"
 #include "tests/build.h"
-#include "tests/master/algorithm/unit_capabilities.h"
+#include "tests/master/engine/run/unit_capabilities.h"
 
 namespace {
 

@@ -1,5 +1,5 @@
 // Arrays whose sizes structural parameters give.
-#include "master/importer/unpacked_fmu.h"
+#include "master/loader/fmu/library/unpacked_fmu.h"
 #include "tests/cli/scenarios.h"
 
 using namespace stride::tests;

@@ -1,7 +1,7 @@
 // stride build: FMUs with sources only.
 #include <cstring>
 
-#include "master/importer/binaries.h"
+#include "master/loader/fmu/description/binaries.h"
 #include "tests/cli/landlock.h"
 #include "tests/cli/scenarios.h"
 

@@ -7,7 +7,7 @@
 #include <system_error>
 
 #include "tests/cli/failures.h"
-#include "tests/master/campaign/texts.h"
+#include "tests/master/study/campaign/texts.h"
 
 namespace stride::tests {
 

@@ -3,7 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "master/importer/unpacked_fmu.h"
+#include "master/loader/fmu/library/unpacked_fmu.h"
 #include "tests/cli/campaigns.h"
 #include "tests/cli/course.h"
 #include "tests/cli/failures.h"

@@ -1,7 +1,7 @@
 // The DefaultExperiment of a unit, as a user of the program meets it.
 #include <nlohmann/json.hpp>
 
-#include "master/importer/unpacked_fmu.h"
+#include "master/loader/fmu/library/unpacked_fmu.h"
 #include "tests/build.h"
 #include "tests/cli/scenarios.h"
 

@@ -1,7 +1,7 @@
 // FMI 2.0 units, as a user of the program meets them.
 #include <nlohmann/json.hpp>
 
-#include "master/importer/unpacked_fmu.h"
+#include "master/loader/fmu/library/unpacked_fmu.h"
 #include "tests/build.h"
 #include "tests/cli/scenarios.h"
 

@@ -1,8 +1,8 @@
 // Files as other tools write them, in a run: character encodings, prefixes, sources.
 #include <cmath>
 
-#include "master/importer/unpacked_fmu.h"
-#include "master/util/archive/zip.h"
+#include "master/base/archive/zip.h"
+#include "master/loader/fmu/library/unpacked_fmu.h"
 #include "tests/build.h"
 #include "tests/cli/scenarios.h"
 

@@ -6,7 +6,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "master/isolation/process/landlock.h"
+#include "master/base/child_process/landlock.h"
 
 namespace stride::tests {
 

@@ -8,10 +8,10 @@
 #include <string>
 #include <thread>
 
-#include "master/util/descriptor.h"
+#include "master/base/files/descriptor.h"
 #include "tests/build.h"
 #include "tests/cli/failures.h"
-#include "tests/master/cli/live_client.h"
+#include "tests/master/front/cli/live_client.h"
 #include "tests/master/report/support.h"
 
 using namespace stride::tests;

@@ -1,5 +1,5 @@
 // stride new: first files, which run as they are. install_test builds those of units.
-#include "master/util/input_file.h"
+#include "master/base/files/input_file.h"
 #include "tests/cli/scenarios.h"
 
 using namespace stride::tests;

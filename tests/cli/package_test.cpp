@@ -3,8 +3,8 @@
 
 #include <catch2/catch.hpp>
 
-#include "master/util/archive/unpacked_archive.h"
-#include "master/util/archive/zip.h"
+#include "master/base/archive/unpacked_archive.h"
+#include "master/base/archive/zip.h"
 #include "tests/cli/scenarios.h"
 
 using namespace stride::tests;

@@ -6,8 +6,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "master/remote/frame.h"
-#include "master/remote/message.h"
+#include "master/loader/network/frame.h"
+#include "master/loader/network/message.h"
 #include "tests/cli/scenarios.h"
 
 using namespace stride::tests;

@@ -7,7 +7,7 @@
 
 #include "tests/cli/program.h"
 #include "tests/cli/results.h"
-#include "tests/master/importer/support.h"
+#include "tests/master/loader/fmu/support.h"
 
 namespace stride::tests {
 

@@ -1,6 +1,6 @@
 // What the System Structure and Parameterization standard says about values and connections, in a
 // run.
-#include "master/util/archive/zip.h"
+#include "master/base/archive/zip.h"
 #include "tests/cli/scenarios.h"
 
 using namespace stride::tests;

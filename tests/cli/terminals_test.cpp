@@ -1,5 +1,5 @@
 // Terminals of two units, connected as one.
-#include "master/importer/unpacked_fmu.h"
+#include "master/loader/fmu/library/unpacked_fmu.h"
 #include "tests/cli/scenarios.h"
 
 using namespace stride::tests;

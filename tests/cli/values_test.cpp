@@ -1,6 +1,6 @@
 // Values of units that cannot be read: the unit, the variable and the time are named, in process
 // and hosted.
-#include "master/util/readable_text.h"
+#include "master/base/text/readable_text.h"
 #include "tests/build.h"
 #include "tests/cli/failures.h"
 

@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "master/importer/unpacked_fmu.h"
+#include "master/loader/fmu/library/unpacked_fmu.h"
 #include "tests/build.h"
 #include "tests/cli/scenarios.h"
 #include "tests/fuzz/mutator.h"

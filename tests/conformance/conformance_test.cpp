@@ -8,9 +8,9 @@
 
 #include <catch2/catch.hpp>
 
-#include "master/importer/fmi3/fmi3_library.h"
-#include "master/importer/fmu.h"
-#include "master/model/values.h"
+#include "master/engine/model/values.h"
+#include "master/loader/fmu/fmu.h"
+#include "master/loader/fmu/library/fmi3_library.h"
 
 namespace {
 

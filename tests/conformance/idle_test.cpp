@@ -6,8 +6,8 @@
 
 #include <catch2/catch.hpp>
 
-#include "master/algorithm/capabilities/idle_promises.h"
-#include "master/util/error.h"
+#include "master/base/error.h"
+#include "master/engine/port/capabilities/idle_promises.h"
 #include "tests/property/promise.h"
 
 namespace {

@@ -15,8 +15,8 @@ ROOT = pathlib.Path(sys.argv.pop(1))
 MISTAKES = [
     ("IdleScheduler::suspend_idle(", "EventHandler::suspend_idle(", "EventHandler has no function suspend_idle()"),
     ("Stepper::undo(time)", "Simulation::undo(time)", "Simulation has no function undo()"),
-    ("OrderedEvaluation::run", "OrderedEvaluation::execute", "execute() is not a function of master/algorithm"),
-    ("step_stage(", "step_part(", "step_part() is not a function of master/algorithm"),
+    ("OrderedEvaluation::run", "OrderedEvaluation::execute", "execute() is not a function of master/engine"),
+    ("step_stage(", "step_part(", "step_part() is not a function of master/engine"),
     ("check_minimum()", "check_least()", "Stepper::check_minimum() is neither in the pseudocode nor in the list"),
     ("prepare_events()", "handle_events()", "EventHandler::prepare_events() is neither in the pseudocode nor"),
     ("check_stall()", "record(unit)", "Run::check_stall() is neither in the pseudocode nor in the list"),

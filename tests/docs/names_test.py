@@ -1,10 +1,10 @@
 """names_test.py ROOT: docs/stepping.md uses the names of the code, and shows its algorithm whole.
 
-- Each function of the pseudocode is declared or defined in master/algorithm; a qualified one (Class::function) is a
+- Each function of the pseudocode is declared or defined in master/engine; a qualified one (Class::function) is a
   member of that class.
 - A function calls those that the pseudocode shows in it, itself or by functions that the pseudocode leaves out.
 - Each name in backticks that is written like one of the code (step_order, kStepPolicies, StepPolicy, stride::Time) is
-  in a header of master/ or interfaces/, or is one of XML that master/importer or master/scenario reads.
+  in a header of master/ or interfaces/, or is one of XML that master/loader/fmu or master/system reads.
 - Each member function of the classes of SHOWN is in the pseudocode or in the list of those that it leaves out.
 """
 
@@ -76,7 +76,7 @@ def unknown_functions(page, functions):
         if NOT_OURS.match(function):
             continue
         if function not in names:
-            yield f"{function}() is not a function of master/algorithm"
+            yield f"{function}() is not a function of master/engine"
         elif owner and (owner, function) not in functions:
             yield f"{owner} has no function {function}()"
 
@@ -163,7 +163,7 @@ def mistakes(page, code):
 
 
 class Code:
-    """algorithm: texts of master/algorithm; headers: of the C++ headers; readers: of sources that read XML, whose names
+    """algorithm: texts of master/engine; headers: of the C++ headers; readers: of sources that read XML, whose names
     they have in quotes."""
 
     def __init__(self, algorithm, headers, readers):
@@ -179,9 +179,9 @@ def page_of(root):
 
 
 def code_of(root):
-    return Code(sources(root, "master/algorithm"),
+    return Code(sources(root, "master/engine"),
                 sources(root, "master", (".h",)) + sources(root, "interfaces", (".h",)),
-                sources(root, "master/importer") + sources(root, "master/scenario"))
+                sources(root, "master/loader/fmu") + sources(root, "master/system"))
 
 
 def main(root):

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "master/util/error.h"
+#include "master/base/error.h"
 #include "tests/fuzz/parser.h"
 
 namespace stride::tests {

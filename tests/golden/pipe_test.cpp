@@ -5,7 +5,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "master/importer/fmu.h"
+#include "master/loader/fmu/fmu.h"
 #include "tests/build.h"
 #include "tests/golden/scenario_run.h"
 

@@ -9,10 +9,10 @@
 #include <utility>
 #include <vector>
 
-#include "master/algorithm/simulation.h"
-#include "master/importer/fmu.h"
+#include "master/engine/run/simulation.h"
+#include "master/loader/fmu/fmu.h"
 #include "tests/build.h"
-#include "tests/master/algorithm/scripted_unit.h"
+#include "tests/master/engine/run/scripted_unit.h"
 
 namespace stride::tests {
 

@@ -6,7 +6,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "tests/master/algorithm/unit_capabilities.h"
+#include "tests/master/engine/run/unit_capabilities.h"
 #include "tests/physics/fmu_system.h"
 
 using namespace stride;

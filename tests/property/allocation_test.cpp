@@ -4,10 +4,10 @@
 
 #include <catch2/catch.hpp>
 
-#include "master/checks/checks.h"
-#include "master/coverage/coverage.h"
-#include "master/scenario/check_selection.h"
-#include "master/scenario/coverage_selection.h"
+#include "master/observe/checks/checks.h"
+#include "master/observe/coverage/coverage.h"
+#include "master/system/scenario/check_selection.h"
+#include "master/system/scenario/coverage_selection.h"
 #include "tests/counting_allocator.h"
 #include "tests/property/assembly.h"
 

@@ -6,8 +6,8 @@
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
-#include "master/algorithm/loops/evaluation_order.h"
-#include "tests/master/algorithm/scripted_system.h"
+#include "master/engine/run/loops/evaluation_order.h"
+#include "tests/master/engine/run/scripted_system.h"
 #include "tests/test_units/counted_random.h"
 
 using namespace stride;

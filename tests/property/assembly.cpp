@@ -7,12 +7,12 @@
 #include <stdexcept>
 #include <type_traits>
 
-#include "master/isolation/hosted_unit.h"
-#include "master/recorders/csv_recorder.h"
-#include "master/recorders/event_recorder.h"
-#include "master/remote/remote_unit.h"
-#include "master/util/time_text.h"
-#include "tests/master/importer/support.h"
+#include "master/base/time_text.h"
+#include "master/loader/network/remote_unit.h"
+#include "master/loader/process/hosted_unit.h"
+#include "master/observe/recorders/csv_recorder.h"
+#include "master/observe/recorders/event_recorder.h"
+#include "tests/master/loader/fmu/support.h"
 
 namespace stride::tests {
 namespace {

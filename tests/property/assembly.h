@@ -9,10 +9,10 @@
 #include <utility>
 #include <vector>
 
-#include "master/algorithm/simulation.h"
-#include "master/capture/capture.h"
-#include "master/importer/fmu.h"
-#include "master/model/system.h"
+#include "master/engine/model/system/system.h"
+#include "master/engine/run/simulation.h"
+#include "master/loader/fmu/fmu.h"
+#include "master/observe/capture/capture.h"
 #include "tests/build.h"
 
 namespace stride::tests {

@@ -1,6 +1,6 @@
 // Checks judge as whoever reads signals.csv and events.csv from top to bottom by their definitions,
 // in this process, in others and on threads.
-#include "master/checks/checks.h"
+#include "master/observe/checks/checks.h"
 
 #include <algorithm>
 #include <random>
@@ -9,8 +9,8 @@
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
-#include "master/scenario/check_selection.h"
-#include "master/util/time_text.h"
+#include "master/base/time_text.h"
+#include "master/system/scenario/check_selection.h"
 #include "tests/property/random_system.h"
 
 using namespace stride;

@@ -1,6 +1,6 @@
 // What a component was given is counted alike in a run and in a replay to it alone, in this
 // process, in others and on threads.
-#include "master/coverage/coverage.h"
+#include "master/observe/coverage/coverage.h"
 
 #include <optional>
 #include <set>
@@ -9,8 +9,8 @@
 
 #include <catch2/catch.hpp>
 
-#include "master/capture/capture.h"
-#include "master/scenario/coverage_selection.h"
+#include "master/observe/capture/capture.h"
+#include "master/system/scenario/coverage_selection.h"
 #include "tests/property/random_system.h"
 #include "tests/property/replays.h"
 

@@ -4,7 +4,7 @@
 #include <catch2/catch.hpp>
 #include <dlfcn.h>
 
-#include "tests/master/importer/support.h"
+#include "tests/master/loader/fmu/support.h"
 #include "tests/property/assembly.h"
 
 using namespace stride;

@@ -5,7 +5,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "master/util/time_text.h"
+#include "master/base/time_text.h"
 #include "tests/property/assembly.h"
 #include "tests/test_units/counted_random.h"
 

@@ -11,11 +11,11 @@
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
-#include "master/checks/message_checks.h"
-#include "master/checks/signal_check.h"
-#include "master/checks/until_check.h"
+#include "master/observe/checks/message_checks.h"
+#include "master/observe/checks/signal_check.h"
+#include "master/observe/checks/until_check.h"
 #include "tests/build.h"
-#include "tests/master/checks/support.h"
+#include "tests/master/observe/checks/support.h"
 
 using namespace stride;
 using namespace stride::checks;

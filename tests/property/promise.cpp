@@ -7,7 +7,7 @@
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
-#include "master/model/values.h"
+#include "master/engine/model/values.h"
 
 namespace stride::tests {
 namespace {

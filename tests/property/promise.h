@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "master/importer/fmu.h"
-#include "tests/master/algorithm/unit_capabilities.h"
+#include "master/loader/fmu/fmu.h"
+#include "tests/master/engine/run/unit_capabilities.h"
 
 namespace stride::tests {
 

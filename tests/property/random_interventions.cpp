@@ -3,7 +3,7 @@
 #include <random>
 #include <set>
 
-#include "master/algorithm/loops/evaluation_order.h"
+#include "master/engine/run/loops/evaluation_order.h"
 
 namespace stride::tests {
 

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "master/algorithm/intervention.h"
+#include "master/engine/run/context/intervention.h"
 #include "tests/property/assembly.h"
 
 namespace stride::tests {

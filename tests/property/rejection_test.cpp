@@ -10,7 +10,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "master/util/time_text.h"
+#include "master/base/time_text.h"
 #include "tests/property/random_system.h"
 
 using namespace stride;

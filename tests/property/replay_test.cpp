@@ -8,9 +8,9 @@
 
 #include <catch2/catch.hpp>
 
-#include "master/util/time_text.h"
+#include "master/base/time_text.h"
 #include "tests/build.h"
-#include "tests/master/util/archive/support.h"
+#include "tests/master/base/archive/support.h"
 #include "tests/property/random_system.h"
 #include "tests/property/replays.h"
 

@@ -8,10 +8,10 @@
 #include <string>
 #include <utility>
 
-#include "master/importer/binaries.h"
-#include "master/importer/fmi3/fmi3_library.h"
+#include "master/loader/fmu/description/binaries.h"
+#include "master/loader/fmu/library/fmi3_library.h"
 #include "tests/build.h"
-#include "tests/master/util/archive/support.h"
+#include "tests/master/base/archive/support.h"
 #include "tests/property/assembly.h"
 
 namespace stride::tests {

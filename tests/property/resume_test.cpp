@@ -6,7 +6,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "tests/master/algorithm/cut_run.h"
+#include "tests/master/engine/run/cut_run.h"
 #include "tests/property/random_interventions.h"
 #include "tests/property/random_system.h"
 

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "tests/error_of.h"
-#include "tests/master/importer/support.h"
+#include "tests/master/loader/fmu/support.h"
 #include "tests/property/random_interventions.h"
 #include "tests/property/random_system.h"
 

@@ -2,7 +2,7 @@
 // split, and all that happens at events.
 #include <catch2/catch.hpp>
 
-#include "master/util/time_text.h"
+#include "master/base/time_text.h"
 #include "tests/property/random_system.h"
 #include "tests/test_units/counted_random.h"
 

@@ -1,7 +1,7 @@
 // Campaigns, with the files that hold their values.
-#include "master/campaign/campaign_file.h"
-#include "master/campaign/decimal.h"
-#include "master/campaign/plan.h"
+#include "master/study/campaign/definition/campaign_file.h"
+#include "master/study/campaign/definition/decimal.h"
+#include "master/study/campaign/plan.h"
 #include "tests/fuzz/core_errors.h"
 #include "tests/fuzz/parser.h"
 #include "tests/fuzz/working_folder.h"

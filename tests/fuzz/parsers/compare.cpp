@@ -1,5 +1,5 @@
 // Results that are compared with others.
-#include "master/compare/compare.h"
+#include "master/study/compare/compare.h"
 
 #include <cstddef>
 #include <iterator>

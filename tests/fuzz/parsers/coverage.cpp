@@ -1,6 +1,6 @@
 // coverage.json, which is read to be merged.
-#include "master/coverage/coverage_json.h"
-#include "master/coverage/merge.h"
+#include "master/observe/coverage/coverage_json.h"
+#include "master/observe/coverage/merge.h"
 #include "tests/fuzz/core_errors.h"
 #include "tests/fuzz/parser.h"
 #include "tests/fuzz/working_folder.h"

@@ -5,13 +5,13 @@
 #include <elf.h>
 #include <link.h>
 
-#include "master/importer/build_description.h"
-#include "master/importer/fmu.h"
-#include "master/importer/idle_manifest.h"
-#include "master/importer/library_file.h"
-#include "master/importer/model_description.h"
-#include "master/importer/terminals.h"
-#include "master/util/archive/zip.h"
+#include "master/base/archive/zip.h"
+#include "master/loader/fmu/description/build_description.h"
+#include "master/loader/fmu/description/idle_manifest.h"
+#include "master/loader/fmu/description/model_description.h"
+#include "master/loader/fmu/description/terminals.h"
+#include "master/loader/fmu/fmu.h"
+#include "master/loader/fmu/library/library_file.h"
 #include "tests/fuzz/core_errors.h"
 #include "tests/fuzz/parser.h"
 #include "tests/fuzz/working_folder.h"

@@ -1,8 +1,8 @@
 // What the process of a unit writes into the memory that the master reads.
 #include <memory>
 
-#include "master/isolation/codec.h"
-#include "master/isolation/log_message.h"
+#include "master/loader/process/log_message.h"
+#include "master/loader/wire/codec.h"
 #include "tests/fuzz/core_errors.h"
 #include "tests/fuzz/parser.h"
 
@@ -25,7 +25,7 @@ void take_block(PacketReader& from) {
   take_values(from, block);
 }
 
-/// The parts of replies, as isolation/unit_proxy.cpp takes them.
+/// The parts of replies, as loader/process/unit_proxy.cpp takes them.
 constexpr void (*kParts[])(PacketReader&) = {
     [](PacketReader& from) {
       take_step(from, core::StepInterval(Time{}, Time(std::chrono::seconds(1))));

@@ -5,11 +5,11 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
-#include "master/remote/codec.h"
-#include "master/remote/description_files.h"
-#include "master/remote/greeting.h"
-#include "master/remote/place.h"
-#include "master/remote/serve.h"
+#include "master/loader/network/codec.h"
+#include "master/loader/network/description_files.h"
+#include "master/loader/network/greeting.h"
+#include "master/loader/network/place.h"
+#include "master/loader/network/server/serve.h"
 #include "tests/fuzz/core_errors.h"
 #include "tests/fuzz/parser.h"
 
@@ -68,7 +68,7 @@ void take_error(wire::Error::Reader from) {
   }
 }
 
-/// The parts of answers, as remote/remote_unit.cpp takes them.
+/// The parts of answers, as loader/network/remote_unit.cpp takes them.
 void take_result_parts(wire::Result::Reader result) {
   switch (result.which()) {
     case wire::Result::VALUES: {

@@ -1,7 +1,7 @@
 // Captured stimuli of a campaign, and the results of its cases, of which a suite is made.
-#include "master/capture/unended_stimuli.h"
-#include "master/replay/device_record.h"
-#include "master/replay/stimuli_summary.h"
+#include "master/observe/capture/unended_stimuli.h"
+#include "master/study/replay/device_record.h"
+#include "master/study/replay/stimuli_summary.h"
 #include "tests/fuzz/core_errors.h"
 #include "tests/fuzz/parser.h"
 #include "tests/fuzz/working_folder.h"

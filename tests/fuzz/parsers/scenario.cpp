@@ -1,7 +1,7 @@
 // Scenarios as `stride check` reads them, with their units, and what the command line adds.
 #include <sstream>
 
-#include "master/scenario/loaded_scenario.h"
+#include "master/system/scenario/loaded_scenario.h"
 #include "tests/fuzz/core_errors.h"
 #include "tests/fuzz/parser.h"
 #include "tests/fuzz/working_folder.h"

@@ -1,14 +1,14 @@
 // The files of SSP, and stride's annotation in them.
-#include "master/scenario/annotation.h"
-#include "master/scenario/scenario.h"
-#include "master/ssp/complete.h"
-#include "master/ssp/package.h"
-#include "master/util/archive/zip.h"
-#include "master/util/xml/document.h"
+#include "master/base/archive/zip.h"
+#include "master/base/xml/document.h"
+#include "master/system/declaration/annotation.h"
+#include "master/system/declaration/scenario.h"
+#include "master/system/ssp/complete.h"
+#include "master/system/ssp/package.h"
 #include "tests/fuzz/core_errors.h"
 #include "tests/fuzz/parser.h"
 #include "tests/fuzz/working_folder.h"
-#include "tests/master/ssp/support.h"
+#include "tests/master/system/ssp/support.h"
 
 namespace stride::tests {
 namespace {

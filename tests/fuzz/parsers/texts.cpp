@@ -2,16 +2,16 @@
 #include <array>
 #include <sstream>
 
-#include "master/checks/condition.h"
-#include "master/model/values.h"
-#include "master/scenario/run_settings.h"
-#include "master/util/glob.h"
-#include "master/util/hex.h"
-#include "master/util/number_text.h"
-#include "master/util/readable_text.h"
-#include "master/util/time_text.h"
+#include "master/base/text/glob.h"
+#include "master/base/text/hex.h"
+#include "master/base/text/number_text.h"
+#include "master/base/text/readable_text.h"
+#include "master/base/time_text.h"
+#include "master/engine/model/values.h"
+#include "master/observe/checks/condition.h"
+#include "master/system/declaration/run_settings.h"
 #include "tests/fuzz/parser.h"
-#include "tests/master/ssp/support.h"
+#include "tests/master/system/ssp/support.h"
 
 namespace stride::tests {
 namespace {

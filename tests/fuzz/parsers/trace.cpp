@@ -1,13 +1,13 @@
 // Value change dumps, which are read, expanded and compressed.
 #include <optional>
 
-#include "master/trace/compress.h"
-#include "master/trace/expand.h"
-#include "master/trace/info.h"
+#include "master/observe/trace/compress.h"
+#include "master/observe/trace/expand.h"
+#include "master/observe/trace/info.h"
 #include "tests/fuzz/core_errors.h"
 #include "tests/fuzz/parser.h"
 #include "tests/fuzz/working_folder.h"
-#include "tests/master/trace/random_trace.h"
+#include "tests/master/observe/trace/random_trace.h"
 
 namespace stride::tests {
 namespace {

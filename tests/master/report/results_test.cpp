@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
-#include "master/recorders/unit_folders.h"
+#include "master/observe/recorders/unit_folders.h"
 #include "master/report/world_file.h"
 #include "tests/master/report/support.h"
 

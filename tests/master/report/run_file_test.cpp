@@ -5,7 +5,7 @@
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
-#include "master/recorders/run_json.h"
+#include "master/observe/recorders/run_json.h"
 #include "tests/master/report/support.h"
 
 using namespace stride;

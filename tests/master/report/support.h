@@ -13,7 +13,7 @@
 #include <nlohmann/json.hpp>
 #include <zlib.h>
 
-#include "tests/master/ssp/support.h"
+#include "tests/master/system/ssp/support.h"
 
 namespace stride::report {
 

@@ -9,11 +9,11 @@
 #include <stride/nfc/frame.h>
 #include <stride/nfc/iso14443a.h>
 
-#include "master/importer/fmu.h"
-#include "master/util/hex.h"
-#include "master/util/time_text.h"
+#include "master/base/text/hex.h"
+#include "master/base/time_text.h"
+#include "master/loader/fmu/fmu.h"
 #include "tests/build.h"
-#include "tests/master/algorithm/scripted_system.h"
+#include "tests/master/engine/run/scripted_system.h"
 
 using namespace stride;
 using namespace stride::core;

@@ -1,0 +1,157 @@
+#include "master/base/time_text.h"
+
+#include <algorithm>
+#include <charconv>
+#include <optional>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "master/base/message_text.h"
+
+namespace stride::core {
+
+std::string to_text(Time time) { return to_text(time.time_since_epoch()); }
+
+std::string to_text(Duration duration) {
+  const std::int64_t ticks = duration.count();
+  const std::uint64_t magnitude =
+      ticks < 0 ? 0 - static_cast<std::uint64_t>(ticks) : static_cast<std::uint64_t>(ticks);
+  constexpr std::uint64_t kPerSecond = 1'000'000'000'000;
+  std::string text = fmt::format("{}{}.{:012}", ticks < 0 ? "-" : "", magnitude / kPerSecond,
+                                 magnitude % kPerSecond);
+  text.erase(text.find_last_not_of('0') + 1);
+  if (text.back() == '.') text.pop_back();
+  return text;
+}
+
+namespace {
+
+constexpr std::string_view kBlanks = " \t\r\n";
+constexpr int kDecimals = 12;
+constexpr std::int64_t kMaxTicks = 9'200'000'000'000'000'000;  // kMaxSeconds
+
+/// 0.DIGITS * 10^point, without leading or trailing zeros: no digits is zero.
+struct Decimal {
+  bool is_negative = false;
+  std::string digits;
+  std::int64_t point = 0;
+};
+
+[[noreturn]] void reject(std::string_view text, const char* reason) {
+  throw std::invalid_argument(fmt::format(
+      "'{}' {}; expected a number of seconds such as 0.001 or 1e-3", name_text(text), reason));
+}
+
+std::string_view trim(std::string_view text) {
+  const std::size_t first = text.find_first_not_of(kBlanks);
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
+}
+
+std::string_view take_digits(std::string_view& rest) {
+  const std::size_t count = std::min(rest.find_first_not_of("0123456789"), rest.size());
+  const std::string_view digits = rest.substr(0, count);
+  rest.remove_prefix(count);
+  return digits;
+}
+
+std::int64_t take_exponent(std::string_view& rest, std::string_view text) {
+  if (rest.empty() || (rest.front() != 'e' && rest.front() != 'E')) return 0;
+  rest.remove_prefix(1);
+  const bool is_negative = !rest.empty() && rest.front() == '-';
+  if (!rest.empty() && (rest.front() == '-' || rest.front() == '+')) rest.remove_prefix(1);
+  const std::string_view digits = take_digits(rest);
+  if (digits.empty()) reject(text, "is not a number");
+  constexpr std::int64_t kBeyondAnyTime = 1'000'000'000;
+  std::int64_t value = kBeyondAnyTime;
+  std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  value = std::min(value, kBeyondAnyTime);
+  return is_negative ? -value : value;
+}
+
+Decimal parse_decimal(std::string_view text) {
+  std::string_view rest = trim(text);
+  Decimal decimal;
+  decimal.is_negative = !rest.empty() && rest.front() == '-';
+  if (!rest.empty() && (rest.front() == '-' || rest.front() == '+')) rest.remove_prefix(1);
+  const std::string_view whole = take_digits(rest);
+  std::string_view fraction;
+  if (!rest.empty() && rest.front() == '.') {
+    rest.remove_prefix(1);
+    fraction = take_digits(rest);
+  }
+  if (whole.empty() && fraction.empty()) reject(text, "is not a number");
+  decimal.point = static_cast<std::int64_t>(whole.size()) + take_exponent(rest, text);
+  if (!rest.empty()) reject(text, "is not a number");
+
+  decimal.digits = fmt::format("{}{}", whole, fraction);
+  const std::size_t zeros = std::min(decimal.digits.find_first_not_of('0'), decimal.digits.size());
+  decimal.digits.erase(0, zeros);
+  decimal.point -= static_cast<std::int64_t>(zeros);
+  decimal.digits.erase(decimal.digits.find_last_not_of('0') + 1);
+  return decimal;
+}
+
+/// What nearly all times are: few digits, a point, and twelve more at most.
+std::optional<Duration> parse_plain(std::string_view text) {
+  constexpr std::size_t kMostWhole = 6;
+  std::string_view rest = text;
+  const std::string_view whole = take_digits(rest);
+  if (whole.empty() || whole.size() > kMostWhole) return std::nullopt;
+  std::int64_t count = 0;
+  for (const char digit : whole) count = 10 * count + (digit - '0');
+  int decimals = 0;
+  if (!rest.empty() && rest.front() == '.') {
+    rest.remove_prefix(1);
+    const std::string_view fraction = take_digits(rest);
+    if (fraction.size() > kDecimals) return std::nullopt;
+    for (const char digit : fraction) count = 10 * count + (digit - '0');
+    decimals = static_cast<int>(fraction.size());
+  }
+  if (!rest.empty()) return std::nullopt;
+  for (; decimals < kDecimals; ++decimals) count *= 10;
+  return Duration(count);
+}
+
+/// Without the sign.
+Duration magnitude(const Decimal& decimal, std::string_view text) {
+  if (decimal.digits.empty()) return Duration::zero();
+  const std::int64_t kept = decimal.point + kDecimals;  // digits left of the picosecond's end
+  constexpr std::int64_t kMostDigits = 19;
+  if (kept > kMostDigits) reject(text, "is beyond 9.2e6 s, the largest time");
+  if (kept < 0) return Duration::zero();
+  std::string ticks = decimal.digits.substr(0, static_cast<std::size_t>(kept));
+  const bool round_up = ticks.size() < decimal.digits.size() && decimal.digits[ticks.size()] >= '5';
+  ticks.resize(static_cast<std::size_t>(kept), '0');
+
+  std::uint64_t count = 0;
+  std::from_chars(ticks.data(), ticks.data() + ticks.size(), count);
+  count += round_up ? 1 : 0;
+  if (count > static_cast<std::uint64_t>(kMaxTicks)) {
+    reject(text, "is beyond 9.2e6 s, the largest time");
+  }
+  return Duration(static_cast<std::int64_t>(count));
+}
+
+}  // namespace
+
+Duration parse_seconds(std::string_view text) {
+  if (const auto plain = parse_plain(text)) return *plain;
+  const Decimal decimal = parse_decimal(text);
+  if (decimal.is_negative && !decimal.digits.empty()) reject(text, "is negative");
+  return magnitude(decimal, text);
+}
+
+Time parse_time(std::string_view text) {
+  if (const auto plain = parse_plain(text)) return Time(*plain);
+  const Decimal decimal = parse_decimal(text);
+  const Duration since = magnitude(decimal, text);
+  return Time(decimal.is_negative ? -since : since);
+}
+
+std::string wall_seconds(std::chrono::nanoseconds time) {
+  return fmt::format("{:.3f}", std::chrono::duration<double>(time).count());
+}
+
+}  // namespace stride::core

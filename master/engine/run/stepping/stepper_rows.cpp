@@ -1,0 +1,117 @@
+// Units that step in rows.
+#include <utility>
+#include <vector>
+
+#include "master/engine/run/stepping/coasting_row.h"
+#include "master/engine/run/stepping/stepper.h"
+
+namespace stride::core {
+
+/// Of successive units that are plain. Those whose states are saved are in rows of their own.
+void Stepper::form_rows() {
+  std::size_t in_rows = 0;
+  for (std::size_t first = 0, size = 0; first < unit_steps_.size(); first += size) {
+    const std::vector<StepsInARow::Member> members = row_members(first);
+    std::unique_ptr<UnitRow> units;
+    if (!members.empty()) {
+      units = members.front().unit->require_capability<StepsInARow>().make_row(members);
+    }
+    size = units != nullptr ? units->size() : 1;
+    if (units == nullptr) continue;
+    const auto steps = std::span(unit_steps_).subspan(first, size);
+    if (steps.front().saves_state) units = coasting_row(std::move(units), steps, members);
+    rows_.push_back({std::move(units), steps});
+    in_rows += size;
+  }
+  for (Row& row : rows_) {
+    row.steps.front().begins_row = true;
+    for (UnitStep& unit_step : row.steps) unit_step.row = &row;
+  }
+  are_all_in_rows_ = in_rows == unit_steps_.size();
+}
+
+/// As many units as may be in one row, from this position on.
+std::vector<StepsInARow::Member> Stepper::row_members(std::size_t first) const {
+  std::vector<StepsInARow::Member> members;
+  for (const UnitStep& unit_step : std::span(unit_steps_).subspan(first)) {
+    const StepValues* const values = exchange_.fixed_step_values(unit_step.component);
+    const bool saves = unit_step.saves_state;
+    if (!unit_step.is_plain || values == nullptr || saves != unit_steps_[first].saves_state) break;
+    if (saves && unit_step.state->interval().most() == 1) break;  // nothing is noted of it
+    if (unit_step.unit->capability<StepsInARow>() == nullptr) break;
+    members.push_back({saves ? &unit_step.state->in_row() : unit_step.unit, *values});
+  }
+  return members;
+}
+
+/// `units`, which step so, as they do where their states are saved.
+std::unique_ptr<UnitRow> Stepper::coasting_row(std::unique_ptr<UnitRow> units,
+                                               std::span<const UnitStep> steps,
+                                               std::span<const StepsInARow::Member> members) {
+  std::vector<CoastingRow::Member> coasting;
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    coasting.push_back({steps[i].state, members[i].values});
+  }
+  return std::make_unique<CoastingRow>(std::move(units), coasting);
+}
+
+/// As step_plainly(), of the units of successive rows, up to the first one of which there is
+/// something to record: returns whether there is none. `last` is the last one that has stepped.
+bool Stepper::step_rows(std::span<Row> rows, UnitStep*& last, const StepInterval& interval) {
+  Row* row = rows.data();
+  Row* const end = row + rows.size();
+  try {
+    for (; row != end; ++row) {
+      row->progress.plain = 0;
+      if (!row->units->step(interval, row->progress)) [[unlikely]]
+        break;
+      ++row->whole_steps;
+      row->last = communication_step_;
+    }
+  } catch (...) {
+    note_plain_ones(*row, interval);
+    throw;
+  }
+  if (row == end) [[likely]] {
+    last = &rows.back().steps.back();
+    return true;
+  }
+  note_plain_ones(*row, interval);
+  last = &row->steps[row->progress.plain];
+  note_step(*last, row->progress.result);
+  ++last->steps;
+  note_outcome(*last, interval);
+  return false;
+}
+
+void Stepper::note_plain_ones(Row& row, const StepInterval& interval) {
+  for (UnitStep& unit_step : row.steps.first(row.progress.plain)) {
+    note_step(unit_step, {.reached = interval.to});
+    ++unit_step.steps;
+  }
+}
+
+void Stepper::note_step(UnitStep& unit_step, const StepResult& result) {
+  unit_step.communication_step = communication_step_;
+  unit_step.rejections = 0;
+  unit_step.result = result;
+  exchange_.mark_written(unit_step.component);
+}
+
+/// Of the rows of which all units have just reached this time in the present communication step:
+/// somebody looks at single ones.
+void Stepper::note_whole_rows(Time reached) {
+  for (const Row& row : rows_) {
+    if (row.last != communication_step_) continue;
+    for (UnitStep& unit_step : row.steps) note_step(unit_step, {.reached = reached});
+  }
+}
+
+void Stepper::count_whole_rows() {
+  for (Row& row : rows_) {
+    for (UnitStep& unit_step : row.steps) unit_step.steps += row.whole_steps;
+    row.whole_steps = 0;
+  }
+}
+
+}  // namespace stride::core

@@ -1,0 +1,23 @@
+// The namespaces of SSP, and of our annotation. They are the same for SSP 1.0 and 2.0.
+#ifndef STRIDE_MASTER_SYSTEM_SSP_SSP_H
+#define STRIDE_MASTER_SYSTEM_SSP_SSP_H
+
+#include "master/base/xml/document.h"
+
+namespace stride::ssp {
+
+inline constexpr const char* kSsd = "http://ssp-standard.org/SSP1/SystemStructureDescription";
+inline constexpr const char* kSsc = "http://ssp-standard.org/SSP1/SystemStructureCommon";
+inline constexpr const char* kSsv = "http://ssp-standard.org/SSP1/SystemStructureParameterValues";
+inline constexpr const char* kSsm = "http://ssp-standard.org/SSP1/SystemStructureParameterMapping";
+inline constexpr const char* kSsb = "http://ssp-standard.org/SSP1/SystemStructureSignalDictionary";
+
+/// As the standard and most files write them.
+inline constexpr xml::Prefix kPrefixes[] = {
+    {"ssd", kSsd}, {"ssc", kSsc}, {"ssv", kSsv}, {"ssm", kSsm}, {"ssb", kSsb}};
+
+inline constexpr const char* kStrideScenario = "urn:org.stride:scenario:1";
+
+}  // namespace stride::ssp
+
+#endif
