@@ -9,7 +9,7 @@
 #include <stride/master.h>
 
 #include "master/observe/recorders/provenance.h"
-#include "master/system/scenario/loaded_scenario.h"
+#include "master/system/plan/request.h"
 
 namespace stride::api {
 

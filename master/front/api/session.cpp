@@ -26,6 +26,7 @@
 #include "master/study/results/output_paths.h"
 #include "master/study/results/provenance.h"
 #include "master/study/results/report_page.h"
+#include "master/system/plan/instances.h"
 
 namespace stride::api {
 namespace {
@@ -39,7 +40,7 @@ std::optional<checkpoint::Checkpoint> read_checkpoint(const fs::path& file) {
 
 /// As long as a run lasts, no other one writes there, and what an earlier one has left is gone.
 std::optional<recorders::ResultsLock> locked_folder(const results::ResultsTarget& target,
-                                                    const scenario::LoadedScenario& loaded) {
+                                                    const scenario::RunPlan& loaded) {
   if (target.folder.empty()) return std::nullopt;
   results::make_folder(target, loaded);
   std::optional<recorders::ResultsLock> lock(target.folder);
@@ -128,7 +129,7 @@ Session::~Session() {
 }
 
 results::ResultsTarget Session::target_of(const SessionOptions& options,
-                                          const scenario::LoadedScenario& loaded) {
+                                          const scenario::RunPlan& loaded) {
   if (options.results.empty()) return {{}, results::no_files()};
   return {fs::absolute(options.results), results::possible_files(loaded)};
 }
@@ -162,10 +163,10 @@ std::vector<std::unique_ptr<core::Unit>> Session::make_units() {
   const auto is_hosted = [](const auto& hosting) { return hosting.has_value(); };
   if (std::ranges::any_of(loaded_.hostings(), is_hosted)) {
     const ExclusiveUse use;
-    return loaded_.instantiate(target_.folder, &interrupted_);
+    return scenario::instantiate(loaded_, target_.folder, &interrupted_);
   }
   const SharedUse use;
-  return loaded_.instantiate(target_.folder, &interrupted_);
+  return scenario::instantiate(loaded_, target_.folder, &interrupted_);
 }
 
 void Session::list_variables() {

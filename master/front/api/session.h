@@ -74,7 +74,7 @@ class Session {
 
  private:
   static results::ResultsTarget target_of(const SessionOptions& options,
-                                          const scenario::LoadedScenario& loaded);
+                                          const scenario::RunPlan& loaded);
   core::RunOptions run_options() const;
   recorders::Provenance provenance();
   void list_variables();
@@ -93,7 +93,7 @@ class Session {
   const SessionOptions given_;
   const std::optional<checkpoint::Checkpoint> checkpoint_;
   volatile std::sig_atomic_t interrupted_ = 0;
-  const scenario::LoadedScenario loaded_;
+  const scenario::RunPlan loaded_;
   const results::ResultsTarget target_;
   std::optional<recorders::ResultsLock> lock_;
   core::FileDigests digests_;

@@ -23,8 +23,8 @@ namespace {
 
 using Type = ValueKind::Type;
 
-scenario::LoadedScenario load(const Campaign& campaign, std::vector<std::string> swaps,
-                              std::shared_ptr<scenario::UnitStore> units) {
+scenario::RunPlan load(const Campaign& campaign, std::vector<std::string> swaps,
+                       std::shared_ptr<scenario::UnitStore> units) {
   if (!core::path_exists(campaign.scenario)) {
     core::fail_input({.where = campaign.scenario_where},
                      fmt::format("the scenario '{}' does not exist",
@@ -35,7 +35,7 @@ scenario::LoadedScenario load(const Campaign& campaign, std::vector<std::string>
   request.scenario = campaign.scenario;
   request.swaps = std::move(swaps);
   request.units = std::move(units);
-  return scenario::LoadedScenario(request);
+  return scenario::RunPlan(request);
 }
 
 Type type_of(const core::Variable& variable) {

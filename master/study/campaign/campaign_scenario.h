@@ -13,7 +13,7 @@
 #include "master/study/campaign/definition/value_kind.h"
 #include "master/study/campaign/fingerprints.h"
 #include "master/study/campaign/plan.h"
-#include "master/system/scenario/loaded_scenario.h"
+#include "master/system/plan/run_plan.h"
 
 namespace stride::campaign {
 
@@ -35,10 +35,10 @@ class CampaignScenario {
   struct LoadedAlternative {
     std::size_t swap = 0;
     std::string name;
-    scenario::LoadedScenario loaded;
+    scenario::RunPlan loaded;
   };
 
-  const scenario::LoadedScenario& loaded() const { return loaded_; }
+  const scenario::RunPlan& loaded() const { return loaded_; }
   /// All units, those of alternatives, too.
   const std::shared_ptr<scenario::UnitStore>& units() const { return units_; }
   const std::vector<StartTarget>& start_targets() const { return targets_; }
@@ -70,7 +70,7 @@ class CampaignScenario {
   void take_fingerprints(const Campaign& campaign);
 
   std::shared_ptr<scenario::UnitStore> units_;
-  scenario::LoadedScenario loaded_;
+  scenario::RunPlan loaded_;
   core::NameIndex names_;
   std::vector<StartTarget> targets_;
   std::vector<ValueKind> kinds_;

@@ -10,7 +10,7 @@
 #include "master/study/campaign/definition/value_kind.h"
 #include "master/study/campaign/fingerprints.h"
 #include "master/study/campaign/sampling.h"
-#include "master/system/scenario/loaded_scenario.h"
+#include "master/system/plan/request.h"
 
 namespace stride::campaign {
 

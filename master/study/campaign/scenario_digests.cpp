@@ -21,7 +21,7 @@ std::map<std::string, std::string> scenario_digests(const scenario::Scenario& sc
   return found;
 }
 
-std::string unit_digest(const scenario::LoadedScenario& loaded, std::size_t component,
+std::string unit_digest(const scenario::RunPlan& loaded, std::size_t component,
                         core::FileDigests& digests) {
   if (loaded.stays_elsewhere(component)) {
     return scenario::description_digest(*loaded.fmus()[component]);

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "master/base/files/file_digests.h"
-#include "master/system/scenario/loaded_scenario.h"
+#include "master/system/plan/run_plan.h"
 
 namespace stride::campaign {
 
@@ -16,7 +16,7 @@ std::map<std::string, std::string> scenario_digests(const scenario::Scenario& sc
                                                     core::FileDigests& digests);
 /// Of the unit of a component: an archive, a folder with all that is in it, or a library with its
 /// resources.
-std::string unit_digest(const scenario::LoadedScenario& loaded, std::size_t component,
+std::string unit_digest(const scenario::RunPlan& loaded, std::size_t component,
                         core::FileDigests& digests);
 
 }  // namespace stride::campaign

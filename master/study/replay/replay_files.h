@@ -15,7 +15,7 @@ namespace stride::replay {
 
 /// Where a replay comes from.
 struct ReplaySource {
-  const scenario::LoadedScenario& loaded;
+  const scenario::RunPlan& loaded;
   std::size_t component;
   std::filesystem::path stimuli;
 };

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "master/study/replay/stimuli_summary.h"
-#include "master/system/scenario/loaded_scenario.h"
+#include "master/system/plan/run_plan.h"
 
 namespace stride::replay {
 
@@ -26,7 +26,7 @@ struct Expectation {
 struct ReplayRequest {
   std::string name;  ///< of the system
   /// The scenario in which the stimuli were captured, with all settings of that run.
-  const scenario::LoadedScenario& loaded;
+  const scenario::RunPlan& loaded;
   std::size_t component;  ///< whose stimuli they are
   const StimuliSummary& stimuli;
   std::string unit;    ///< the source of the component's FMU, as seen from the file

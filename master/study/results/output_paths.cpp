@@ -11,6 +11,7 @@
 #include "master/base/files/input_file.h"
 #include "master/base/xml/document.h"
 #include "master/system/declaration/annotation.h"
+#include "master/system/plan/split_option.h"
 #include "master/system/scenario/units/unit_path.h"
 #include "master/system/ssp/ssp.h"
 #include "master/system/ssp/uri.h"
@@ -110,7 +111,7 @@ ScenarioFiles files_of_scenario(const fs::path& scenario, std::span<const std::s
   return std::move(reader).found();
 }
 
-std::vector<KeptPath> inputs_of(const scenario::LoadedScenario& loaded) {
+std::vector<KeptPath> inputs_of(const scenario::RunPlan& loaded) {
   const scenario::Scenario& scenario = loaded.scenario();
   const fs::path system = scenario.files->scenario_file(scenario.path);
   const auto package = scenario.files->archive_of(system);

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "master/observe/recorders/results_folder.h"
-#include "master/system/scenario/loaded_scenario.h"
+#include "master/system/plan/run_plan.h"
 #include "master/system/ssp/files.h"
 
 namespace stride::results {
@@ -37,7 +37,7 @@ inline constexpr const char* kParameters = "a file of parameters";
 struct ScenarioFiles {
   std::vector<KeptPath> inputs;      ///< its files and units that exist, and its package
   recorders::ResultFiles results;    ///< the names that it gives to the files of its results
-  std::shared_ptr<ssp::Files> read;  ///< the systems in it, for LoadedScenario
+  std::shared_ptr<ssp::Files> read;  ///< the systems in it, for RunPlan
 };
 
 /// Reads the sources that a scenario and the systems in it name; `swaps` are "component=FILE". No
@@ -48,7 +48,7 @@ ScenarioFiles files_of_scenario(const std::filesystem::path& scenario,
 
 /// What a scenario that has been loaded consists of: its files, and its units, of which there may
 /// be others than it names (--swap), and the files of parameters that were given with it.
-std::vector<KeptPath> inputs_of(const scenario::LoadedScenario& loaded);
+std::vector<KeptPath> inputs_of(const scenario::RunPlan& loaded);
 
 /// Throws core::Error (Input) if a file of the results in this folder is one of these paths, or in
 /// one that is a folder.

@@ -22,8 +22,8 @@ std::string utc_text(std::time_t time) {
   return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(time));
 }
 
-recorders::Provenance provenance_of(const scenario::LoadedScenario& loaded,
-                                    recorders::Command command, core::FileDigests& digests) {
+recorders::Provenance provenance_of(const scenario::RunPlan& loaded, recorders::Command command,
+                                    core::FileDigests& digests) {
   recorders::Provenance made{.version = STRIDE_VERSION,
                              .date = utc_text(std::time(nullptr)),
                              .host = core::host_name(),

@@ -10,7 +10,7 @@
 #include "master/base/state_archive.h"
 #include "master/observe/checkpoint/journals.h"
 #include "master/observe/recorders/provenance.h"
-#include "master/system/scenario/loaded_scenario.h"
+#include "master/system/plan/run_plan.h"
 
 namespace stride::results {
 
@@ -19,8 +19,8 @@ std::string utc_text(std::time_t time);
 
 /// Of a run that begins now. `command`: that has loaded it. Reads the files whose digests are not
 /// known yet. Throws core::Error (Input).
-recorders::Provenance provenance_of(const scenario::LoadedScenario& loaded,
-                                    recorders::Command command, core::FileDigests& digests);
+recorders::Provenance provenance_of(const scenario::RunPlan& loaded, recorders::Command command,
+                                    core::FileDigests& digests);
 
 /// Throws core::Error (Input), at the checkpoint, that names all that differs.
 void require_same(const recorders::Provenance& before, const recorders::Provenance& now,

@@ -7,21 +7,20 @@
 
 namespace stride::results {
 
-recorders::ResultFiles possible_files(const scenario::LoadedScenario& loaded) {
+recorders::ResultFiles possible_files(const scenario::RunPlan& loaded) {
   recorders::ResultFiles files = loaded.scenario().annotation.results;
   if (loaded.coverage().empty()) files.coverage.clear();
   if (!has_reports()) files.report.clear();
   return files;
 }
 
-core::RunOptions options_for(const scenario::LoadedScenario& loaded,
-                             const recorders::ResultFiles& files) {
+core::RunOptions options_for(const scenario::RunPlan& loaded, const recorders::ResultFiles& files) {
   core::RunOptions options = loaded.options();
   if (files.signals.empty() && files.trace.empty()) options.recorded.clear();
   return options;
 }
 
-void make_folder(const ResultsTarget& target, const scenario::LoadedScenario& loaded) {
+void make_folder(const ResultsTarget& target, const scenario::RunPlan& loaded) {
   refuse_results(target.folder, loaded.scenario().annotation.results, inputs_of(loaded));
   recorders::make_results_folder(target.folder);
   recorders::check_name_lengths(target.folder, target.files);

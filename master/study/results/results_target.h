@@ -10,7 +10,7 @@
 
 #include "master/engine/run/context/run_options.h"
 #include "master/observe/recorders/results_folder.h"
-#include "master/system/scenario/loaded_scenario.h"
+#include "master/system/plan/run_plan.h"
 
 namespace stride::results {
 
@@ -23,15 +23,14 @@ struct ResultsTarget {
 /// No file is written.
 inline recorders::ResultFiles no_files() { return {{}, {}, {}, {}, {}, {}, {}}; }
 /// Those that the scenario names, without what this build cannot write, or the run does not have.
-recorders::ResultFiles possible_files(const scenario::LoadedScenario& loaded);
+recorders::ResultFiles possible_files(const scenario::RunPlan& loaded);
 
 /// Those of the scenario; values that no file has are not read from the units.
-core::RunOptions options_for(const scenario::LoadedScenario& loaded,
-                             const recorders::ResultFiles& files);
+core::RunOptions options_for(const scenario::RunPlan& loaded, const recorders::ResultFiles& files);
 
 /// Makes the folder of a run. Throws core::Error (Input) if that is not possible, or a file of the
 /// results would be one that the scenario is made of.
-void make_folder(const ResultsTarget& target, const scenario::LoadedScenario& loaded);
+void make_folder(const ResultsTarget& target, const scenario::RunPlan& loaded);
 
 /// Adds an error to the run.json of a run that is over, or will not end by itself, and makes its
 /// report anew; `reached` is the time in the latter case. Does nothing if there is no run.json, or

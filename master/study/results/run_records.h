@@ -16,13 +16,13 @@
 #include "master/observe/recorders/provenance.h"
 #include "master/study/results/result_recorders.h"
 #include "master/study/results/results_target.h"
-#include "master/system/scenario/loaded_scenario.h"
+#include "master/system/plan/run_plan.h"
 
 namespace stride::results {
 
 /// What records are made of, and must outlive them.
 struct RecordedSubject {
-  const scenario::LoadedScenario& loaded;
+  const scenario::RunPlan& loaded;
   const core::RunOptions& options;
   const recorders::Provenance& provenance;
   const ResultsTarget& target;

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <string>
 
-#include "master/system/scenario/loaded_scenario.h"
+#include "master/system/plan/request.h"
 
 namespace CLI {
 class App;

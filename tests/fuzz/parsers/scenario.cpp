@@ -1,7 +1,7 @@
 // Scenarios as `stride check` reads them, with their units, and what the command line adds.
 #include <sstream>
 
-#include "master/system/scenario/loaded_scenario.h"
+#include "master/system/plan/run_plan.h"
 #include "tests/fuzz/core_errors.h"
 #include "tests/fuzz/parser.h"
 #include "tests/fuzz/working_folder.h"
@@ -26,7 +26,7 @@ void place_units() {
 
 void load(const scenario::ScenarioRequest& request) {
   refusing_input("", [&] {
-    const scenario::LoadedScenario loaded(request);
+    const scenario::RunPlan loaded(request);
     ensure(loaded.fmus().size() == loaded.system().components().size(), "all units are there");
   });
 }
@@ -58,7 +58,7 @@ void read_command_line(const std::string& bytes) {
 const Registration kScenarioParsers(
     "scenario",
     {
-        {.name = "loaded_scenario",
+        {.name = "run_plan",
          .read = load_scenario,
          .seed_files = {"tests/fuzz/seeds/scenario"}},
         {.name = "command_line",

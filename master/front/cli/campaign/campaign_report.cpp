@@ -46,7 +46,7 @@ void make_campaign_report(const CampaignReportArguments& arguments) {
 
 void write_campaign_report(const fs::path& file, const CampaignInput& input,
                            const campaign::CaseFolder& cases) {
-  const scenario::LoadedScenario& loaded = input.scenario().loaded();
+  const scenario::RunPlan& loaded = input.scenario().loaded();
   campaign::write_campaign_page(file, input.plan(), cases,
                                 loaded.scenario().annotation.results.report,
                                 input.case_definitions());

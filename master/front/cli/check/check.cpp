@@ -20,7 +20,8 @@
 #include "master/front/cli/program/crash_guard.h"
 #include "master/front/cli/program/output.h"
 #include "master/front/cli/terminal/table.h"
-#include "master/system/scenario/loaded_scenario.h"
+#include "master/system/plan/instances.h"
+#include "master/system/plan/run_plan.h"
 #include "master/system/settings/scenario_options.h"
 
 namespace stride::cli {
@@ -30,7 +31,7 @@ constexpr std::size_t kMostNames = 4;
 
 std::string seconds(Duration duration) { return core::to_text(duration); }
 
-std::string unit_table(const scenario::LoadedScenario& loaded) {
+std::string unit_table(const scenario::RunPlan& loaded) {
   Table table({{"component"}, {"unit"}, {"FMI"}, {"variables", Table::Align::Right}, {"file"}});
   for (std::size_t i = 0; i < loaded.fmus().size(); ++i) {
     const core::UnitDescription& unit = *loaded.fmus()[i]->description();
@@ -41,7 +42,7 @@ std::string unit_table(const scenario::LoadedScenario& loaded) {
 }
 
 /// Empty if all units are in this process.
-std::string host_table(const scenario::LoadedScenario& loaded) {
+std::string host_table(const scenario::RunPlan& loaded) {
   Table table({{"component"},
                {"call limit [s]", Table::Align::Right},
                {"memory limit [MiB]", Table::Align::Right},
@@ -128,12 +129,12 @@ std::string steps(const core::System& system, const core::RunOptions& options) {
                          : fmt::format("extrapolated ({})", name(options.extrapolation)));
 }
 
-std::string stop_text(const scenario::LoadedScenario& loaded) {
+std::string stop_text(const scenario::RunPlan& loaded) {
   if (!loaded.has_stop()) return "on, without a stop time (a run needs --stop SECONDS)";
   return fmt::format("to {} s", core::to_text(loaded.options().stop));
 }
 
-std::string order_table(const scenario::LoadedScenario& loaded) {
+std::string order_table(const scenario::RunPlan& loaded) {
   const core::System& system = loaded.system();
   Table table(
       {{"", Table::Align::Right}, {"stage", Table::Align::Right}, {"component"}, {"why here"}});
@@ -165,7 +166,7 @@ std::string intervention_table(const core::System& system,
 }
 
 /// Empty if the scenario has none.
-std::string check_table(const scenario::LoadedScenario& loaded) {
+std::string check_table(const scenario::RunPlan& loaded) {
   Table table({{"check"}, {"demands"}, {"line", Table::Align::Right}});
   const auto add = [&](const auto& check) {
     table.add({check.name, check.name == check.demand ? "" : check.demand,
@@ -246,9 +247,9 @@ std::string loops_text(const core::System& system) {
 
 void check(const scenario::ScenarioRequest& request) {
   const CrashGuard guard;
-  const scenario::LoadedScenario loaded(request);
+  const scenario::RunPlan loaded(request);
   const LimitedEnd end;
-  const auto units = loaded.instantiate();
+  const auto units = scenario::instantiate(loaded);
   loaded.warn_of_other_steps();
   const core::System& system = loaded.system();
   const core::RunOptions& options = loaded.options();

@@ -33,7 +33,7 @@ std::string cost_text(const core::RunOptions& options, std::chrono::nanoseconds 
 
 }  // namespace
 
-std::string remote_table(const scenario::LoadedScenario& loaded) {
+std::string remote_table(const scenario::RunPlan& loaded) {
   Table table({{"component"},
                {"machine"},
                {"FMU there"},

@@ -4,13 +4,13 @@
 
 #include <string>
 
-#include "master/system/scenario/loaded_scenario.h"
+#include "master/system/plan/run_plan.h"
 
 namespace stride::cli {
 
 /// A table of the machines, each of which is tried, and what their distance costs this scenario at
 /// least; empty if there are none. Throws core::Error for one that does not answer.
-std::string remote_table(const scenario::LoadedScenario& loaded);
+std::string remote_table(const scenario::RunPlan& loaded);
 
 }  // namespace stride::cli
 

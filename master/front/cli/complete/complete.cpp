@@ -13,7 +13,7 @@
 #include "master/front/cli/program/crash_guard.h"
 #include "master/study/results/output_paths.h"
 #include "master/system/declaration/scenario_path.h"
-#include "master/system/scenario/loaded_scenario.h"
+#include "master/system/plan/load_units.h"
 #include "master/system/scenario/units/unit_path.h"
 #include "master/system/settings/scenario_options.h"
 

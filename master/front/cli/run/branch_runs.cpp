@@ -39,8 +39,7 @@ struct EndOfBranch {
 
 }  // namespace
 
-std::vector<Branch> read_branches(const RunArguments& arguments,
-                                  const scenario::LoadedScenario& loaded) {
+std::vector<Branch> read_branches(const RunArguments& arguments, const scenario::RunPlan& loaded) {
   if (!arguments.branches.request) return {};
   const core::RunOptions& options = loaded.options();
   const auto& [time, file] = *arguments.branches.request;
@@ -58,7 +57,7 @@ std::vector<Branch> read_branches(const RunArguments& arguments,
 }
 
 /// A unit's file that is open, or whose path it knows, would be that of all forks.
-bool can_fork(const scenario::LoadedScenario& loaded, const fs::path& results) {
+bool can_fork(const scenario::RunPlan& loaded, const fs::path& results) {
   const auto is_hosted = [](const auto& hosting) { return hosting.has_value(); };
   return std::ranges::none_of(loaded.hostings(), is_hosted) && !has_threads() &&
          (results.empty() || !recorders::has_unit_files(results));

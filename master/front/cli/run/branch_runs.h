@@ -12,24 +12,23 @@
 #include "master/front/cli/run/checkpoints.h"
 #include "master/front/cli/run/recorded_run.h"
 #include "master/front/cli/run/run_arguments.h"
-#include "master/system/scenario/loaded_scenario.h"
+#include "master/system/plan/run_plan.h"
 
 namespace stride::cli {
 
 /// Those that the command line asks for; none if it does not. Throws core::Error (Input) for a file
 /// that cannot be used, interventions that are none of this scenario, and an instant outside of the
 /// run.
-std::vector<Branch> read_branches(const RunArguments& arguments,
-                                  const scenario::LoadedScenario& loaded);
+std::vector<Branch> read_branches(const RunArguments& arguments, const scenario::RunPlan& loaded);
 
 /// Whether a fork of this process can go on with a run, beside it: not where units have processes
 /// of their own or have written files, and not with several threads.
-bool can_fork(const scenario::LoadedScenario& loaded, const std::filesystem::path& results);
+bool can_fork(const scenario::RunPlan& loaded, const std::filesystem::path& results);
 
 /// What the branches go on with.
 struct BranchSetup {
   const RunArguments& arguments;
-  const scenario::LoadedScenario& loaded;
+  const scenario::RunPlan& loaded;
   results::ResultsTarget& results;  ///< in the process of a branch: of the branch
   RecordedRun& recorded;
   Checkpoints::Take take;

@@ -48,7 +48,7 @@ struct Column {
 /// What idle skipping may do in this system.
 class Allowances {
  public:
-  explicit Allowances(const scenario::LoadedScenario& loaded)
+  explicit Allowances(const scenario::RunPlan& loaded)
       : system_(loaded.system()), idle_(loaded.options().idle) {
     for (std::size_t i = 0; i < system_.components().size(); ++i) {
       const auto& variables = system_.components()[i].description->variables;
@@ -96,7 +96,7 @@ class Allowances {
 
 class SignalComparison {
  public:
-  SignalComparison(const scenario::LoadedScenario& loaded, const std::filesystem::path& skipping,
+  SignalComparison(const scenario::RunPlan& loaded, const std::filesystem::path& skipping,
                    const std::filesystem::path& full)
       : system_(loaded.system()), full_file_(full), skipping_(skipping), full_(full) {
     const Allowances allowances(loaded);
@@ -187,7 +187,7 @@ class SignalComparison {
   std::size_t points_ = 0;
 };
 
-bool may_suspend(const scenario::LoadedScenario& loaded) {
+bool may_suspend(const scenario::RunPlan& loaded) {
   if (!loaded.options().may_skip_idle_time()) return false;
   for (std::size_t i = 0; i < loaded.system().components().size(); ++i) {
     if (loaded.options().idle.longest_suspension(loaded.system(), i)) return true;
@@ -254,7 +254,7 @@ std::optional<Difference> first_message(const core::System& system,
 
 }  // namespace
 
-std::string compare_with_full_run(const scenario::LoadedScenario& loaded,
+std::string compare_with_full_run(const scenario::RunPlan& loaded,
                                   const core::RunStatistics& statistics,
                                   const results::ResultsTarget& skipping,
                                   const std::filesystem::path& full) {

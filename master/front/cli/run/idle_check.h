@@ -7,7 +7,7 @@
 
 #include "master/engine/run/context/statistics.h"
 #include "master/front/cli/run/recorded_run.h"
-#include "master/system/scenario/loaded_scenario.h"
+#include "master/system/plan/run_plan.h"
 
 namespace stride::cli {
 
@@ -22,7 +22,7 @@ inline constexpr const char* kFullRunFolder = "no_idle_skip";
 /// what was compared. Throws core::Error (Run) that names the first difference, with the variable
 /// and the simulated time, and the units that were suspended on which it depends. `statistics`: of
 /// the run with skipping.
-std::string compare_with_full_run(const scenario::LoadedScenario& loaded,
+std::string compare_with_full_run(const scenario::RunPlan& loaded,
                                   const core::RunStatistics& statistics,
                                   const results::ResultsTarget& skipping,
                                   const std::filesystem::path& full);

@@ -19,6 +19,7 @@
 #include "master/front/cli/program/crash_guard.h"
 #include "master/front/cli/program/interruption.h"
 #include "master/observe/recorders/unit_folders.h"
+#include "master/system/plan/instances.h"
 
 namespace stride::cli {
 namespace {
@@ -216,7 +217,7 @@ class UnitPair {
 
 class PromiseCheck : public core::Observer {
  public:
-  explicit PromiseCheck(const scenario::LoadedScenario& loaded)
+  explicit PromiseCheck(const scenario::RunPlan& loaded)
       : system_(loaded.system()), idle_(loaded.options().idle) {
     for (const scenario::IdleTwin& twin : loaded.idle_twins()) {
       add(twin, loaded.options().step.size.rounded());
@@ -300,7 +301,7 @@ void run_beside_twins(scenario::ScenarioRequest request) {
   request.scene.clear();
   spdlog::set_level(spdlog::level::off);  // the run itself says the same
   const CrashGuard guard;
-  const scenario::LoadedScenario loaded(request);
+  const scenario::RunPlan loaded(request);
   const archive::TemporaryFolder folder;
   const recorders::UnitFolders unit_folders(folder.path(), loaded.component_names());
   const LimitedEnd end;
@@ -309,8 +310,8 @@ void run_beside_twins(scenario::ScenarioRequest request) {
   options.recorded.clear();
   options.watched = check.signals();
   options.interrupted = &Interruption::flag();
-  core::Simulation simulation(loaded.system(),
-                              loaded.instantiate(folder.path(), options.interrupted), options);
+  core::Simulation simulation(
+      loaded.system(), scenario::instantiate(loaded, folder.path(), options.interrupted), options);
   simulation.add_observer(check, check.signals());
   simulation.run();
 }

@@ -2,7 +2,7 @@
 #ifndef STRIDE_MASTER_FRONT_CLI_RUN_PROMISE_CHECK_H
 #define STRIDE_MASTER_FRONT_CLI_RUN_PROMISE_CHECK_H
 
-#include "master/system/scenario/loaded_scenario.h"
+#include "master/system/plan/run_plan.h"
 
 namespace stride::cli {
 

@@ -41,7 +41,7 @@ void as_run_failure(Write&& write) {
 }
 
 /// "unit 'X'" if there is only one.
-std::string unit_without_host(const scenario::LoadedScenario& loaded) {
+std::string unit_without_host(const scenario::RunPlan& loaded) {
   std::vector<std::string> names;
   for (std::size_t i = 0; i < loaded.hostings().size(); ++i) {
     if (!loaded.hostings()[i]) names.push_back(loaded.system().components()[i].name);
@@ -224,7 +224,7 @@ void RecordedRun::execute(Go&& go) {
 
 void RecordedRun::abandon(const std::string& error) {
   core::SpareFiles::release_all();
-  setup_.loaded.process().restore();
+  setup_.loaded.process()->restore();
   simulation_.abandon();
   conclude_failure(error);
 }
@@ -233,7 +233,7 @@ void RecordedRun::abandon(const std::string& error) {
 void RecordedRun::restore_process() const {
   limit_end();
   core::SpareFiles::release_all();
-  const std::vector<std::string> changes = setup_.loaded.process().restore();
+  const std::vector<std::string> changes = setup_.loaded.process()->restore();
   if (changes.empty()) return;
   spdlog::warn(
       "{} has changed {} in the course of the run, which all code in the process of stride shares; "

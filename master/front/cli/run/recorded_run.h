@@ -23,7 +23,7 @@
 #include "master/observe/recorders/provenance.h"
 #include "master/study/results/results_target.h"
 #include "master/study/results/run_records.h"
-#include "master/system/scenario/loaded_scenario.h"
+#include "master/system/plan/run_plan.h"
 
 namespace stride::cli {
 
@@ -38,7 +38,7 @@ struct RunDisplay {
 
 /// What a run is made from, and must outlive it.
 struct RunSetup {
-  const scenario::LoadedScenario& loaded;
+  const scenario::RunPlan& loaded;
   const core::RunOptions& options;
   const recorders::Provenance& provenance;
   const results::ResultsTarget& results;

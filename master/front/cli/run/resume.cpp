@@ -23,6 +23,7 @@
 #include "master/observe/capture/capture.h"
 #include "master/observe/checkpoint/checkpoint_file.h"
 #include "master/observe/recorders/results_folder.h"
+#include "master/system/plan/split_option.h"
 #include "master/system/scenario/units/unit_path.h"
 #include "master/system/settings/scenario_options.h"
 

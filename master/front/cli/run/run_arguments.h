@@ -14,7 +14,7 @@
 #include "master/front/cli/run/checkpoints.h"
 #include "master/front/cli/terminal/progress.h"
 #include "master/observe/checkpoint/checkpoint_file.h"
-#include "master/system/scenario/loaded_scenario.h"
+#include "master/system/plan/request.h"
 
 namespace CLI {
 class App;

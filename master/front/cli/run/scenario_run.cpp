@@ -41,6 +41,8 @@
 #include "master/study/results/output_paths.h"
 #include "master/study/results/provenance.h"
 #include "master/study/results/report_page.h"
+#include "master/system/plan/instances.h"
+#include "master/system/plan/split_option.h"
 #include "master/system/scenario/units/unit_path.h"
 
 namespace stride::cli {
@@ -108,7 +110,7 @@ std::shared_ptr<ssp::Files> check_output_paths(const RunArguments& arguments) {
 }
 
 recorders::ResultFiles chosen_files(const RunArguments& arguments,
-                                    const scenario::LoadedScenario& loaded) {
+                                    const scenario::RunPlan& loaded) {
   recorders::ResultFiles files = results::possible_files(loaded);
   if (arguments.no_trace) files.trace.clear();
   if (arguments.no_report) files.report.clear();
@@ -121,7 +123,7 @@ recorders::ResultFiles chosen_files(const RunArguments& arguments,
   return files;
 }
 
-core::RunOptions run_options(const RunArguments& arguments, const scenario::LoadedScenario& loaded,
+core::RunOptions run_options(const RunArguments& arguments, const scenario::RunPlan& loaded,
                              const recorders::ResultFiles& files) {
   core::RunOptions options = results::options_for(loaded, files);
   if (!arguments.quiet) {
@@ -162,7 +164,7 @@ struct EndOfUnits {
 
 /// The run with idle skipping has come to its end: tells of a unit that broke a promise, or else
 /// compares the run with the one without.
-void conclude_idle_check(const RunArguments& arguments, const scenario::LoadedScenario& loaded,
+void conclude_idle_check(const RunArguments& arguments, const scenario::RunPlan& loaded,
                          const core::RunStatistics& statistics,
                          const results::ResultsTarget& results) {
   if (arguments.full_run.empty()) return;
@@ -193,7 +195,7 @@ void Records::add(const std::string& error) {
 /// when the units are what they were at the checkpoint.
 class ResultsOfRun {
  public:
-  ResultsOfRun(const RunArguments& arguments, const scenario::LoadedScenario& loaded)
+  ResultsOfRun(const RunArguments& arguments, const scenario::RunPlan& loaded)
       : target_{results_folder(arguments), chosen_files(arguments, loaded)},
         names_(loaded.scenario().annotation.results),
         resumed_(arguments.resumed.get()),
@@ -228,7 +230,7 @@ class ResultsOfRun {
 
  private:
   static const std::filesystem::path& made(const results::ResultsTarget& target,
-                                           const scenario::LoadedScenario& loaded) {
+                                           const scenario::RunPlan& loaded) {
     results::make_folder(target, loaded);
     return target.folder;
   }
@@ -283,8 +285,7 @@ std::set<std::filesystem::path> branch_files(const RunArguments& arguments) {
 }
 
 /// A run that goes on has to agree with its checkpoint in that.
-recorders::Provenance provenance(const RunArguments& arguments,
-                                 const scenario::LoadedScenario& loaded) {
+recorders::Provenance provenance(const RunArguments& arguments, const scenario::RunPlan& loaded) {
   core::FileDigests digests;
   recorders::Provenance made = results::provenance_of(loaded, command_line(), digests);
   for (const std::filesystem::path& file : branch_files(arguments)) {
@@ -304,9 +305,10 @@ recorders::Provenance provenance(const RunArguments& arguments,
 /// The instances of a run, in the decorators that it needs.
 class UnitsOfRun {
  public:
-  UnitsOfRun(const RunArguments& arguments, const scenario::LoadedScenario& loaded,
+  UnitsOfRun(const RunArguments& arguments, const scenario::RunPlan& loaded,
              const std::filesystem::path& results, const core::RunOptions& options)
-      : journals_(loaded.system()), instances_(loaded.instantiate(results, &Interruption::flag())) {
+      : journals_(loaded.system()),
+        instances_(scenario::instantiate(loaded, results, &Interruption::flag())) {
     if (is_journaled(arguments)) journals_.wrap(instances_, options.stop);
     if (!arguments.resumed) return;
     results::restore_units(journals_, arguments.resumed->from, arguments.resumed->file);
@@ -344,14 +346,14 @@ class ScenarioRun {
   const RunArguments& arguments_;
   Records& records_;
   const Interruption interruption_;
-  const scenario::LoadedScenario loaded_;
+  const scenario::RunPlan loaded_;
   const recorders::Provenance provenance_;
   Checkpoints checkpoints_;
   Branches branches_;
   ResultsOfRun results_;  // when all that may be wrong has been looked at
   core::RunOptions options_;
   const recorders::UnitFolders unit_folders_;
-  const EndOfUnits end_{loaded_.process()};
+  const EndOfUnits end_{*loaded_.process()};
   UnitsOfRun units_;
   capture::Capture capture_;
   const RunDisplay display_;

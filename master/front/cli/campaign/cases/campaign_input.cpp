@@ -23,7 +23,7 @@
 #include "master/study/campaign/plan_check.h"
 #include "master/study/campaign/plan_folder.h"
 #include "master/study/results/output_paths.h"
-#include "master/system/scenario/kept_descriptions.h"
+#include "master/system/plan/kept_descriptions.h"
 
 namespace stride::cli {
 namespace {
@@ -182,17 +182,17 @@ void CampaignInput::make_plan() const {
 
 void CampaignInput::write_plan() const {
   campaign::write_plan(plan_, folder_);
-  std::vector<const scenario::LoadedScenario*> scenarios{&scenario_.loaded()};
+  std::vector<const scenario::RunPlan*> scenarios{&scenario_.loaded()};
   for (const auto& alternative : scenario_.alternatives()) scenarios.push_back(&alternative.loaded);
   scenario::keep_descriptions(scenarios, folder_ / campaign::kDescriptions);
 }
 
-scenario::LoadedScenario CampaignInput::load_case(std::uint64_t index) const {
+scenario::RunPlan CampaignInput::load_case(std::uint64_t index) const {
   const NoWarnings quiet;
   scenario::ScenarioRequest request = plan_.request(plan_.at(index));
   request.files = scenario_.loaded().scenario().files;
   request.units = scenario_.units();
-  return scenario::LoadedScenario(request);
+  return scenario::RunPlan(request);
 }
 
 campaign::CaseDefinitions CampaignInput::case_definitions() const {

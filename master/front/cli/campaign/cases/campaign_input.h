@@ -70,7 +70,7 @@ class CampaignInput {
   void write_plan() const;
   /// The scenario of a case, without warnings: those of the campaign's have been printed. Throws
   /// core::Error (Input).
-  scenario::LoadedScenario load_case(std::uint64_t index) const;
+  scenario::RunPlan load_case(std::uint64_t index) const;
   /// Loads the scenarios of cases with other definitions of coverage; this object must outlive it.
   campaign::CaseDefinitions case_definitions() const;
   /// Throws core::Error (Input) for an index, given by this option, that no case has.

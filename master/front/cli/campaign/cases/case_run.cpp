@@ -12,6 +12,7 @@
 #include "master/observe/recorders/results_folder.h"
 #include "master/study/results/provenance.h"
 #include "master/study/results/report_page.h"
+#include "master/system/plan/instances.h"
 
 namespace stride::cli {
 namespace {
@@ -31,7 +32,7 @@ std::string failure_text(const std::vector<core::Verdict>& verdicts) {
 }
 
 std::unique_ptr<recorders::UnitFolders> unit_folders_in(const std::filesystem::path& results,
-                                                        const scenario::LoadedScenario& loaded) {
+                                                        const scenario::RunPlan& loaded) {
   if (results.empty()) return nullptr;
   return std::make_unique<recorders::UnitFolders>(results, loaded.component_names());
 }
@@ -59,7 +60,7 @@ CaseRun::CaseRun(const scenario::ScenarioRequest& request,
 }
 
 results::ResultsTarget CaseRun::target_of(const CaseResults& results,
-                                          const scenario::LoadedScenario& loaded) {
+                                          const scenario::RunPlan& loaded) {
   if (results.folder.empty()) return {{}, results::no_files()};
   results::ResultsTarget target{results.folder, results::possible_files(loaded)};
   if (!results.has_report) target.files.report.clear();
@@ -69,7 +70,7 @@ results::ResultsTarget CaseRun::target_of(const CaseResults& results,
 }
 
 recorders::Provenance CaseRun::provenance(const CaseResults& results,
-                                          const scenario::LoadedScenario& loaded) {
+                                          const scenario::RunPlan& loaded) {
   if (results.folder.empty()) return {};
   return results::provenance_of(loaded, results.command, results.digests);
 }
@@ -92,7 +93,7 @@ capture::Capture CaseRun::capture_of(const CaseResults& results) const {
 }
 
 std::vector<std::unique_ptr<core::Unit>> CaseRun::instantiate() {
-  auto units = loaded_.instantiate(target_.folder, &Interruption::flag());
+  auto units = scenario::instantiate(loaded_, target_.folder, &Interruption::flag());
   capture_.wrap(units, options_);
   return units;
 }

@@ -16,7 +16,7 @@
 #include "master/study/campaign/cases/case_record.h"
 #include "master/study/campaign/definition/aggregates.h"
 #include "master/study/campaign/definition/definition.h"
-#include "master/system/scenario/loaded_scenario.h"
+#include "master/system/plan/run_plan.h"
 
 namespace stride::cli {
 
@@ -33,7 +33,7 @@ struct CaseResults {
 /// Prints nothing but warnings.
 class CaseRun {
  public:
-  /// Throws core::Error (Input) as LoadedScenario does.
+  /// Throws core::Error (Input) as RunPlan does.
   CaseRun(const scenario::ScenarioRequest& request,
           const std::vector<campaign::Aggregate>& aggregates, const CaseResults& results);
 
@@ -61,9 +61,9 @@ class CaseRun {
   };
 
   static recorders::Provenance provenance(const CaseResults& results,
-                                          const scenario::LoadedScenario& loaded);
+                                          const scenario::RunPlan& loaded);
   static results::ResultsTarget target_of(const CaseResults& results,
-                                          const scenario::LoadedScenario& loaded);
+                                          const scenario::RunPlan& loaded);
   core::RunOptions run_options() const;
   capture::Capture capture_of(const CaseResults& results) const;
   std::vector<std::unique_ptr<core::Unit>> instantiate();
@@ -72,7 +72,7 @@ class CaseRun {
 
   const core::SpareFiles spare_;
   const Interruption interruption_;
-  const scenario::LoadedScenario loaded_;
+  const scenario::RunPlan loaded_;
   results::ResultsTarget target_;
   recorders::Provenance provenance_;
   campaign::Aggregates aggregates_;
@@ -80,7 +80,7 @@ class CaseRun {
   capture::Capture capture_;
   TestReport no_tests_{{}, {}};
   const std::unique_ptr<const recorders::UnitFolders> unit_folders_;  ///< null: none
-  const EndOfUnits end_{loaded_.process()};
+  const EndOfUnits end_{*loaded_.process()};
   const RunDisplay display_{.progress = ProgressStyle::None, .quiet = true};
   RecordedRun recorded_;
 };

@@ -86,7 +86,7 @@ void add_libraries(core::FileStamps& libraries, const importer::Fmu& fmu) {
   }
 }
 
-void add_files(core::FileStamps& files, const scenario::LoadedScenario& loaded) {
+void add_files(core::FileStamps& files, const scenario::RunPlan& loaded) {
   for (const results::KeptPath& input : results::inputs_of(loaded)) {
     if (core::is_file(input.path)) files.add(input.path);
   }

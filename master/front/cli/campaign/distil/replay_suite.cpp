@@ -116,7 +116,7 @@ fs::path ReplaySuite::golden(const std::string& name) const { return fresh_ / "g
 std::optional<std::string> ReplaySuite::add(std::uint64_t index,
                                             const campaign::CaseResult& result) {
   const std::string name = replay_name(input_.plan(), index);
-  const scenario::LoadedScenario loaded = input_.load_case(index);
+  const scenario::RunPlan loaded = input_.load_case(index);
   const replay::ReplaySource source{loaded, loaded.system().find_component(options_.component, {}),
                                     input_.folder() / cases_.stimuli_name(index) /
                                         capture::stimuli_file_name(options_.component)};

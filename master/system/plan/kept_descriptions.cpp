@@ -1,4 +1,4 @@
-#include "master/system/scenario/kept_descriptions.h"
+#include "master/system/plan/kept_descriptions.h"
 
 #include <set>
 #include <string>
@@ -41,10 +41,10 @@ std::vector<importer::DescriptionFile> files_in(const fs::path& folder) {
 
 }  // namespace
 
-void keep_descriptions(std::span<const LoadedScenario* const> scenarios, const fs::path& file) {
+void keep_descriptions(std::span<const RunPlan* const> scenarios, const fs::path& file) {
   archive::Contents contents;
   std::set<fs::path> known;
-  for (const LoadedScenario* const loaded : scenarios) {
+  for (const RunPlan* const loaded : scenarios) {
     for (std::size_t i = 0; i < loaded->fmus().size(); ++i) {
       if (!loaded->stays_elsewhere(i)) continue;
       const fs::path key = key_of(*loaded->hostings()[i]->remote);
