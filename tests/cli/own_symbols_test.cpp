@@ -86,18 +86,18 @@ TEST_CASE("units that bring along libraries of one name have their own ones") {
 
 TEST_CASE("verify leaves nothing of a unit that brings a library of stride's along") {
   const Workspace workspace(Parts{component("unit", "own_checksum.fmu")});
-  const fs::path binaries = workspace / "unit/binaries" / importer::fmi2_platform();
+  const fs::path binaries = workspace / "unit/binaries" / stride::importer::fmi2_platform();
   fs::create_directories(binaries);
   const fs::path built = build_folder() / "tests/test_units/bundling_3";
   fs::copy_file(built / "modelDescription.xml", workspace / "unit/modelDescription.xml");
-  const fs::path from = built / "binaries" / importer::fmi2_platform();
+  const fs::path from = built / "binaries" / stride::importer::fmi2_platform();
   std::string unit = read(from / "bundling_3.so");
   const std::string before = "libstride_test_shared.so";
   std::string name = "libz.so.1";
   fs::copy_file(from / before, binaries / name);
   name.resize(before.size(), '\0');
   workspace.scratch().write(
-      "unit/binaries/" + std::string(importer::fmi2_platform()) + "/bundling_3.so",
+      "unit/binaries/" + std::string(stride::importer::fmi2_platform()) + "/bundling_3.so",
       unit.replace(unit.find(before), before.size(), name));
   CHECK(workspace.stride({"verify", "unit", "--check", "load"}).exit_code == 0);
   CHECK(workspace.left_behind().empty());

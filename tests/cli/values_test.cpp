@@ -144,18 +144,18 @@ TEST_CASE("a start value that is not finite is said") {
 }
 
 TEST_CASE("numbers that are set later and are not finite, or too near to 0, are said") {
-  const Workspace workspace(Parts{component("filter", "minimal.fmu")});
+  const Workspace workspace(two_filters());
   const auto [option, value, expected] = GENERATE(table<std::string, std::string, std::string>({
-      {"--set-at", "filter.u=nan@0.5", "the value for 'filter.u' from 0.5 s on is nan, which is "},
-      {"--force", "filter.u=-inf@0.5..", "the value for 'filter.u' from 0.5 s on is -inf, which "},
-      {"--set", "filter.u=1e-400", "variable 'u': the start value 1e-400 becomes 0: Float64 "},
-      {"--set-at", "filter.u=1e-400@0.5", "from 0.5 s on 1e-400 becomes 0: Float64 has no"},
+      {"--set-at", "first.u=nan@0.5", "the value for 'first.u' from 0.5 s on is nan, which is "},
+      {"--force", "second.u=-inf@0.5..", "the value for 'second.u' from 0.5 s on is -inf, which "},
+      {"--set", "first.u=1e-400", "variable 'u': the start value 1e-400 becomes 0: Float64 "},
+      {"--set-at", "first.u=1e-400@0.5", "from 0.5 s on 1e-400 becomes 0: Float64 has no"},
   }));
   CAPTURE(option, value);
   const Outcome outcome = workspace.stride({"check", "test.ssd", option, value});
   CHECK(outcome.exit_code == 0);
   CHECK_THAT(outcome.err, Contains("warning: ") && Contains(expected));
-  CHECK(workspace.stride({"check", "test.ssd", "--set", "filter.u=1e-300"}).err == "");
+  CHECK(workspace.stride({"check", "test.ssd", "--set", "first.u=1e-300"}).err == "");
 }
 
 TEST_CASE("a value is read where it is recorded or shown, and nowhere else") {
