@@ -2,8 +2,8 @@
 # Installs the Debian packages that stride is built with, those that are missing. Sourced by the other scripts.
 
 packages_build=(
-  ca-certificates capnproto ccache cmake g++ git ninja-build pkg-config
-  libarchive-dev libboost-dev libcapnp-dev libcli11-dev libeigen3-dev libfmt-dev libjpeg62-turbo-dev libmd-dev
+  ca-certificates ccache cmake g++ git ninja-build pkg-config
+  libarchive-dev libboost-dev libcli11-dev libeigen3-dev libfmt-dev libjpeg62-turbo-dev libmd-dev
   libmujoco-dev libosmesa6 libpagmo-dev librandom123-dev libseccomp-dev libspdlog-dev libstb-dev libsystemc-dev libtinygltf-dev libtinyxml2-dev
   libutfcpp-dev nlohmann-json3-dev zlib1g-dev
 )

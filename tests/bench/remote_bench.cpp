@@ -28,7 +28,7 @@ using namespace stride;
 using namespace stride::bench;
 
 /// Of a message with the values of a step.
-constexpr std::size_t kMessage = 208;
+constexpr std::size_t kMessage = 72;
 
 std::shared_ptr<importer::Fmu> integrator() {
   static const auto fmu = importer::Fmu::load(tests::test_unit_folder() / "early.fmu");

@@ -6,13 +6,11 @@
 
 #include <nlohmann/json.hpp>
 
-#include "master/loader/network/frame.h"
 #include "master/loader/network/message.h"
 #include "tests/cli/scenarios.h"
 
 using namespace stride::tests;
 namespace remote = stride::remote;
-namespace wire = stride::remote::wire;
 
 namespace {
 
@@ -46,18 +44,18 @@ carry(child.stdout.fileno(), 1, "replies")
 /// Round trips of a unit's end, which comes when run.json is written: statistics, end, files.
 constexpr std::uint64_t kBehindRunJson = 3;
 
-/// Calls take(Root::Reader) for each message behind the greeting.
-template <class Root, class Take>
+/// Calls take(Head) for each message after the greeting.
+template <class Head, class Take>
 void read_messages(const fs::path& file, Take&& take) {
   const std::string bytes = read(file);
   remote::FrameReader reader;
   reader.put(std::string_view(bytes).substr(bytes.find('\n') + 1));
-  while (const auto words = reader.next()) take(remote::IncomingMessage(*words).root<Root>());
+  while (const auto message = reader.next()) take(remote::Message<Head>(*message).head);
 }
 
 /// A run whose second unit is behind the relay.
 struct Course {
-  std::map<wire::Request::Which, std::uint64_t> awaited;  ///< requests, by their kind
+  std::map<remote::RequestCode, std::uint64_t> awaited;  ///< requests, by their kind
   std::uint64_t all_awaited = 0, answers = 0;
   nlohmann::json unit;   ///< its entry in run.json
   double wall_time = 0;  ///< of all [s]
@@ -82,12 +80,12 @@ Course run_behind_relay(const Parts& parts, const std::string& delay, const std:
   course.wall_time = std::chrono::duration<double>(Clock::now() - begin).count();
   INFO(outcome.err);
   REQUIRE(outcome.exit_code == 0);
-  read_messages<wire::Request>(workspace / "requests", [&](wire::Request::Reader request) {
-    if (request.getIsAwaited()) ++course.awaited[request.which()];
+  read_messages<remote::RequestHead>(workspace / "requests", [&](const remote::RequestHead& head) {
+    if (head.is_awaited != 0) ++course.awaited[head.request];
   });
   for (const auto& [kind, count] : course.awaited) course.all_awaited += count;
-  read_messages<wire::Reply>(workspace / "replies", [&](wire::Reply::Reader reply) {
-    course.answers += reply.isDone() ? 1 : 0;
+  read_messages<remote::ReplyHead>(workspace / "replies", [&](const remote::ReplyHead& head) {
+    course.answers += head.code == remote::ReplyCode::Done ? 1 : 0;
   });
   course.unit = nlohmann::json::parse(workspace.result("run.json"))["units"][1];
   course.signals = workspace.result("signals.csv");
@@ -104,7 +102,7 @@ TEST_CASE("a step of a unit elsewhere is one round trip, however long that takes
     INFO(delay);
     const Course course = run_behind_relay(two_filters(), delay, "0.05");
     CHECK(course.signals == near.result("signals.csv"));
-    CHECK(course.awaited.at(wire::Request::STEP) == 50);
+    CHECK(course.awaited.at(remote::RequestCode::Step) == 50);
     CHECK(course.answers == course.all_awaited);
     CHECK(course.link()["round_trips"] == course.all_awaited - kBehindRunJson);
     if (!quick) quick = course;
@@ -128,7 +126,7 @@ TEST_CASE("an event of a unit elsewhere is a round trip, and one for each type t
     const Course course = run_behind_relay(tickers, "0", stop);
     const std::uint64_t steps = course.unit["steps"], events = course.unit["events"];
     CHECK(events > 30);
-    CHECK(course.awaited.at(wire::Request::STEP) == steps);
+    CHECK(course.awaited.at(remote::RequestCode::Step) == steps);
     CHECK(course.all_awaited == kLifeCycle + steps + (1 + kTypes) * events);
     CHECK(course.link()["round_trips"] == course.all_awaited - kBehindRunJson);
   }

@@ -10,6 +10,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "master/loader/network/greeting.h"
 #include "tests/cli/leftovers.h"
 #include "tests/cli/scenarios.h"
 
@@ -20,6 +21,11 @@ namespace {
 
 std::string serve_command(const std::string& further = "") {
   return "exec:exec " + stride_program().string() + " serve" + further;
+}
+
+/// Of a server, for printf.
+std::string greeting() {
+  return "\\001STRIDE-SERVE protocol " + std::to_string(stride::remote::kProtocol) + ", build 1\\n";
 }
 
 std::string host(const std::string& components, const std::string& further = "",
@@ -263,14 +269,14 @@ TEST_CASE("another version of the protocol is an error that names both") {
       "exec:printf '\\001STRIDE-SERVE protocol 99, build 7.7\\n'; cat &gt; /dev/null";
   CHECK_THAT(error_of_start(host("second", "", other), 1),
              Contains("stride 7.7 on") && Contains("has protocol 99") &&
-                 Contains(std::string("stride ") + STRIDE_VERSION + " here has protocol 1"));
+                 Contains(std::string("stride ") + STRIDE_VERSION + " here has protocol " +
+                          std::to_string(stride::remote::kProtocol)));
 }
 
 TEST_CASE("a machine that is silent is an error when its time is over") {
   CHECK_THAT(error_of_start(host("second", "connectLimit=\"0.3\"", "exec:cat &gt; /dev/null"), 1),
              Contains("has not answered within 0.3 s"));
-  const std::string greets_only =
-      "exec:printf '\\001STRIDE-SERVE protocol 1, build 1\\n'; cat &gt; /dev/null";
+  const std::string greets_only = "exec:printf '" + greeting() + "'; cat &gt; /dev/null";
   CHECK_THAT(error_of_start(host("second", "silenceLimit=\"0.3\"", greets_only), 1),
              Contains("has given no sign of life for 0.3 s in the description"));
 }
@@ -339,8 +345,7 @@ TEST_CASE("a run that goes on from a checkpoint has the same bytes") {
 }
 
 TEST_CASE("a peer that sends no messages is refused") {
-  const std::string garbage =
-      "exec:printf '\\001STRIDE-SERVE protocol 1, build 1\\n'; echo what now; cat &gt; /dev/null";
+  const std::string garbage = "exec:printf '" + greeting() + "'; echo what now; cat &gt; /dev/null";
   CHECK_THAT(error_of_start(host("second", "", garbage), 1),
              Contains("sends what cannot be read") && Contains("'what now'"));
 }

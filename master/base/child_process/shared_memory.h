@@ -44,9 +44,25 @@ class Shared {
   T* object_;
 };
 
+/// Memory that can be enlarged.
+class ResizableMemory {
+ public:
+  std::byte* data() const { return data_; }
+  /// As much as is seen here [byte].
+  std::size_t size() const { return size_; }
+  /// Makes room for at least `size` bytes; data() may be another afterwards.
+  virtual void grow(std::size_t size) = 0;
+
+ protected:
+  ~ResizableMemory() = default;
+
+  std::byte* data_ = nullptr;
+  std::size_t size_ = 0;
+};
+
 /// Memory that any of the processes may enlarge; the others see it after follow(). It never
 /// shrinks, so what was seen once can be read whatever another process does.
-class GrowingMemory {
+class GrowingMemory final : public ResizableMemory {
  public:
   /// Throws std::system_error if there is none. The name is for /proc/PID/maps.
   GrowingMemory(const char* name, std::size_t size);
@@ -54,15 +70,11 @@ class GrowingMemory {
   GrowingMemory(const GrowingMemory&) = delete;
   GrowingMemory& operator=(const GrowingMemory&) = delete;
 
-  std::byte* data() const { return data_; }
-  /// As much as this process sees [byte].
-  std::size_t size() const { return size_; }
   /// To be kept open by all processes.
   const Descriptor& file() const { return file_; }
 
-  /// Makes room for at least `size` bytes and sees it; data() may be another afterwards. Throws
-  /// std::system_error if there is no memory.
-  void grow(std::size_t size);
+  /// Throws std::system_error if there is no memory.
+  void grow(std::size_t size) override;
   /// Sees at least `size` bytes, if another process has made room for them by grow(); false if none
   /// has.
   bool follow(std::size_t size);
@@ -73,8 +85,6 @@ class GrowingMemory {
   void map(std::size_t size);
 
   Descriptor file_;
-  std::size_t size_ = 0;
-  std::byte* data_ = nullptr;
   bool is_hidden_ = false;
 };
 

@@ -92,7 +92,7 @@ bool change(T& target, T value) {
 }  // namespace
 
 std::size_t element_size(ValueType type) {
-  constexpr std::size_t kSizes[] = {4, 8, 1, 1, 2, 2, 4, 4, 8, 8, 1, 0, 0, 8, 1};
+  static constexpr std::size_t kSizes[] = {4, 8, 1, 1, 2, 2, 4, 4, 8, 8, 1, 0, 0, 8, 1};
   return kSizes[static_cast<std::size_t>(type)];
 }
 

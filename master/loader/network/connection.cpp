@@ -92,15 +92,30 @@ void Connection::greet() {
   heard_ = Clock::now();
 }
 
-void Connection::send(const char* call) {
+PacketWriter Connection::write() {
   require_link();
+  packet_.trim();
+  return PacketWriter(packet_);
+}
+
+void Connection::append(RequestCode request, bool is_awaited, const PacketWriter& packet) {
+  require_link();
+  append_message(pending_, RequestHead{request, is_awaited}, packet.bytes());
+}
+
+void Connection::put(RequestCode request, const PacketWriter& packet) {
+  append(request, false, packet);
+}
+
+void Connection::send(RequestCode request, const PacketWriter& packet, const char* call) {
+  append(request, true, packet);
   call_ = call;
   heard_ = Clock::now();
   statistics_.round_trips += 1;
   write_pending();
 }
 
-wire::Reply::Reader Connection::receive() {
+Message<ReplyHead> Connection::receive() {
   for (;;) {
     if (const auto reply = receive(options_.silence_limit)) return *reply;
   }
@@ -108,7 +123,7 @@ wire::Reply::Reader Connection::receive() {
 
 /// What has come already counts, however long nobody has looked; and who never stops to talk can be
 /// interrupted, too.
-std::optional<wire::Reply::Reader> Connection::receive(std::chrono::milliseconds limit) {
+std::optional<Message<ReplyHead>> Connection::receive(std::chrono::milliseconds limit) {
   const auto end = Clock::now() + limit;
   for (;;) {
     check_interruption();
@@ -119,18 +134,14 @@ std::optional<wire::Reply::Reader> Connection::receive(std::chrono::milliseconds
   }
 }
 
-std::optional<wire::Reply::Reader> Connection::next_reply() {
+std::optional<Message<ReplyHead>> Connection::next_reply() {
   require_link();
   try {
-    while (const auto words = reader_.next()) {
-      const auto reply = with_checked_messages([&]() -> std::optional<wire::Reply::Reader> {
-        message_.emplace(*words);
-        const auto present = message_->root<wire::Reply>();
-        return present.isBeat() ? std::nullopt : std::optional(present);
-      });
-      if (reply) return reply;
+    while (const auto bytes = reader_.next()) {
+      const Message<ReplyHead> reply(*bytes);
+      if (reply.head.code != kBeat) return reply;
     }
-  } catch (const BadMessage& mistake) {
+  } catch (const BadPacket& mistake) {
     fail_bad_message(mistake.what());
   }
   return std::nullopt;

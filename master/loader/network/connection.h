@@ -55,25 +55,17 @@ class Connection {
   /// Awaits the other's greeting, and compares versions. To be called once, before the others.
   void greet();
 
-  /// Puts a request that fill(wire::Request::Builder) fills into what is to be sent.
-  template <class Fill>
-  void put(Fill&& fill);
-  /// Sends what was put, as far as the other side takes it. `call`: what it is for, in words for
-  /// errors, a literal.
-  void send(const char* call);
-  /// Both, of a request that is awaited.
-  template <class Fill>
-  void ask(const char* call, Fill&& fill) {
-    put([&](wire::Request::Builder request) {
-      request.setIsAwaited(true);
-      fill(request);
-    });
-    send(call);
-  }
-  /// Awaits the next reply that is not a sign of life; its message stays until the next call.
-  wire::Reply::Reader receive();
-  /// The same for no longer than the limit; null if there is none.
-  std::optional<wire::Reply::Reader> receive(std::chrono::milliseconds limit);
+  /// For the packet of a request, which replaces the one before. Throws if the link has failed.
+  PacketWriter write();
+  /// Puts a request that is not awaited into what is to be sent.
+  void put(RequestCode request, const PacketWriter& packet);
+  /// Sends a request and what was put before, as far as the other side takes it. `call`: what it is
+  /// for, in words for errors, a literal.
+  void send(RequestCode request, const PacketWriter& packet, const char* call);
+  /// Awaits the next reply that is not a sign of life; it stays until the next call.
+  Message<ReplyHead> receive();
+  /// The same for no longer than the limit; nothing if there is none.
+  std::optional<Message<ReplyHead>> receive(std::chrono::milliseconds limit);
 
   /// For a message that cannot be read.
   [[noreturn]] void fail_bad_message(const std::string& why);
@@ -87,12 +79,13 @@ class Connection {
   using Clock = std::chrono::steady_clock;
 
   void require_link() const;
+  void append(RequestCode request, bool is_awaited, const PacketWriter& packet);
   bool pump(std::chrono::milliseconds patience);
   void write_pending();
   bool read_out();
   void read_err();
   void take_greeting(std::string_view bytes);
-  std::optional<wire::Reply::Reader> next_reply();
+  std::optional<Message<ReplyHead>> next_reply();
   void check_silence(std::chrono::milliseconds limit);
   void check_interruption();
   [[noreturn]] void fail_end();
@@ -106,8 +99,7 @@ class Connection {
   GreetingScanner scanner_{Side::Server};
   std::optional<Greeting> greeting_;
   FrameReader reader_;
-  std::optional<IncomingMessage> message_;
-  Scratch scratch_;
+  isolation::PacketBuffer packet_;
   std::string pending_;      ///< to be written,
   std::size_t written_ = 0;  ///< of it
   isolation::PrintedLines err_lines_;
@@ -119,12 +111,6 @@ class Connection {
   core::LinkStatistics statistics_;
   std::string failure_;
 };
-
-template <class Fill>
-void Connection::put(Fill&& fill) {
-  require_link();
-  append_message<wire::Request>(pending_, scratch_, fill);
-}
 
 }  // namespace stride::remote
 

@@ -1,7 +1,6 @@
 #include "master/loader/network/frame.h"
 
 #include <algorithm>
-#include <bit>
 #include <cstring>
 
 #include <fmt/format.h>
@@ -10,9 +9,6 @@
 
 namespace stride::remote {
 namespace {
-
-static_assert(std::endian::native == std::endian::little,
-              "numbers are sent as they are in memory: little-endian");
 
 constexpr std::uint32_t kMark = 0x31525453;  // "STR1"
 constexpr std::uint32_t kGoesOn = std::uint32_t{1} << 31;
@@ -33,8 +29,8 @@ void append_frames(std::string& bytes, std::span<const std::span<const std::byte
   std::size_t rest = 0;
   for (const auto& part : parts) rest += part.size();
   if (rest > kLongestMessage) {
-    throw BadMessage(fmt::format("a message of {} MiB is too long; {} MiB are possible", rest >> 20,
-                                 kLongestMessage >> 20));
+    throw isolation::BadPacket(fmt::format("a message of {} MiB is too long; {} MiB are possible",
+                                           rest >> 20, kLongestMessage >> 20));
   }
   std::size_t room = 0;  // in the present frame
   for (auto part : parts) {
@@ -73,7 +69,7 @@ void FrameReader::put(std::string_view bytes) {
   }
 }
 
-std::optional<std::span<const std::uint64_t>> FrameReader::next() {
+std::optional<std::span<const std::byte>> FrameReader::next() {
   if (is_complete_) {
     if (taken_ > kLarge) message_ = {};
     is_complete_ = false;
@@ -85,7 +81,7 @@ std::optional<std::span<const std::uint64_t>> FrameReader::next() {
     if (rest_ > 0) return std::nullopt;
     if (goes_on_) continue;
     is_complete_ = true;
-    return std::span(message_.data(), taken_ / sizeof(std::uint64_t));
+    return std::span<const std::byte>(message_.data(), taken_);
   }
 }
 
@@ -95,18 +91,20 @@ bool FrameReader::take_header() {
   std::copy_n(bytes.data(), std::min(bytes.size(), sizeof header[0]),
               reinterpret_cast<char*>(header));
   if (bytes.size() >= sizeof header[0] && header[0] != kMark) {
-    throw BadMessage(fmt::format("what came is no message: '{}'",
-                                 core::readable_text(bytes.substr(0, bytes.find('\n')), 200)));
+    throw isolation::BadPacket(
+        fmt::format("what came is no message: '{}'",
+                    core::readable_text(bytes.substr(0, bytes.find('\n')), 200)));
   }
   if (bytes.size() < kHeader) return false;
   std::memcpy(header, bytes.data(), kHeader);
   rest_ = header[1] & ~kGoesOn;
   goes_on_ = (header[1] & kGoesOn) != 0;
-  if (rest_ == 0 || rest_ > kLongestFrame || rest_ % sizeof(std::uint64_t) != 0) {
-    throw BadMessage(fmt::format("a part of a message has {} bytes", rest_));
+  if (rest_ == 0 || rest_ > kLongestFrame) {
+    throw isolation::BadPacket(fmt::format("a part of a message has {} bytes", rest_));
   }
   if (taken_ + rest_ > kLongestMessage) {
-    throw BadMessage(fmt::format("a message has more than {} MiB", kLongestMessage >> 20));
+    throw isolation::BadPacket(
+        fmt::format("a message has more than {} MiB", kLongestMessage >> 20));
   }
   begin_ += kHeader;
   return true;
@@ -114,9 +112,8 @@ bool FrameReader::take_header() {
 
 void FrameReader::take_content() {
   const std::size_t size = std::min(rest_, end_ - begin_);
-  const std::size_t words = (taken_ + size + sizeof(std::uint64_t) - 1) / sizeof(std::uint64_t);
-  if (message_.size() < words) message_.resize(words);
-  std::copy_n(buffer_.data() + begin_, size, reinterpret_cast<char*>(message_.data()) + taken_);
+  if (message_.size() < taken_ + size) message_.resize(taken_ + size);
+  if (size > 0) std::memcpy(message_.data() + taken_, buffer_.data() + begin_, size);
   taken_ += size;
   begin_ += size;
   rest_ -= size;

@@ -1,7 +1,7 @@
 // Messages on a stream of bytes. A message is cut into frames, so that a long one does not keep a
 // sign of life waiting, and so that what does not come from the peer is noticed.
 //
-// A frame is a header of 8 bytes and up to kLongestFrame bytes of a message, a multiple of 8.
+// A frame is a header of 8 bytes and 1 to kLongestFrame bytes of a message.
 // Header: 4 bytes that are always the same, then the size [byte], little-endian, whose topmost bit
 // says that the message goes on in the next frame.
 #ifndef STRIDE_MASTER_LOADER_NETWORK_FRAME_H
@@ -11,10 +11,11 @@
 #include <cstdint>
 #include <optional>
 #include <span>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "master/loader/wire/packet.h"
 
 namespace stride::remote {
 
@@ -22,13 +23,7 @@ inline constexpr std::size_t kLongestFrame = std::size_t{1} << 20;
 /// Of a message [byte]: above the 256 MiB that a value may have.
 inline constexpr std::size_t kLongestMessage = std::size_t{384} << 20;
 
-/// What has arrived is no message of the protocol. what() says in which way.
-class BadMessage : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
-
-/// Puts a message, whose parts are multiples of 8 bytes, in frames behind what is there.
+/// Puts a message in frames after what is there. Throws BadPacket for one that is too long.
 void append_frames(std::string& bytes, std::span<const std::span<const std::byte>> parts);
 
 /// Takes frames as they arrive, in pieces of any size. Needs memory for what has arrived only.
@@ -41,8 +36,8 @@ class FrameReader {
   void put(std::string_view bytes);
 
   /// The next message that is complete; nothing if there is none yet. Its bytes stay until the next
-  /// call. Throws BadMessage.
-  std::optional<std::span<const std::uint64_t>> next();
+  /// call. Throws isolation::BadPacket.
+  std::optional<std::span<const std::byte>> next();
 
  private:
   std::string_view unread() const { return {buffer_.data() + begin_, end_ - begin_}; }
@@ -51,7 +46,7 @@ class FrameReader {
 
   std::vector<char> buffer_;
   std::size_t begin_ = 0, end_ = 0;  ///< of what is unread
-  std::vector<std::uint64_t> message_;
+  std::vector<std::byte> message_;
   std::size_t taken_ = 0;  ///< of the message [byte]
   std::size_t rest_ = 0;   ///< of the frame
   bool goes_on_ = false;

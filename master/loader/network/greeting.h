@@ -10,8 +10,9 @@
 
 namespace stride::remote {
 
-/// Of the messages of remote.capnp. Raised with a change that an older peer must not ignore.
-inline constexpr unsigned kProtocol = 1;
+/// Of the messages (message.h). Raised with each change of them, and of the table of calls
+/// (wire/calls.h).
+inline constexpr unsigned kProtocol = 2;
 
 enum class Side { Server, Master };
 

@@ -6,28 +6,34 @@
 
 #include <fmt/format.h>
 
-#include "master/loader/network/codec.h"
 #include "master/loader/network/description_files.h"
 
 namespace stride::remote {
 namespace {
 
-/// The messages of a connection that belong to no unit, handled as they come.
-wire::Result::Reader take_done(Connection& connection, const core::Location& where) {
+/// Of a request that belongs to no unit.
+PacketReader take_done(Connection& connection, const core::Location& where) {
   for (;;) {
-    const wire::Reply::Reader reply = connection.receive();
-    if (reply.isDone()) return reply.getDone();
-    if (reply.isFailed()) throw_error(reply.getFailed(), {.where = where}, connection.machine());
-    if (!reply.isLog()) connection.fail_bad_message("an answer that nobody has asked for");
+    Message<ReplyHead> reply = connection.receive();
+    if (reply.head.code == ReplyCode::Done) return reply.packet;
+    if (reply.head.code == ReplyCode::Failed) {
+      isolation::SentError error = isolation::take_error(reply.packet);
+      supplement(error, {.where = where}, connection.machine());
+      error.raise();
+    }
+    if (reply.head.code != kLog) {
+      connection.fail_bad_message("an answer that nobody has asked for");
+    }
   }
 }
 
-std::vector<importer::DescriptionFile> take_files(wire::Description::Reader description) {
-  std::vector<importer::DescriptionFile> files;
-  for (const auto file : description.getFiles()) {
-    const auto text = file.getBytes().asChars();
-    files.push_back({to_string(file.getName()), std::string(text.begin(), text.size())});
+std::vector<importer::DescriptionFile> take_files(PacketReader& from) {
+  std::vector<importer::DescriptionFile> files(from.take_count(2 * sizeof(std::size_t)));
+  for (importer::DescriptionFile& file : files) {
+    file.name = from.take_text();
+    file.text = from.take_text();
   }
+  from.require_end();
   return files;
 }
 
@@ -45,16 +51,24 @@ std::shared_ptr<importer::Fmu> describe(const RemoteSpec& spec, const core::Loca
   if (!spec.sent.empty()) return importer::Fmu::load(spec.sent, where);
   Connection connection(connection_options(spec, where));
   connection.greet();
-  connection.ask("the description",
-                 [&](wire::Request::Builder request) { request.setDescribe(spec.fmu); });
+  PacketWriter request = connection.write();
+  request.put(spec.fmu);
+  connection.send(kDescribe, request, "the description");
   return checked(connection, [&] {
-    const wire::Result::Reader result = take_done(connection, where);
-    if (!result.isDescription()) throw BadMessage("an answer of another kind");
-    const auto description = result.getDescription();
-    return make_described_fmu(
-        take_files(description), where,
-        fmt::format("{}:{}", spec.place.machine, to_string(description.getPath())));
+    PacketReader answer = take_done(connection, where);
+    const std::string path = answer.take_text();
+    return make_described_fmu(take_files(answer), where,
+                              fmt::format("{}:{}", spec.place.machine, path));
   });
+}
+
+void supplement(isolation::SentError& error, const core::Context& here,
+                const std::string& machine) {
+  core::Location there = error.context.where;
+  if (there.file == here.where.file && there.line == here.where.line) there = {};
+  error.context.where = here.where;
+  if (!here.unit.empty()) error.context.unit = here.unit;
+  error.message = fmt::format("{}: {}{}", machine, core::to_text({.where = there}), error.message);
 }
 
 Trial try_connection(const RemoteSpec& spec, const core::Location& where) {
@@ -67,7 +81,7 @@ Trial try_connection(const RemoteSpec& spec, const core::Location& where) {
   std::vector<std::chrono::nanoseconds> times;
   while (times.size() < kTrials) {
     const auto sent = Clock::now();
-    connection.ask("a round trip", [](wire::Request::Builder request) { request.setPing(); });
+    connection.send(kPing, connection.write(), "a round trip");
     checked(connection, [&] { take_done(connection, where); });
     times.push_back(Clock::now() - sent);
   }

@@ -10,6 +10,7 @@
 
 #include "master/loader/fmu/fmu.h"
 #include "master/loader/network/connection.h"
+#include "master/loader/wire/codec.h"
 
 namespace stride::remote {
 
@@ -38,12 +39,17 @@ Trial try_connection(const RemoteSpec& spec, const core::Location& where);
 /// Of a connection to it, for a component at that place of the scenario.
 ConnectionOptions connection_options(const RemoteSpec& spec, const core::Location& where);
 
-/// As with_checked_messages(); a mistake in them is a failure of the connection.
+/// Makes it the error of what was asked of a machine: with the place and the component that are
+/// known here, and with the machine's name before the message, which then also has the place that
+/// it has there.
+void supplement(isolation::SentError& error, const core::Context& here, const std::string& machine);
+
+/// Carries out what reads messages. A mistake in them is a failure of the connection.
 template <class Action>
 decltype(auto) checked(Connection& connection, Action&& action) {
   try {
-    return with_checked_messages(action);
-  } catch (const BadMessage& mistake) {
+    return action();
+  } catch (const BadPacket& mistake) {
     connection.fail_bad_message(mistake.what());
   }
 }

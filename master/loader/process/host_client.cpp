@@ -67,7 +67,7 @@ ReplyCode HostClient::await(std::optional<Time> time,
 
 PacketReader HostClient::read() {
   const std::size_t size = link_.memory->reply.size.load(std::memory_order_relaxed);
-  if (!link_.packets.follow(size)) throw BadPacket();
+  if (!link_.packets.follow(size)) throw BadPacket(kHasOverwritten);
   return PacketReader({link_.packets.data(), size});
 }
 
@@ -218,7 +218,7 @@ void HostClient::fail(const std::string& what, std::optional<Time> time) {
 void HostClient::fail_bad_packet(std::optional<Time> time) {
   process_.kill();
   take_lines();
-  fail(BadPacket().what() + present_call(), time);
+  fail(kHasOverwritten + present_call(), time);
 }
 
 std::string HostClient::present_call() const {

@@ -27,15 +27,10 @@ class HostClient {
 
   /// A packet to be written and sent; it replaces the packet before.
   PacketWriter write() { return PacketWriter(link_.packets); }
-  /// Sends a request and waits for the reply. Throws core::Error of the kind Run, at
-  /// `time`, if the process ends before, or is ended because its time is over.
-  ReplyCode send(RequestCode request, const PacketWriter& packet, std::optional<Time> time) {
-    post(request, packet, time);
-    return await(time, spec_.host.call_limit);
-  }
-  /// The first half of it. Throws if the process has ended.
+  /// Sends a request. Throws core::Error of the kind Run, at `time`, if the process has ended.
   void post(RequestCode request, const PacketWriter& packet, std::optional<Time> time);
-  /// The second half. The time is over when the `limit` has passed since begin_call().
+  /// Waits for the reply. Throws likewise, if the process ends before, or is ended because its time
+  /// is over: when the `limit` has passed since begin_call().
   ReplyCode await(std::optional<Time> time, std::optional<std::chrono::milliseconds> limit);
   /// The request that was just posted will be waited for later: its time counts from here.
   void begin_call() {

@@ -14,52 +14,13 @@
 #include "master/loader/fmu/instance/call_note.h"
 #include "master/loader/process/byte_ring.h"
 #include "master/loader/process/snapshot_board.h"
+#include "master/loader/wire/calls.h"
 
 namespace stride::isolation {
 
-/// What the master asks for: the functions of core::Unit and its capabilities, and what they need
-/// besides.
-enum class RequestCode : std::uint32_t {
-  Instantiate,
-  EnterConfigurationMode,
-  ExitConfigurationMode,
-  EnterInitialization,
-  ExitInitialization,
-  Get,
-  Set,
-  MakePlan,
-  Step,  ///< by such a plan, with the state saved before if that is asked for
-  SaveState,
-  RestoreState,
-  SelectState,
-  SerializeState,
-  DeserializeState,
-  Reset,
-  EnterEventMode,
-  UpdateDiscreteStates,
-  EnterStepMode,
-  GetClockInterval,
-  GetClockShift,
-  GetDirectionalDerivative,
-  SetInputUpdate,
-  EnableIdleSkipping,
-  SetIdleTolerances,
-  GetIdleUntil,
-  GetDerivatives,
-  DescribeMessage,
-  Terminate,
-  Free,              ///< destroys the unit; the process ends afterwards
-  InputsUpdated,     ///< in answer to RequestInputs: the inputs are set
-  InputsNotUpdated,  ///< likewise: that has failed
-};
-
-/// The answer of the unit's process to a request.
-enum class ReplyCode : std::uint32_t {
-  Done,
-  Failed,          ///< a core::Error
-  CallbackFailed,  ///< what failed is what the master did within the call
-  RequestInputs,   ///< a question within a step; the reply to the step's request comes later
-};
+/// What a unit's process is taken for where what it has written cannot be.
+inline constexpr const char* kHasOverwritten =
+    "the unit's process has written into the shared memory";
 
 /// One direction. The writer sets what and size first, then the number, then rings.
 struct alignas(64) Turn {

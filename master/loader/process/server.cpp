@@ -16,17 +16,7 @@
 #include "master/base/child_process/surroundings.h"
 #include "master/base/process/own_exit.h"
 #include "master/base/process/process_state.h"
-#include "master/engine/port/capabilities/clock_intervals.h"
-#include "master/engine/port/capabilities/configuration_mode.h"
-#include "master/engine/port/capabilities/directional_derivatives.h"
-#include "master/engine/port/capabilities/idle_promises.h"
-#include "master/engine/port/capabilities/inputs_within_step.h"
-#include "master/engine/port/capabilities/message_text.h"
-#include "master/engine/port/capabilities/resetting.h"
-#include "master/engine/port/capabilities/state_saving.h"
-#include "master/engine/port/capabilities/state_serialization.h"
 #include "master/loader/process/sandbox_hint.h"
-#include "master/loader/wire/codec.h"
 
 namespace stride::isolation {
 namespace {
@@ -34,8 +24,8 @@ namespace {
 /// Where the master is so long in coming, nothing is lost by another look.
 constexpr std::chrono::seconds kMasterCheckInterval{10};
 
-/// What the master did within a call has failed; it knows how.
-struct CallbackFailure {};
+/// This process goes on where its snapshot was taken, and the request is now one to restore it.
+struct TakenBack {};
 
 /// First among the functions that exit() calls, but for the unit's own: those of the master are not
 /// for this process.
@@ -65,7 +55,11 @@ void serve(HostLink& link, const HostedUnitSpec& spec, pid_t supervisor) noexcep
 }
 
 Server::Server(HostLink& link, const HostedUnitSpec& spec, pid_t supervisor)
-    : link_(link), memory_(*link.memory), spec_(spec), log_(*link.memory) {
+    : link_(link),
+      memory_(*link.memory),
+      spec_(spec),
+      log_(*link.memory),
+      dispatcher_([this](double seconds) { request_inputs(seconds); }) {
   if (!spec.has_snapshots()) return;
   snapshots_.emplace(
       memory_.snapshots, memory_.active, supervisor,
@@ -126,8 +120,12 @@ void Server::serve() {
   };
   try {
     handle(requested(), in, out);
+  } catch (const TakenBack&) {
+    out.clear();
   } catch (const CallbackFailure&) {
     what = ReplyCode::CallbackFailed;
+  } catch (const BadPacket&) {
+    fail(error_of(std::runtime_error(kHasOverwritten)));
   } catch (const core::Error& error) {
     fail(error);
   } catch (const std::exception& error) {
@@ -136,13 +134,6 @@ void Server::serve() {
     fail(error_of(std::runtime_error("something that is not a std::exception")));
   }
   if (!is_over_) reply(what, out);
-}
-
-template <core::CapabilityInterface C>
-C& Server::capability() const {
-  core::Capability* const found = capabilities_.at(static_cast<std::size_t>(C::kId));
-  if (found == nullptr) throw BadPacket();  // the master asks for none that the unit lacks
-  return static_cast<C&>(*found);
 }
 
 void Server::reply(ReplyCode what, const PacketWriter& packet) {
@@ -158,82 +149,14 @@ void Server::reply(ReplyCode what, const PacketWriter& packet) {
 }
 
 void Server::handle(RequestCode request, PacketReader& in, PacketWriter& out) {
-  switch (request) {
-    case RequestCode::Instantiate:
-      return instantiate(out);
-    case RequestCode::EnterConfigurationMode:
-      return capability<core::ConfigurationMode>().enter_configuration_mode();
-    case RequestCode::ExitConfigurationMode:
-      return capability<core::ConfigurationMode>().exit_configuration_mode();
-    case RequestCode::EnterInitialization: {
-      time_ = take_time(in);
-      if (!time_) throw BadPacket();
-      return unit_->enter_initialization(*time_, take_time(in));
-    }
-    case RequestCode::ExitInitialization:
-      return unit_->exit_initialization();
-    case RequestCode::Get:
-      return get(in, out);
-    case RequestCode::Set:
-      return set(in);
-    case RequestCode::MakePlan:
-      return make_plan(in);
-    case RequestCode::Step:
-      return step(in, out);
-    case RequestCode::SaveState:
-      save_state(take_time(in));
-      return;
-    case RequestCode::RestoreState:
-      return restore_state(in);
-    case RequestCode::SelectState:
-      return select_state(in.take<std::size_t>());
-    case RequestCode::SerializeState:
-      return out.put_all(
-          std::span<const std::uint8_t>(capability<core::StateSerialization>().serialize_state()));
-    case RequestCode::DeserializeState:
-      return capability<core::StateSerialization>().deserialize_state(in.take_all<std::uint8_t>());
-    case RequestCode::Reset:
-      return capability<core::Resetting>().reset();
-    case RequestCode::EnterEventMode:
-      return unit_->enter_event_mode();
-    case RequestCode::UpdateDiscreteStates:
-      return put_events(out, unit_->update_discrete_states());
-    case RequestCode::EnterStepMode:
-      return unit_->enter_step_mode();
-    case RequestCode::GetClockInterval:
-      return put_clock(out, capability<core::ClockIntervals>().clock_interval(
-                                variable(in.take<core::ValueReference>())));
-    case RequestCode::GetClockShift:
-      return put_interval(out, capability<core::ClockIntervals>().clock_shift(
-                                   variable(in.take<core::ValueReference>())));
-    case RequestCode::GetDirectionalDerivative:
-      return get_directional_derivative(in, out);
-    case RequestCode::SetInputUpdate:
-      return set_input_update(in.take<bool>());
-    case RequestCode::EnableIdleSkipping:
-      return capability<core::IdlePromises>().enable_idle_skipping(
-          Duration(in.take<Duration::rep>()));
-    case RequestCode::SetIdleTolerances:
-      return set_idle_tolerances(in);
-    case RequestCode::GetIdleUntil:
-      return put_time(out, capability<core::IdlePromises>().idle_until());
-    case RequestCode::GetDerivatives:
-      return get_derivatives(in, out);
-    case RequestCode::DescribeMessage:
-      return describe_message(in, out);
-    case RequestCode::Terminate:
-      return unit_->terminate();
-    case RequestCode::Free:
-      return free();
-    case RequestCode::InputsUpdated:
-    case RequestCode::InputsNotUpdated:
-      break;
-  }
-  throw BadPacket();
+  if (request == RequestCode::Instantiate) return instantiate(out);
+  if (request == code_of<&core::Unit::free>()) return free();
+  dispatcher_.serve(request, in, out);
 }
 
 core::Context Server::context() const {
-  return {.where = spec_.options.where, .unit = spec_.name, .variable = {}, .time = time_};
+  return {
+      .where = spec_.options.where, .unit = spec_.name, .variable = {}, .time = dispatcher_.time()};
 }
 
 /// Of an exception that has crossed the unit's interface, which none may, or of this process
@@ -253,7 +176,7 @@ core::Error Server::error_of(const std::exception& error) const {
 // ---- Life cycle ----
 
 void Server::instantiate(PacketWriter& out) {
-  put_protections(out, prepare());
+  Form<Protections>::put(out, prepare());
   importer::InstanceOptions options = spec_.options;
   options.call_note = &memory_.call_note;
   options.process = std::make_shared<core::ProcessState>(core::ProcessState::Extent::Numbers);
@@ -263,17 +186,16 @@ void Server::instantiate(PacketWriter& out) {
   };
   memory_.call_note.write("the loading of its library");
   unit_ = spec_.fmu->instantiate(spec_.name, std::move(options));
-  CapabilitySet found;
-  for (std::size_t i = 0; i < capabilities_.size(); ++i) {
-    capabilities_[i] = unit_->capability(static_cast<core::CapabilityId>(i));
-    found.set(i, capabilities_[i] != nullptr);
-  }
-  diagnostics_ = &capability<core::UnitDiagnostics>();
-  put_capabilities(out, found);
+  const bool has_own = spec_.options.description != nullptr;
+  dispatcher_.begin(*unit_, has_own ? *spec_.options.description : *spec_.fmu->description(),
+                    snapshots_ ? this : nullptr, false);
+  diagnostics_ = &dispatcher_.capability<core::UnitDiagnostics>();
+  Form<CapabilitySet>::put(out, dispatcher_.capabilities());
 }
 
 void Server::free() {
   diagnostics_ = nullptr;
+  dispatcher_.end();
   if (unit_) unit_->free();
   unit_.reset();
   memory_.call_note.write("the unloading of its library");
@@ -282,84 +204,7 @@ void Server::free() {
   is_over_ = true;
 }
 
-// ---- Values ----
-
-void Server::get(PacketReader& in, PacketWriter& out) {
-  const auto references = in.take_all<core::ValueReference>();
-  core::ValueBlock values = take_shape(in);
-  unit_->get(references, values);
-  put_values(out, values);
-}
-
-void Server::set(PacketReader& in) {
-  const auto references = in.take_all<core::ValueReference>();
-  core::ValueBlock values = take_shape(in);
-  take_values(in, values);
-  unit_->set(references, values);
-}
-
-void Server::get_directional_derivative(PacketReader& in, PacketWriter& out) {
-  const auto unknowns = in.take_all<core::ValueReference>();
-  const auto knowns = in.take_all<core::ValueReference>();
-  const auto seed = in.take_all<double>();
-  std::vector<double> sensitivity(in.take<std::size_t>());
-  capability<core::DirectionalDerivatives>().get_directional_derivative(unknowns, knowns, seed,
-                                                                        sensitivity);
-  out.put_bytes(sensitivity.data(), sensitivity.size() * sizeof(double));
-}
-
-const core::Variable& Server::variable(core::ValueReference reference) const {
-  const core::UnitDescription& description =
-      spec_.options.description ? *spec_.options.description : *spec_.fmu->description();
-  const auto found = description.find(reference);
-  if (!found) throw BadPacket();
-  return description.variables[*found];
-}
-
-// ---- Steps ----
-
-void Server::make_plan(PacketReader& in) {
-  StepBuffers& made = plan(in);
-  made = StepBuffers(take_step_shape(in));
-}
-
-StepBuffers& Server::plan(PacketReader& in) {
-  const auto number = in.take<std::uint32_t>();
-  if (number >= plans_.size()) throw BadPacket();
-  return plans_[number];
-}
-
-void Server::step(PacketReader& in, PacketWriter& out) {
-  StepBuffers& buffers = plan(in);
-  const auto interval = in.take<core::StepInterval>();
-  const bool saves_state = in.take<bool>();
-  const bool is_timed = in.take<bool>();
-  buffers.take_inputs(in);
-  time_ = interval.from;
-  core::StepValues values = buffers.values();
-  if (saves_state) {
-    for (const core::BoundValues& input : values.inputs) {
-      unit_->set(input.references, *input.block);
-    }
-    values.inputs = {};
-    if (save_state(interval.from)) return;
-  }
-  const core::StepResult result = unit_->step(interval, values);
-  if (!result.rejected) time_ = result.reached;
-  put_step(out, result);
-  if (is_timed) out.put(std::chrono::steady_clock::now());
-  if (result.rejected) {
-    out.put(diagnostics_->rejection_reason());
-  } else {
-    buffers.put_outputs(out);
-  }
-}
-
-void Server::set_input_update(bool is_set) {
-  core::InputUpdate update;
-  if (is_set) update = [this](double seconds) { request_inputs(seconds); };
-  capability<core::InputsWithinStep>().set_input_update(std::move(update));
-}
+// ---- Inputs within a step ----
 
 /// The master may get and set before it answers.
 void Server::request_inputs(double seconds_into_step) {
@@ -372,55 +217,18 @@ void Server::request_inputs(double seconds_into_step) {
   }
 }
 
-// ---- States ----
+// ---- Snapshots ----
 
-/// With snapshots it returns once more for each restored state, in the process that goes on then:
-/// true, and the request is one to restore.
-bool Server::save_state(std::optional<Time> time) {
-  if (!snapshots_) {
-    capability<core::StateSaving>().save_state();
-    return false;
-  }
+void Server::save_state() {
   memory_.call_note.write("the snapshot of its process");
-  if (!snapshots_->save(slot_, time)) return false;
+  if (!snapshots_->save(slot_, dispatcher_.time())) return;
   undone_calls_ = memory_.calls - diagnostics_->calls();
-  return true;
+  throw TakenBack();
 }
 
-void Server::restore_state(PacketReader& in) {
-  const std::optional<Time> time = take_time(in);
-  if (!snapshots_) {
-    capability<core::StateSaving>().restore_state();
-    time_ = time;
-    return;
-  }
+void Server::restore_state() {
   memory_.call_note.write("the return to a snapshot of its process");
-  snapshots_->restore(slot_, time);
-}
-
-void Server::select_state(std::size_t slot) {
-  if (!snapshots_) return capability<core::StateSaving>().select_state(slot);
-  slot_ = slot;
-}
-
-// ---- Idle time ----
-
-void Server::set_idle_tolerances(PacketReader& in) {
-  const auto outputs = in.take_all<core::ValueReference>();
-  capability<core::IdlePromises>().set_idle_tolerances(outputs, in.take_all<double>());
-}
-
-void Server::get_derivatives(PacketReader& in, PacketWriter& out) {
-  const auto outputs = in.take_all<core::ValueReference>();
-  std::vector<double> derivatives(in.take<std::size_t>());
-  capability<core::IdlePromises>().get_derivatives(outputs, derivatives);
-  out.put_bytes(derivatives.data(), derivatives.size() * sizeof(double));
-}
-
-void Server::describe_message(PacketReader& in, PacketWriter& out) {
-  const auto variable = in.take<core::ValueReference>();
-  const core::Binary value = in.take_all<core::Binary::value_type>();
-  out.put(capability<core::MessageText>().describe_message(variable, value));
+  snapshots_->restore(slot_, dispatcher_.time());
 }
 
 }  // namespace stride::isolation

@@ -1,7 +1,6 @@
 #ifndef STRIDE_MASTER_LOADER_PROCESS_SERVER_H
 #define STRIDE_MASTER_LOADER_PROCESS_SERVER_H
 
-#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -11,19 +10,20 @@
 
 #include "master/base/child_process/doorbell.h"
 #include "master/base/child_process/sandbox.h"
+#include "master/engine/port/capabilities/state_saving.h"
 #include "master/engine/port/capabilities/unit_diagnostics.h"
 #include "master/engine/port/unit.h"
 #include "master/loader/process/host_link.h"
 #include "master/loader/process/hosted_unit_spec.h"
 #include "master/loader/process/log_message.h"
 #include "master/loader/process/snapshots.h"
+#include "master/loader/wire/dispatcher.h"
 #include "master/loader/wire/packet.h"
-#include "master/loader/wire/step_plan.h"
 
 namespace stride::isolation {
 
 /// The host of a unit: it serves the master's requests one after the other.
-class Server {
+class Server final : private core::StateSaving {
  public:
   Server(HostLink& link, const HostedUnitSpec& spec, pid_t supervisor);
 
@@ -45,27 +45,15 @@ class Server {
 
   void instantiate(PacketWriter& out);
   void free();
-  void get(PacketReader& in, PacketWriter& out);
-  void set(PacketReader& in);
-  void make_plan(PacketReader& in);
-  void step(PacketReader& in, PacketWriter& out);
-  bool save_state(std::optional<Time> time);
-  void restore_state(PacketReader& in);
-  void select_state(std::size_t slot);
-  void get_directional_derivative(PacketReader& in, PacketWriter& out);
-  void set_input_update(bool is_set);
   void request_inputs(double seconds_into_step);
-  void set_idle_tolerances(PacketReader& in);
-  void get_derivatives(PacketReader& in, PacketWriter& out);
-  void describe_message(PacketReader& in, PacketWriter& out);
-  const core::Variable& variable(core::ValueReference reference) const;
-  /// The master asks for nothing else.
-  template <core::CapabilityInterface C>
-  C& capability() const;
+
+  // Snapshots, in place of the unit's own states.
+  void save_state() override;
+  void restore_state() override;
+  void select_state(std::size_t slot) override { slot_ = slot; }
 
   RequestCode requested() const;
   core::Context context() const;
-  StepBuffers& plan(PacketReader& in);
   core::Error error_of(const std::exception& error) const;
 
   HostLink& link_;
@@ -73,14 +61,12 @@ class Server {
   const HostedUnitSpec& spec_;
   LogWriter log_;
   Waiter waiter_;
-  std::optional<Snapshots> snapshots_;  ///< in place of the unit's own states
-  std::size_t slot_ = 0;                ///< of them
-  std::uint64_t undone_calls_ = 0;      ///< of functions of the unit, by processes taken back
+  std::optional<Snapshots> snapshots_;
+  std::size_t slot_ = 0;            ///< of them
+  std::uint64_t undone_calls_ = 0;  ///< of functions of the unit, by processes taken back
   std::unique_ptr<core::Unit> unit_;
-  std::array<core::Capability*, core::kCapabilities> capabilities_{};  ///< of the unit
-  core::UnitDiagnostics* diagnostics_ = nullptr;  ///< likewise, while there is a unit
-  std::array<StepBuffers, KnownStepShapes::kMost> plans_;
-  std::optional<Time> time_;  ///< the unit's present time
+  Dispatcher dispatcher_;
+  core::UnitDiagnostics* diagnostics_ = nullptr;  ///< of the unit, while there is one
   bool is_over_ = false;
 };
 

@@ -1,12 +1,32 @@
 #include "master/loader/wire/codec.h"
 
-#include <string>
+#include <algorithm>
+#include <cmath>
 #include <type_traits>
 #include <utility>
 
-#include "master/loader/wire/untrusted_values.h"
-
 namespace stride::isolation {
+namespace {
+
+/// Whether its elements have one size in memory.
+constexpr bool has_fixed_size(core::ValueType type) {
+  return type != core::ValueType::String && type != core::ValueType::Binary;
+}
+
+/// Of all elements, which have a fixed size.
+std::size_t byte_count(const core::ValueBlock& values) {
+  return values.size() * core::element_size(values.type());
+}
+
+/// A bool of another byte than 0 and 1 has no value in C++.
+void normalize_booleans(core::ValueBlock& values) {
+  if (values.type() != core::ValueType::Boolean && values.type() != core::ValueType::Clock) return;
+  std::byte* const bytes = values.bytes();
+  std::transform(bytes, bytes + byte_count(values), bytes,
+                 [](std::byte byte) { return std::byte{byte != std::byte{0}}; });
+}
+
+}  // namespace
 
 // ---- Values ----
 
@@ -25,7 +45,7 @@ void put_values(PacketWriter& to, const core::ValueBlock& values) {
 void take_values(PacketReader& from, core::ValueBlock& values) {
   if (has_fixed_size(values.type())) {
     from.take_into(values.bytes(), byte_count(values));
-    return make_true_or_false(values);
+    return normalize_booleans(values);
   }
   core::visit(values, [&]<class T>(std::span<T> elements) {
     if constexpr (!std::is_arithmetic_v<T>) {
@@ -40,25 +60,35 @@ void take_values(PacketReader& from, core::ValueBlock& values) {
 }
 
 void put_shape(PacketWriter& to, const core::ValueBlock& values) {
-  to.put(values.type());
+  to.put(static_cast<std::uint8_t>(values.type()));
   to.put(values.size());
 }
 
-core::ValueBlock take_shape(PacketReader& from) {
-  const auto type = from.take<core::ValueType>();
-  return {type, from.take<std::size_t>()};
+Shape take_shape(PacketReader& from) {
+  const auto type = from.take<std::uint8_t>();
+  if (type >= core::kValueTypeCount) throw BadPacket("there is no such type");
+  return {static_cast<core::ValueType>(type), from.take<std::size_t>()};
+}
+
+core::ValueBlock take_block(PacketReader& from, const Shape& shape) {
+  const std::size_t least =
+      has_fixed_size(shape.type) ? core::element_size(shape.type) : sizeof(std::size_t);
+  if (shape.size > from.rest() / least) throw BadPacket("there are fewer values than announced");
+  core::ValueBlock values(shape.type, shape.size);
+  take_values(from, values);
+  return values;
 }
 
 // ---- Results ----
 
-void put_time(PacketWriter& to, std::optional<Time> time) {
+void Form<std::optional<Time>>::put(PacketWriter& to, const std::optional<Time>& time) {
   to.put(time.has_value());
-  to.put(time.value_or(Time{}).time_since_epoch().count());
+  to.put(time.value_or(Time{}));
 }
 
-std::optional<Time> take_time(PacketReader& from) {
+std::optional<Time> Form<std::optional<Time>>::take(PacketReader& from) {
   const bool is_there = from.take<bool>();
-  const Time time{Duration(from.take<Duration::rep>())};
+  const Time time = from.take<Time>();
   return is_there ? std::optional(time) : std::nullopt;
 }
 
@@ -73,61 +103,72 @@ void put_step(PacketWriter& to, const core::StepResult& result) {
                                    (result.early_return ? kEarlyReturn : 0) |
                                    (result.event_handling_needed ? kEventNeeded : 0) |
                                    (result.terminate_simulation ? kTerminate : 0)));
-  to.put(result.reached.time_since_epoch().count());
+  to.put(result.reached);
 }
 
 core::StepResult take_step(PacketReader& from, const core::StepInterval& interval) {
   const auto flags = from.take<std::uint8_t>();
-  const Time reached{Duration(from.take<Duration::rep>())};
   const core::StepResult result{.rejected = (flags & kRejected) != 0,
                                 .early_return = (flags & kEarlyReturn) != 0,
                                 .event_handling_needed = (flags & kEventNeeded) != 0,
                                 .terminate_simulation = (flags & kTerminate) != 0,
-                                .reached = reached};
-  if (!is_possible(result, interval)) throw BadPacket();
+                                .reached = from.take<Time>()};
+  if (!result.rejected && (result.reached < interval.from || result.reached > interval.to)) {
+    throw BadPacket("a step has ended outside of itself");
+  }
   return result;
 }
 
-void put_events(PacketWriter& to, const core::EventResult& result) {
+void Form<core::EventResult>::put(PacketWriter& to, const core::EventResult& result) {
   to.put(result.discrete_states_need_update);
   to.put(result.terminate_simulation);
-  put_time(to, result.next_event_time);
+  Form<std::optional<Time>>::put(to, result.next_event_time);
 }
 
-core::EventResult take_events(PacketReader& from) {
+/// No unit can give a later next event, and with these a sum does not overflow.
+core::EventResult Form<core::EventResult>::take(PacketReader& from) {
   core::EventResult result;
   result.discrete_states_need_update = from.take<bool>();
   result.terminate_simulation = from.take<bool>();
-  result.next_event_time = take_time(from);
-  if (!is_possible(result)) throw BadPacket();
+  result.next_event_time = Form<std::optional<Time>>::take(from);
+  if (std::abs(to_seconds(result.next_event_time.value_or(Time{}))) > kMaxSeconds + 1) {
+    throw BadPacket("there is no such time of an event");
+  }
   return result;
 }
 
 // ---- Clocks ----
 
-void put_interval(PacketWriter& to, const core::Interval& interval) { to.put(interval); }
-
-core::Interval take_interval(PacketReader& from) {
-  const auto interval = from.take<core::Interval>();
-  if (!interval.is_fraction()) throw BadPacket();
-  return interval;
+void Form<core::Interval>::put(PacketWriter& to, const core::Interval& interval) {
+  to.put(interval.parts());
 }
 
-void put_clock(PacketWriter& to, const core::ClockInterval& clock) {
-  to.put(clock.state);
-  put_interval(to, clock.interval);
+core::Interval Form<core::Interval>::take(PacketReader& from) {
+  const auto parts = from.take<core::Interval::Parts>();
+  if (parts.denominator == 0) throw BadPacket("the interval of a clock is none");
+  return core::Interval::from_parts(parts);
 }
 
-core::ClockInterval take_clock(PacketReader& from) {
-  const auto state = from.take<core::ClockInterval::State>();
-  if (state < core::ClockInterval::State::NotYetKnown ||
-      state > core::ClockInterval::State::Changed) {
-    throw BadPacket();
+void Form<core::ClockInterval>::put(PacketWriter& to, const core::ClockInterval& clock) {
+  to.put(static_cast<std::uint8_t>(clock.state));
+  Form<core::Interval>::put(to, clock.interval);
+}
+
+core::ClockInterval Form<core::ClockInterval>::take(PacketReader& from) {
+  const auto state = from.take<std::uint8_t>();
+  if (state > static_cast<std::uint8_t>(core::ClockInterval::State::Changed)) {
+    throw BadPacket("there is no such state of a clock");
   }
-  return {state, take_interval(from)};
+  return {static_cast<core::ClockInterval::State>(state), Form<core::Interval>::take(from)};
 }
 
 // ---- Errors ----
+
+namespace {
+
+enum Nature : std::uint8_t { kOfInput = 1, kConsequent = 2, kOfEnvironment = 4 };
+
+}  // namespace
 
 void put_error(PacketWriter& to, const std::exception& error, const core::Context& context,
                const std::string& hint) {
@@ -135,34 +176,52 @@ void put_error(PacketWriter& to, const std::exception& error, const core::Contex
   if (own == nullptr) {
     return put_error(to, core::Error(core::Error::Kind::Run, context, error.what(), hint), context);
   }
-  to.put(own->kind());
-  to.put(dynamic_cast<const core::ConsequentError*>(own) != nullptr);
+  const bool is_consequent = dynamic_cast<const core::ConsequentError*>(own) != nullptr;
+  const bool is_of_environment = dynamic_cast<const core::EnvironmentError*>(own) != nullptr;
+  to.put(static_cast<std::uint8_t>((own->kind() == core::Error::Kind::Input ? kOfInput : 0) |
+                                   (is_consequent ? kConsequent : 0) |
+                                   (is_of_environment ? kOfEnvironment : 0)));
   to.put(own->context().where.file);
-  to.put(own->context().where.line);
+  to.put(std::int32_t{own->context().where.line});
   to.put(own->context().unit);
   to.put(own->context().variable);
-  put_time(to, own->context().time);
+  Form<std::optional<Time>>::put(to, own->context().time);
   to.put(own->message());
   to.put(own->hint().empty() ? hint : own->hint());
 }
 
-void throw_error(PacketReader& from) {
-  const auto kind = from.take<core::Error::Kind>();
-  if (kind != core::Error::Kind::Input && kind != core::Error::Kind::Run) throw BadPacket();
-  const bool is_consequent = from.take<bool>();
-  core::Context context;
-  context.where.file = from.take_text();
-  context.where.line = from.take<int>();
-  context.unit = from.take_text();
-  context.variable = from.take_text();
-  context.time = take_time(from);
-  const std::string message = from.take_text();
-  const std::string hint = from.take_text();
-  if (is_consequent) throw core::ConsequentError(kind, std::move(context), message, hint);
-  throw core::Error(kind, std::move(context), message, hint);
+SentError take_error(PacketReader& from) {
+  SentError error;
+  error.nature = from.take<std::uint8_t>();
+  if (error.nature > (kOfInput | kConsequent | kOfEnvironment)) {
+    throw BadPacket("there is no such kind of error");
+  }
+  error.context.where.file = from.take_text();
+  error.context.where.line = from.take<std::int32_t>();
+  error.context.unit = from.take_text();
+  error.context.variable = from.take_text();
+  error.context.time = Form<std::optional<Time>>::take(from);
+  error.message = from.take_text();
+  error.hint = from.take_text();
+  return error;
 }
 
-// ---- Protections ----
+void SentError::raise() const {
+  const auto kind = (nature & kOfInput) != 0 ? core::Error::Kind::Input : core::Error::Kind::Run;
+  if ((nature & kConsequent) != 0) throw core::ConsequentError(kind, context, message, hint);
+  if ((nature & kOfEnvironment) != 0) throw core::EnvironmentError(context, message, hint);
+  throw core::Error(kind, context, message, hint);
+}
+
+// ---- Capabilities, and the host ----
+
+void Form<CapabilitySet>::put(PacketWriter& to, const CapabilitySet& capabilities) {
+  to.put(std::uint64_t{capabilities.to_ullong()});
+}
+
+CapabilitySet Form<CapabilitySet>::take(PacketReader& from) {
+  return CapabilitySet(from.take<std::uint64_t>());
+}
 
 namespace {
 
@@ -179,24 +238,36 @@ std::vector<std::string> take_lines(PacketReader& from) {
 
 }  // namespace
 
-void put_capabilities(PacketWriter& to, const CapabilitySet& capabilities) {
-  to.put(std::uint64_t{capabilities.to_ullong()});
-}
-
-CapabilitySet take_capabilities(PacketReader& from) {
-  return CapabilitySet(from.take<std::uint64_t>());
-}
-
-void put_protections(PacketWriter& to, const Protections& protections) {
+void Form<Protections>::put(PacketWriter& to, const Protections& protections) {
   put_lines(to, protections.in_force);
   put_lines(to, protections.missing);
 }
 
-Protections take_protections(PacketReader& from) {
+Protections Form<Protections>::take(PacketReader& from) {
   Protections protections;
   protections.in_force = take_lines(from);
   protections.missing = take_lines(from);
   return protections;
+}
+
+void Form<core::HostStatistics>::put(PacketWriter& to, const core::HostStatistics& host) {
+  for (const std::uint64_t number : {host.snapshots, host.restores, host.most_snapshots,
+                                     host.most_snapshot_memory, host.most_memory}) {
+    to.put(number);
+  }
+  Form<Protections>::put(to, {host.protections, host.missing_protections});
+}
+
+core::HostStatistics Form<core::HostStatistics>::take(PacketReader& from) {
+  core::HostStatistics host;
+  for (std::uint64_t* const number : {&host.snapshots, &host.restores, &host.most_snapshots,
+                                      &host.most_snapshot_memory, &host.most_memory}) {
+    *number = from.take<std::uint64_t>();
+  }
+  Protections protections = Form<Protections>::take(from);
+  host.protections = std::move(protections.in_force);
+  host.missing_protections = std::move(protections.missing);
+  return host;
 }
 
 }  // namespace stride::isolation

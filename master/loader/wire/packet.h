@@ -1,10 +1,13 @@
-// A packet, the content of a request or reply, written into shared memory and read from it.
+// A packet, the content of a request or reply, written into memory and read from it. Numbers have a
+// fixed size and are little-endian, as in the memory of the machines that stride runs on.
 #ifndef STRIDE_MASTER_LOADER_WIRE_PACKET_H
 #define STRIDE_MASTER_LOADER_WIRE_PACKET_H
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstddef>
+#include <cstdint>
 #include <cstring>
 #include <span>
 #include <stdexcept>
@@ -17,13 +20,16 @@
 
 namespace stride::isolation {
 
-/// Puts one thing behind another. Numbers and structures of them are copied as they are: both ends
-/// are the same program.
+static_assert(std::endian::native == std::endian::little && sizeof(std::size_t) == 8,
+              "numbers are sent as they are in memory");
+
+/// Puts one thing after another.
 class PacketWriter {
  public:
-  explicit PacketWriter(GrowingMemory& memory) : memory_(memory) {}
+  explicit PacketWriter(ResizableMemory& memory) : memory_(memory) {}
 
   std::size_t size() const { return size_; }
+  std::span<const std::byte> bytes() const { return {memory_.data(), size_}; }
   void clear() { size_ = 0; }
 
   void put_bytes(const void* bytes, std::size_t size) {
@@ -48,24 +54,46 @@ class PacketWriter {
   void put(const std::string& text) { put(std::string_view(text)); }
 
  private:
-  GrowingMemory& memory_;
+  ResizableMemory& memory_;
   std::size_t size_ = 0;
 };
 
-/// A packet that cannot be read.
-class BadPacket : public std::runtime_error {
+/// Memory for packets of one process.
+class PacketBuffer final : public ResizableMemory {
  public:
-  BadPacket() : std::runtime_error("the unit's process has written into the shared memory") {}
+  void grow(std::size_t size) override {
+    bytes_.resize(std::max(size, 2 * bytes_.size()));
+    data_ = bytes_.data();
+    size_ = bytes_.size();
+  }
+  /// To be called when a packet was used: a large one leaves no memory behind.
+  void trim() {
+    constexpr std::size_t kKept = std::size_t{1} << 22;
+    if (size_ <= kKept) return;
+    bytes_ = {};
+    data_ = nullptr;
+    size_ = 0;
+  }
+
+ private:
+  std::vector<std::byte> bytes_;
 };
 
-/// Takes one thing behind another. All of it has to be taken before another packet is written.
+/// What has arrived cannot be read. what() says why.
+class BadPacket : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Takes one thing after another. All of it has to be taken before another packet is written.
 /// Throws BadPacket where there is less than there should be.
 class PacketReader {
  public:
+  PacketReader() = default;
   explicit PacketReader(std::span<const std::byte> bytes) : rest_(bytes) {}
 
   const std::byte* take_bytes(std::size_t size) {
-    if (size > rest_.size()) throw BadPacket();
+    if (size > rest_.size()) throw BadPacket("something is missing at the end");
     const std::byte* const bytes = rest_.data();
     rest_ = rest_.subspan(size);
     return bytes;
@@ -92,14 +120,24 @@ class PacketReader {
     return values;
   }
   std::string take_text() {
+    const std::string_view text = take_text_view();
+    return std::string(text);
+  }
+  /// The same, where the packet is.
+  std::string_view take_text_view() {
     const std::size_t size = take_count(1);
     return {reinterpret_cast<const char*>(take_bytes(size)), size};
   }
   /// How many things follow, of at least `least` bytes each.
   std::size_t take_count(std::size_t least) {
     const auto count = take<std::size_t>();
-    if (count > rest_.size() / least) throw BadPacket();
+    if (count > rest_.size() / least) throw BadPacket("there is less than was announced");
     return count;
+  }
+  std::size_t rest() const { return rest_.size(); }
+  /// Everything was taken.
+  void require_end() const {
+    if (!rest_.empty()) throw BadPacket("there is more than there should be");
   }
 
  private:

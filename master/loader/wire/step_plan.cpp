@@ -78,8 +78,8 @@ std::vector<StepShape::Group> take_groups(PacketReader& from) {
   const std::size_t count = from.take_count(1);
   for (std::size_t i = 0; i < count; ++i) {
     auto references = from.take_all<core::ValueReference>();
-    const auto type = from.take<core::ValueType>();
-    groups.push_back({type, from.take<std::size_t>(), std::move(references)});
+    const Shape shape = take_shape(from);
+    groups.push_back({shape.type, shape.size, std::move(references)});
   }
   return groups;
 }

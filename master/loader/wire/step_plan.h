@@ -1,4 +1,5 @@
-// The shape of the values that go with a step is sent once, so that a step sends elements only.
+// A step as data. The shape of the values that go with it is sent once, so that it sends elements
+// only.
 #ifndef STRIDE_MASTER_LOADER_WIRE_STEP_PLAN_H
 #define STRIDE_MASTER_LOADER_WIRE_STEP_PLAN_H
 
@@ -69,6 +70,37 @@ class StepBuffers {
 /// What StepBuffers is made of.
 void put_shape(PacketWriter& to, const core::StepValues& values);
 StepShape take_step_shape(PacketReader& from);
+
+/// A step as it is requested, before the values of its inputs: in one piece, without gaps.
+struct StepRequest {
+  static constexpr std::uint8_t kMayGoBackBefore = 1, kSavesState = 2, kIsTimed = 4;
+
+  Time from, to;
+  double begin_seconds, end_seconds, size_seconds;
+  std::uint32_t plan;
+  std::uint8_t flags;
+  std::array<std::uint8_t, 3> unused{};
+
+  StepRequest(std::uint32_t plan_number, const core::StepInterval& interval, bool saves_state,
+              bool is_timed)
+      : from(interval.from),
+        to(interval.to),
+        begin_seconds(interval.begin_seconds),
+        end_seconds(interval.end_seconds),
+        size_seconds(interval.size_seconds),
+        plan(plan_number),
+        flags(static_cast<std::uint8_t>((interval.may_go_back_before ? kMayGoBackBefore : 0) |
+                                        (saves_state ? kSavesState : 0) |
+                                        (is_timed ? kIsTimed : 0))) {}
+  core::StepInterval interval() const {
+    core::StepInterval interval(from, begin_seconds, to, end_seconds, size_seconds);
+    interval.size_seconds = size_seconds;
+    interval.may_go_back_before = has(kMayGoBackBefore);
+    return interval;
+  }
+  bool has(std::uint8_t flag) const { return (flags & flag) != 0; }
+};
+static_assert(sizeof(StepRequest) == 48);
 
 }  // namespace stride::isolation
 

@@ -5,10 +5,11 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
-#include "master/loader/network/codec.h"
-#include "master/loader/network/description_files.h"
 #include "master/loader/network/greeting.h"
+#include "master/loader/network/instantiation.h"
+#include "master/loader/network/message.h"
 #include "master/loader/network/place.h"
+#include "master/loader/network/remote_spec.h"
 #include "master/loader/network/server/serve.h"
 #include "tests/fuzz/core_errors.h"
 #include "tests/fuzz/parser.h"
@@ -18,17 +19,19 @@ namespace {
 
 using namespace remote;
 
-template <class Root, class Fill>
-std::string message_bytes(Fill&& fill) {
+template <class Head, class Put>
+std::string message_bytes(const Head& head, Put&& put) {
+  isolation::PacketBuffer memory;
+  PacketWriter packet(memory);
+  put(packet);
   std::string bytes;
-  Scratch scratch;
-  append_message<Root>(bytes, scratch, fill);
+  append_message(bytes, head, packet.bytes());
   return bytes;
 }
 
 // ---- The server ----
 
-/// A whole session of a server that has no units.
+/// A whole session of a server that has no units. What it does with one: parser `requests`.
 void serve_bytes(const std::string& bytes) {
   const core::Descriptor in(::memfd_create("in", MFD_CLOEXEC));
   const core::Descriptor out(::open("/dev/null", O_WRONLY | O_CLOEXEC));
@@ -45,96 +48,60 @@ void serve_bytes(const std::string& bytes) {
 }
 
 std::string request_bytes() {
-  std::string bytes = message_bytes<wire::Request>([](wire::Request::Builder request) {
-    request.setIsAwaited(true);
-    request.setDescribe("sensor.fmu");
-  });
-  bytes += message_bytes<wire::Request>([](wire::Request::Builder request) {
-    request.setIsAwaited(true);
-    request.initInstantiate().setName("sensor");
-  });
-  return bytes + message_bytes<wire::Request>([](wire::Request::Builder request) {
-           request.setIsAwaited(true);
-           request.initStep().initInputs().initNumbers(16);
+  return message_bytes(RequestHead{kDescribe, 1},
+                       [](PacketWriter& to) { to.put(std::string("sensor.fmu")); }) +
+         message_bytes(RequestHead{RequestCode::Instantiate, 1}, [](PacketWriter& to) {
+           Instantiation wanted;
+           wanted.name = "sensor";
+           wanted.parameters = {1};
+           wanted.elements = {4};
+           wanted.put(to);
          });
 }
 
 // ---- The master ----
 
-void take_error(wire::Error::Reader from) {
-  try {
-    throw_error(from, {.where = {"x.ssd", 3}, .unit = "sensor"}, "box");
-  } catch (const core::Error&) {
-  }
-}
-
-/// The parts of answers, as loader/network/remote_unit.cpp takes them.
-void take_result_parts(wire::Result::Reader result) {
-  switch (result.which()) {
-    case wire::Result::VALUES: {
-      core::ValueBlock numbers(core::ValueType::Float64, 3);
-      return take_values(result.getValues(), numbers);
+/// As remote_unit.cpp and remote_spec.cpp take them.
+void take_reply(Message<ReplyHead> reply) {
+  if (reply.head.code == ReplyCode::Failed) {
+    isolation::SentError error = isolation::take_error(reply.packet);
+    supplement(error, {.where = {"x.ssd", 3}, .unit = "sensor"}, "box");
+    try {
+      error.raise();
+    } catch (const core::Error&) {
     }
-    case wire::Result::STEP: {
-      core::ValueBlock truth(core::ValueType::Boolean, 2), text(core::ValueType::String, 1);
-      const std::vector<core::BoundValues> outputs{{{}, truth}, {{}, text}};
-      const auto step = result.getStep();
-      take_result(step, core::StepInterval(Time{}, Time(std::chrono::seconds(1))));
-      return take_values(step.getOutputs(), outputs);
-    }
-    case wire::Result::INSTANCE: {
-      core::HostStatistics host;
-      take_capabilities(result.getInstance(), {});
-      return take_protections(result.getInstance(), host);
-    }
-    case wire::Result::EVENTS:
-      take_events(result.getEvents());
-      return;
-    case wire::Result::CLOCK:
-      take_clock(result.getClock());
-      return;
-    case wire::Result::NUMBERS:
-      take_doubles(result.getNumbers());
-      return;
-    case wire::Result::DESCRIPTION:
-      for (const auto file : result.getDescription().getFiles()) to_string(file.getName());
-      return;
-    default:
-      return;
+  } else if (reply.head.code == kFile) {
+    FilePiece::take(reply.packet);
+  } else if (reply.head.code == ReplyCode::Done) {
+    isolation::Form<isolation::CapabilitySet>::take(reply.packet);
+    isolation::Form<core::HostStatistics>::take(reply.packet);
   }
 }
 
 void read_replies(const std::string& bytes) {
-  refusing<BadMessage>("", [&] {
+  refusing<BadPacket>("", [&] {
     FrameReader reader;
     reader.put(bytes);
-    while (const auto words = reader.next()) {
-      with_checked_messages([&] {
-        IncomingMessage message(*words);
-        const auto reply = message.root<wire::Reply>();
-        if (reply.isDone()) take_result_parts(reply.getDone());
-        if (reply.isFailed()) take_error(reply.getFailed());
-        if (reply.isLog()) to_string(reply.getLog().getText());
-      });
-    }
+    while (const auto message = reader.next()) take_reply(Message<ReplyHead>(*message));
   });
 }
 
 std::string reply_bytes() {
-  std::string bytes = message_bytes<wire::Reply>([](wire::Reply::Builder reply) {
-    auto step = reply.initDone().initStep();
-    step.setReached(5);
-    step.initOutputs().initNumbers(2);
-    step.getOutputs().initTexts(1);
-  });
-  bytes += message_bytes<wire::Reply>([](wire::Reply::Builder reply) {
-    put_error(
-        reply.initFailed(),
-        core::Error(core::Error::Kind::Input, {.where = {"x.ssd", 12}, .unit = "u"}, "m", "h"), {});
-  });
-  return bytes + message_bytes<wire::Reply>([](wire::Reply::Builder reply) {
-           put_clock(reply.initDone().initClock(),
-                     {core::ClockInterval::State::Changed, core::Interval::from_fraction(1, 3)});
+  return message_bytes(ReplyHead{.code = kFile},
+                       [](PacketWriter& to) {
+                         FilePiece{"trace.vcd", "#5", true}.put(to);
+                       }) +
+         message_bytes(ReplyHead{.code = ReplyCode::Failed},
+                       [](PacketWriter& to) {
+                         isolation::put_error(
+                             to,
+                             core::Error(core::Error::Kind::Input,
+                                         {.where = {"x.ssd", 12}, .unit = "u"}, "m", "h"),
+                             {});
+                       }) +
+         message_bytes(ReplyHead{.calls = 3}, [](PacketWriter& to) {
+           isolation::Form<isolation::CapabilitySet>::put(to, {5});
+           isolation::Form<core::HostStatistics>::put(to, {.restores = 1, .protections = {"all"}});
          });
 }
 

@@ -32,7 +32,7 @@ void serve(int in, int out, const ServeOptions& options,
   } catch (const BadGreeting& mistake) {
     core::fail_run({}, fmt::format("what came is not from a master: {}", mistake.what()),
                    "stride serve is started by stride run, for <stride:Host at=\"ssh://…\"/>");
-  } catch (const BadMessage& mistake) {
+  } catch (const BadPacket& mistake) {
     core::fail_run({}, fmt::format("the master's message cannot be read: {}", mistake.what()));
   }
 }

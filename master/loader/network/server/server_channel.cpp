@@ -16,7 +16,7 @@ using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
 
 constexpr int kWatchGlance = 100;  // [ms]
-constexpr auto kBeat = 250ms;
+constexpr auto kBusyBeat = 250ms;
 constexpr auto kIdleBeat = 15s;
 /// From the end of the link to that of this process, at most. A unit that is being called has a
 /// second, and its processes some more to end.
@@ -38,7 +38,7 @@ bool is_hung_up(int file) {
 
 ServerChannel::ServerChannel(int in, int out, const volatile std::sig_atomic_t& interrupted)
     : in_(in), out_(out), interrupted_(interrupted) {
-  append_message<wire::Reply>(beat_, scratch_, [](wire::Reply::Builder reply) { reply.setBeat(); });
+  append_message(beat_, ReplyHead{.code = kBeat}, {});
 }
 
 ServerChannel::~ServerChannel() {
@@ -72,12 +72,21 @@ void ServerChannel::begin() {
   watches_.wait();
 }
 
-std::span<const std::uint64_t> ServerChannel::receive() {
+std::span<const std::byte> ServerChannel::receive() {
   for (;;) {
     if (const auto message = reader_.next()) return *message;
     const std::span<char> room = reader_.room();
     reader_.filled(read(room));
   }
+}
+
+void ServerChannel::send(const ReplyHead& head, const PacketWriter& packet) {
+  constexpr std::size_t kKept = std::size_t{1} << 22;
+  const std::lock_guard lock(mutex_);
+  bytes_.clear();
+  append_message(bytes_, head, packet.bytes());
+  write();
+  if (bytes_.capacity() > kKept) bytes_ = {};
 }
 
 std::size_t ServerChannel::read(std::span<char> to) {
@@ -119,7 +128,7 @@ void ServerChannel::watch() noexcept {
         ::_exit(1);
       }
       ::usleep(useconds_t{1000} * kWatchGlance);
-    } else if (now - last >= (is_busy_ ? kBeat : kIdleBeat)) {
+    } else if (now - last >= (is_busy_ ? kBusyBeat : kIdleBeat)) {
       beat();
       last = now;
     }

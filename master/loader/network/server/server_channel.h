@@ -43,18 +43,10 @@ class ServerChannel {
   /// From here on there are messages. To be called once, behind greet().
   void begin();
 
-  /// The next message; its bytes stay until the next call. Throws LinkEnded, and BadMessage.
-  std::span<const std::uint64_t> receive();
-  /// Sends a message that fill(wire::Reply::Builder) fills. Throws LinkEnded, and BadMessage if it
-  /// is too long. Any thread may send.
-  template <class Fill>
-  void send(Fill&& fill) {
-    const std::lock_guard lock(mutex_);
-    bytes_.clear();
-    append_message<wire::Reply>(bytes_, scratch_, fill);
-    write();
-    if (bytes_.capacity() > kKept) bytes_ = {};
-  }
+  /// The next message; its bytes stay until the next call. Throws LinkEnded, and BadPacket.
+  std::span<const std::byte> receive();
+  /// Sends a message. Throws LinkEnded, and BadPacket if it is too long. Any thread may send.
+  void send(const ReplyHead& head, const PacketWriter& packet);
 
   /// Whether a request is being carried out.
   void set_busy(bool is_busy) { is_busy_ = is_busy; }
@@ -62,8 +54,6 @@ class ServerChannel {
   const volatile std::sig_atomic_t& is_over() const { return is_over_; }
 
  private:
-  static constexpr std::size_t kKept = std::size_t{1} << 22;
-
   std::size_t read(std::span<char> to);
   void write();
   bool write_some(std::string_view bytes) noexcept;
@@ -75,7 +65,6 @@ class ServerChannel {
   FrameReader reader_;
   std::mutex mutex_;  ///< of what follows, and of writing
   std::string bytes_;
-  Scratch scratch_;
   std::string beat_;  ///< a sign of life
   std::atomic<bool> is_busy_ = false;
   std::atomic<bool> is_done_ = false;

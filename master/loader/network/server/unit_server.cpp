@@ -1,230 +1,223 @@
 #include "master/loader/network/server/unit_server.h"
 
+#include <algorithm>
+#include <cstdint>
 #include <utility>
 
-#include "master/engine/port/capabilities/clock_intervals.h"
-#include "master/engine/port/capabilities/configuration_mode.h"
-#include "master/engine/port/capabilities/idle_promises.h"
-#include "master/engine/port/capabilities/message_text.h"
-#include "master/engine/port/capabilities/resetting.h"
-#include "master/engine/port/capabilities/state_saving.h"
-#include "master/engine/port/capabilities/state_serialization.h"
-#include "master/loader/network/codec.h"
+#include <fmt/format.h>
+
+#include "master/loader/network/description_files.h"
+#include "master/loader/network/unit_files.h"
+#include "master/loader/process/hosted_unit.h"
 
 namespace stride::remote {
+namespace {
+
+/// The smaller of two limits, where there are some.
+template <class T>
+std::optional<T> least(std::optional<T> a, std::optional<T> b) {
+  if (!a || !b) return a ? a : b;
+  return std::min(*a, *b);
+}
+
+template <class T>
+std::optional<T> above_zero(std::uint64_t number) {
+  return number == 0 ? std::nullopt : std::optional<T>(number);
+}
+
+isolation::HostOptions host_options(const Instantiation& wanted, const ServeOptions& options) {
+  constexpr std::uint64_t kLongest = 1'000'000'000'000;  // [ms]
+  isolation::HostOptions host;
+  host.call_limit =
+      least(above_zero<std::chrono::milliseconds>(std::min(wanted.call_limit, kLongest)),
+            options.call_limit);
+  host.memory_limit = least(above_zero<std::uint64_t>(wanted.memory_limit), options.memory_limit);
+  host.is_sandboxed = wanted.is_sandboxed || !options.may_leave_sandbox;
+  host.takes_snapshots = wanted.takes_snapshots;
+  return host;
+}
+
+/// Who offers some units only tells nothing of where they are.
+std::string told_path(const UnitOffer& offer, const importer::Fmu& fmu) {
+  return (offer.is_pinned() ? fmu.path().filename() : fmu.path()).string();
+}
+
+}  // namespace
 
 UnitServer::UnitServer(ServerChannel& channel, const ServeOptions& options)
     : channel_(channel),
       options_(options),
-      offer_(options.only, options.file_limit, options.find) {}
-
-void UnitServer::run() {
-  for (;;) {
-    with_checked_messages([&] {
-      IncomingMessage message(channel_.receive());
-      serve(message.root<wire::Request>());
-    });
-  }
-}
+      offer_(options.only, options.file_limit, options.find),
+      dispatcher_([this](double seconds) { request_inputs(seconds); }) {}
 
 // ---- Requests and answers ----
 
-void UnitServer::serve(wire::Request::Reader request) {
-  const bool is_awaited = request.getIsAwaited();
+void UnitServer::run() {
+  for (;;) serve(Message<RequestHead>(channel_.receive()));
+}
+
+void UnitServer::serve(Message<RequestHead> message) {
+  const bool is_awaited = message.head.is_awaited != 0;
   if (failure_ && !is_awaited) return;
   began_ = Clock::now();
   channel_.set_busy(true);
+  PacketWriter out(out_);
+  ReplyCode code = ReplyCode::Done;
   try {
     if (failure_) std::rethrow_exception(std::exchange(failure_, nullptr));
-    handle(request);
+    handle(message.head.request, message.packet, out);
   } catch (const LinkEnded&) {
     throw;
-  } catch (const BadMessage&) {
+  } catch (const BadPacket&) {
     throw;
-  } catch (const kj::Exception&) {
-    throw;
-  } catch (const CallbackFailure&) {
-    channel_.send([](wire::Reply::Builder reply) { reply.setCallbackFailed(); });
+  } catch (const isolation::CallbackFailure&) {
+    code = ReplyCode::CallbackFailed;
   } catch (const std::exception& error) {
-    if (is_awaited) {
-      answer_failure(error);
-    } else {
-      failure_ = std::current_exception();
-    }
+    if (!is_awaited) failure_ = std::current_exception();
+    code = ReplyCode::Failed;
+    out.clear();
+    isolation::put_error(out, error, {.unit = name_, .time = dispatcher_.time()});
   }
+  if (is_awaited) answer(code, out);
+  out_.trim();
   channel_.set_busy(false);
 }
 
-void UnitServer::answer() {
-  answer([](wire::Result::Builder result) { result.setNone(); });
+void UnitServer::answer(ReplyCode code, const PacketWriter& packet) {
+  const std::chrono::nanoseconds taken = Clock::now() - began_;
+  channel_.send({.code = code,
+                 .calls = diagnostics_ == nullptr ? 0 : diagnostics_->calls(),
+                 .nanoseconds = static_cast<std::uint64_t>(taken.count())},
+                packet);
 }
 
-void UnitServer::answer_failure(const std::exception& error) {
-  channel_.send(
-      [&](wire::Reply::Builder reply) { put_error(reply.initFailed(), error, context()); });
-}
-
-void UnitServer::handle(wire::Request::Reader request) {
-  switch (request.which()) {
-    case wire::Request::PING:
-      return answer();
-    case wire::Request::DESCRIBE:
-      return describe(to_string(request.getDescribe()));
-    case wire::Request::SEND_FILE: {
-      const auto piece = request.getSendFile();
-      const auto bytes = piece.getBytes().asChars();
-      offer_.take_piece(to_string(piece.getName()), {bytes.begin(), bytes.size()},
-                        piece.getIsFirst());
-      break;
-    }
-    case wire::Request::INSTANTIATE:
-      return instantiate(request.getInstantiate());
-    case wire::Request::GET:
-      return get(request.getGet());
-    case wire::Request::SET:
-      set(request.getSet());
-      break;
-    case wire::Request::MAKE_PLAN:
-      make_plan(request.getMakePlan());
-      break;
-    case wire::Request::STEP:
-      return step(request.getStep());
-    case wire::Request::GET_DIRECTIONAL_DERIVATIVE:
-      return get_directional_derivative(request.getGetDirectionalDerivative());
-    case wire::Request::SET_INPUT_UPDATE:
-      set_input_update(request.getSetInputUpdate());
-      break;
-    case wire::Request::DESCRIBE_MESSAGE: {
-      const auto asked = request.getDescribeMessage();
-      const auto value = asked.getValue();
-      const std::string text = capability<core::MessageText>().describe_message(
-          asked.getVariable(), {value.begin(), value.end()});
-      return answer([&](wire::Result::Builder result) { result.setText(text); });
-    }
-    case wire::Request::SET_REPEATING:
-      if (diagnostics_ != nullptr) diagnostics_->set_repeating(request.getSetRepeating());
-      break;
-    case wire::Request::GET_STATISTICS:
-      return send_statistics();
-    case wire::Request::FREE:
-      return free();
-    case wire::Request::GET_FILES:
-      return send_files();
-    case wire::Request::INPUTS_UPDATED:
-    case wire::Request::INPUTS_NOT_UPDATED:
-      throw BadMessage("inputs came that nobody has asked for");
-    default:
-      return handle_mode(request);
+void UnitServer::handle(RequestCode request, PacketReader& in, PacketWriter& out) {
+  if (request == kPing) {
+    in.require_end();
+  } else if (request == kDescribe) {
+    describe(in.take_text(), out);
+  } else if (request == kSendFile) {
+    const FilePiece piece = FilePiece::take(in);
+    offer_.take_piece(std::string(piece.name), piece.bytes, piece.is_first);
+  } else if (request == RequestCode::Instantiate) {
+    instantiate(Instantiation::take(in), out);
+  } else if (request == kGetFiles) {
+    send_files(out);
+  } else {
+    dispatcher_.serve(request, in, out);
   }
-  if (request.getIsAwaited()) answer();
 }
 
-void UnitServer::handle_mode(wire::Request::Reader request) {
-  switch (request.which()) {
-    case wire::Request::ENTER_CONFIGURATION_MODE:
-      capability<core::ConfigurationMode>().enter_configuration_mode();
-      break;
-    case wire::Request::EXIT_CONFIGURATION_MODE:
-      capability<core::ConfigurationMode>().exit_configuration_mode();
-      break;
-    case wire::Request::ENTER_INITIALIZATION: {
-      const auto times = request.getEnterInitialization();
-      time_ = to_time(times.getStart());
-      unit().enter_initialization(*time_, take_time(times.getStop()));
-      break;
-    }
-    case wire::Request::EXIT_INITIALIZATION:
-      unit().exit_initialization();
-      break;
-    case wire::Request::ENTER_EVENT_MODE:
-      unit().enter_event_mode();
-      break;
-    case wire::Request::UPDATE_DISCRETE_STATES: {
-      const core::EventResult events = unit().update_discrete_states();
-      return answer([&](wire::Result::Builder to) { put_events(to.initEvents(), events); });
-    }
-    case wire::Request::ENTER_STEP_MODE:
-      unit().enter_step_mode();
-      break;
-    case wire::Request::TERMINATE:
-      unit().terminate();
-      break;
-    default:
-      return handle_state(request);
+/// The master may get and set before it answers.
+void UnitServer::request_inputs(double seconds_into_step) {
+  const Clock::time_point began = began_;
+  isolation::PacketBuffer memory;
+  PacketWriter question(memory);
+  question.put(seconds_into_step);
+  channel_.send({.code = ReplyCode::RequestInputs}, question);
+  for (;;) {
+    const Message<RequestHead> message(channel_.receive());
+    if (message.head.request == RequestCode::InputsUpdated) break;
+    if (message.head.request == RequestCode::InputsNotUpdated) throw isolation::CallbackFailure();
+    serve(message);
+    channel_.set_busy(true);
   }
-  if (request.getIsAwaited()) answer();
+  if (failure_) std::rethrow_exception(std::exchange(failure_, nullptr));
+  began_ = began;
 }
 
-void UnitServer::handle_state(wire::Request::Reader request) {
-  switch (request.which()) {
-    case wire::Request::SAVE_STATE:
-      capability<core::StateSaving>().save_state();
-      break;
-    case wire::Request::RESTORE_STATE:
-      capability<core::StateSaving>().restore_state();
-      break;
-    case wire::Request::SELECT_STATE:
-      if (request.getSelectState() > 1'000'000) throw BadMessage("there is no such state");
-      capability<core::StateSaving>().select_state(request.getSelectState());
-      break;
-    case wire::Request::SERIALIZE_STATE: {
-      const auto bytes = capability<core::StateSerialization>().serialize_state();
-      return answer(
-          [&](wire::Result::Builder to) { to.setBytes(to_data(bytes.data(), bytes.size())); });
-    }
-    case wire::Request::DESERIALIZE_STATE: {
-      const auto bytes = request.getDeserializeState();
-      capability<core::StateSerialization>().deserialize_state({bytes.begin(), bytes.size()});
-      break;
-    }
-    case wire::Request::RESET:
-      capability<core::Resetting>().reset();
-      break;
-    default:
-      return handle_clock(request);
+// ---- What the unit is, and its beginning ----
+
+void UnitServer::describe(const std::string& name, PacketWriter& out) {
+  const auto fmu = offer_.fmu(name);
+  out.put(told_path(offer_, *fmu));
+  const std::vector<importer::DescriptionFile> files = fmu->description_files();
+  out.put(files.size());
+  for (const importer::DescriptionFile& file : files) {
+    out.put(file.name);
+    out.put(file.text);
   }
-  if (request.getIsAwaited()) answer();
 }
 
-void UnitServer::handle_clock(wire::Request::Reader request) {
-  core::ClockInterval clock;
-  switch (request.which()) {
-    case wire::Request::GET_CLOCK_INTERVAL:
-      clock = capability<core::ClockIntervals>().clock_interval(
-          variable(request.getGetClockInterval()));
-      break;
-    case wire::Request::GET_CLOCK_SHIFT:
-      clock.interval =
-          capability<core::ClockIntervals>().clock_shift(variable(request.getGetClockShift()));
-      break;
-    default:
-      return handle_idle(request);
+/// As the master has it: arrays of the sizes that its structural parameters give.
+std::shared_ptr<const core::UnitDescription> UnitServer::description_for(
+    const Instantiation& wanted) {
+  const auto fmu = offer_.fmu(wanted.fmu);
+  if (description_digest(fmu->description_files()) != wanted.digest) {
+    core::fail_input({.unit = name_},
+                     fmt::format("'{}' there has changed since its description was read",
+                                 told_path(offer_, *fmu)),
+                     "start the run again");
   }
-  answer([&](wire::Result::Builder to) { put_clock(to.initClock(), clock); });
+  auto description = std::make_shared<core::UnitDescription>(*fmu->description());
+  if (wanted.parameters.size() != wanted.elements.size()) throw BadPacket("sizes are missing");
+  for (std::size_t i = 0; i < wanted.parameters.size(); ++i) {
+    if (!description->find(wanted.parameters[i]) ||
+        description->resize(wanted.parameters[i], wanted.elements[i]) != nullptr) {
+      throw BadPacket("an array has no such size");
+    }
+  }
+  description->can_save_state &= wanted.can_save_state;
+  description->can_serialize_state &= wanted.can_serialize_state;
+  return description;
 }
 
-void UnitServer::handle_idle(wire::Request::Reader request) {
-  switch (request.which()) {
-    case wire::Request::ENABLE_IDLE_SKIPPING:
-      capability<core::IdlePromises>().enable_idle_skipping(
-          Duration(request.getEnableIdleSkipping()));
-      break;
-    case wire::Request::SET_IDLE_TOLERANCES:
-      set_idle_tolerances(request.getSetIdleTolerances());
-      break;
-    case wire::Request::GET_IDLE_UNTIL: {
-      const Time until = capability<core::IdlePromises>().idle_until();
-      return answer([&](wire::Result::Builder to) { to.setTime(to_wire(until)); });
-    }
-    case wire::Request::GET_DERIVATIVES:
-      return get_derivatives(request.getGetDerivatives());
-    default:
-      core::fail_run(context(),
-                     fmt::format("request {} is not known here: stride {} is older than "
-                                 "that of the master",
-                                 static_cast<unsigned>(request.which()), own_greeting().build));
+void UnitServer::instantiate(const Instantiation& wanted, PacketWriter& out) {
+  if (unit_) throw BadPacket("there is a unit already");
+  name_ = wanted.name;
+  description_ = description_for(wanted);
+  results_.emplace();
+  importer::InstanceOptions options;
+  options.early_return_allowed = wanted.early_return_allowed;
+  options.intermediate_update = wanted.intermediate_update;
+  options.may_go_back = wanted.may_go_back;
+  options.debug_logging = wanted.debug_logging;
+  if (wanted.has_step) options.step = wanted.step;
+  if (options.step && options.step->rounded() <= Duration{}) {
+    throw BadPacket("a step has no such size");
   }
-  if (request.getIsAwaited()) answer();
+  options.interrupted = &channel_.is_over();
+  options.log = [this](const std::string&, importer::Status status, const std::string& category,
+                       const std::string& text) { send_log(status, category, text); };
+  options.where = {wanted.file, wanted.line};
+  options.results = results_->path();
+  options.description = description_;
+  isolation::HostOptions host = host_options(wanted, options_);
+  host.writable.push_back(results_->path());
+  unit_ =
+      isolation::instantiate(offer_.fmu(wanted.fmu), name_, std::move(options), std::move(host));
+  dispatcher_.begin(*unit_, *description_, nullptr, true);
+  diagnostics_ = &dispatcher_.capability<core::UnitDiagnostics>();
+  isolation::Form<isolation::CapabilitySet>::put(out, dispatcher_.capabilities());
+  isolation::Form<core::HostStatistics>::put(
+      out, dispatcher_.capability<core::HostDiagnostics>().host_statistics());
+}
+
+// ---- What is sent beside answers ----
+
+void UnitServer::send_log(importer::Status status, const std::string& category,
+                          const std::string& text) {
+  isolation::PacketBuffer memory;
+  PacketWriter out(memory);
+  out.put(static_cast<std::uint8_t>(status));
+  out.put(category);
+  out.put(text);
+  channel_.send({.code = kLog}, out);
+}
+
+/// Those that cannot be sent are said.
+void UnitServer::send_files(PacketWriter& out) {
+  std::string left_out;
+  if (results_) {
+    isolation::PacketBuffer memory;
+    left_out = read_unit_files(results_->path(),
+                               [&](const std::string& name, std::string_view bytes, bool is_first) {
+                                 PacketWriter piece(memory);
+                                 FilePiece{name, bytes, is_first}.put(piece);
+                                 channel_.send({.code = kFile}, piece);
+                               });
+  }
+  out.put(left_out);
 }
 
 }  // namespace stride::remote

@@ -20,7 +20,6 @@ using namespace stride::tests;
 using namespace std::chrono_literals;
 using Catch::Matchers::Contains;
 using Catch::Matchers::StartsWith;
-namespace wire = remote::wire;
 
 namespace {
 
@@ -60,16 +59,18 @@ void begin(remote::RemoteUnit& unit) {
   unit.enter_step_mode();
 }
 
-using Answer = std::function<void(wire::Reply::Builder)>;
+using Put = std::function<void(remote::PacketWriter&)>;
 
 /// What becomes of the instantiation of a unit if this is all that its machine says; the component
 /// is in line 7 of its scenario.
-std::string error_of_answer(const Answer& answer, const std::string& unit = "feedthrough",
-                            bool takes_snapshots = false) {
+std::string error_of_answer(remote::ReplyCode code, const Put& put,
+                            const std::string& unit = "feedthrough", bool takes_snapshots = false) {
   const tests::Scratch scratch;
   std::string bytes = greeting_line(remote::Side::Server, remote::own_greeting());
-  remote::Scratch words;
-  remote::append_message<wire::Reply>(bytes, words, answer);
+  isolation::PacketBuffer memory;
+  remote::PacketWriter packet(memory);
+  put(packet);
+  remote::append_message(bytes, remote::ReplyHead{.code = code}, packet.bytes());
   const fs::path said = scratch.write("said", bytes);
   const remote::RemoteSpec spec{
       .place = remote::parse_place(fmt::format("exec:cat {}; cat > /dev/null", said.string()))};
@@ -128,35 +129,37 @@ TEST_CASE("a value of many pieces comes back as it was sent") {
 }
 
 TEST_CASE("an answer to the instantiation that is none is an error of the component") {
+  using remote::ReplyCode;
   const auto is_refused = [](const std::string& error, const std::string& why) {
     CHECK_THAT(error, StartsWith("test.ssd:7: unit 'far': ") && Contains(why));
   };
-  const auto has = [](std::initializer_list<wire::Capability> capabilities) -> Answer {
-    return [list = std::vector(capabilities)](wire::Reply::Builder reply) {
-      auto to =
-          reply.initDone().initInstance().initCapabilities(static_cast<unsigned>(list.size()));
-      for (unsigned i = 0; i < to.size(); ++i) to.set(i, list[i]);
+  const auto has = [](std::initializer_list<core::CapabilityId> capabilities) -> Put {
+    isolation::CapabilitySet set;
+    for (const core::CapabilityId id : capabilities) set.set(static_cast<std::size_t>(id));
+    return [set](remote::PacketWriter& to) {
+      isolation::Form<isolation::CapabilitySet>::put(to, set);
     };
   };
-  constexpr auto kReset = wire::Capability::RESETTING;
-  constexpr auto kDiagnostics = wire::Capability::UNIT_DIAGNOSTICS;
-  constexpr auto kState = wire::Capability::STATE_SAVING;
-  constexpr auto kBytes = wire::Capability::STATE_SERIALIZATION;
-  is_refused(error_of_answer([](wire::Reply::Builder reply) { reply.initDone().setNone(); }),
-             "an answer of another kind");
-  is_refused(error_of_answer(has({})), "lacks what its description promises: ");
-  is_refused(error_of_answer(has({kReset, kDiagnostics, kState, kBytes}), "clocks"),
-             "lacks what its description promises: the intervals of clocks");
-  is_refused(error_of_answer(has({kReset, kDiagnostics, static_cast<wire::Capability>(999)}),
-                             "stateless", true),
+  constexpr auto kReset = core::CapabilityId::Resetting;
+  constexpr auto kDiagnostics = core::CapabilityId::UnitDiagnostics;
+  constexpr auto kState = core::CapabilityId::StateSaving;
+  constexpr auto kBytes = core::CapabilityId::StateSerialization;
+  const auto nothing = [](remote::PacketWriter&) {};
+  is_refused(error_of_answer(ReplyCode::Done, nothing),
+             "sends what cannot be read in the instantiation: something is missing at the end");
+  is_refused(error_of_answer(ReplyCode{77}, nothing), "an answer that nobody has asked for");
+  is_refused(error_of_answer(ReplyCode::Done, has({})), "lacks what its description promises: ");
+  is_refused(
+      error_of_answer(ReplyCode::Done, has({kReset, kDiagnostics, kState, kBytes}), "clocks"),
+      "lacks what its description promises: the intervals of clocks");
+  is_refused(error_of_answer(ReplyCode::Done, has({kReset, kDiagnostics}), "stateless", true),
              "lacks what its description promises: the saving of its state");
-  for (const bool is_of_environment : {false, true}) {
-    const auto fail = [&](wire::Reply::Builder reply) {
-      auto error = reply.initFailed();
-      error.setMessage("no such luck");
-      error.setUnit("another");
-      error.setIsOfEnvironment(is_of_environment);
-    };
-    is_refused(error_of_answer(fail), "no such luck");
+  const auto fail = [](const core::Error& error) -> Put {
+    return [error](remote::PacketWriter& to) { isolation::put_error(to, error, {}); };
+  };
+  for (const core::Error& error :
+       {core::Error(core::Error::Kind::Run, {.unit = "another"}, "no such luck"),
+        static_cast<core::Error>(core::EnvironmentError({.unit = "another"}, "no such luck"))}) {
+    is_refused(error_of_answer(ReplyCode::Failed, fail(error)), "no such luck");
   }
 }

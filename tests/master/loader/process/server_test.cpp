@@ -2,7 +2,6 @@
 #include "master/loader/process/server.h"
 
 #include <functional>
-#include <limits>
 #include <thread>
 
 #include "master/loader/wire/codec.h"
@@ -19,7 +18,7 @@ namespace {
 class ServerFixture {
  public:
   ~ServerFixture() {
-    send(RequestCode::Free, [](PacketWriter&) {});
+    send(code_of<&core::Unit::free>(), [](PacketWriter&) {});
     thread_.join();
   }
 
@@ -28,7 +27,7 @@ class ServerFixture {
     const Turn& reply = link_.memory->reply;
     REQUIRE(reply.what == static_cast<std::uint32_t>(ReplyCode::Failed));
     PacketReader error({link_.packets.data(), reply.size});
-    return run_error([&] { throw_error(error); });
+    return run_error([&] { take_error(error).raise(); });
   }
 
  private:
@@ -62,25 +61,22 @@ TEST_CASE("a request that cannot be") {
   const auto unknown = static_cast<RequestCode>(999);
   CHECK_THAT(server.error_of(unknown, put_nothing), Contains(kOverwritten));
   for (const RequestCode request :
-       {RequestCode::Step, RequestCode::MakePlan, RequestCode::EnterInitialization,
-        RequestCode::Get, RequestCode::GetClockInterval, RequestCode::InputsUpdated}) {
+       {RequestCode::Step, RequestCode::MakePlan, RequestCode::InputsUpdated,
+        code_of<&core::Unit::enter_initialization>(), code_of<&core::Unit::get>(),
+        code_of<&core::ClockIntervals::clock_interval>()}) {
     INFO(static_cast<int>(request));
     CHECK_THAT(server.error_of(request, put_nothing), Contains(kOverwritten));
   }
-  const auto without_plan = [](PacketWriter& to) { to.put(std::uint32_t{99}); };
-  CHECK_THAT(server.error_of(RequestCode::Step, without_plan), Contains(kOverwritten));
-  CHECK_THAT(server.error_of(RequestCode::MakePlan, without_plan), Contains(kOverwritten));
-  const auto without_time = [](PacketWriter& to) { put_time(to, std::nullopt); };
-  CHECK_THAT(server.error_of(RequestCode::EnterInitialization, without_time),
-             Contains(kOverwritten));
 }
 
 TEST_CASE("a request for more values than there can be") {
-  ServerFixture server;
-  const auto endless = [](PacketWriter& to) {
-    to.put(std::size_t{0});
-    to.put(std::numeric_limits<std::size_t>::max());
-  };
-  CHECK_THAT(server.error_of(RequestCode::GetDerivatives, endless),
-             Contains("unit 'u': there is not enough memory for what was requested of it"));
+  Fixture unit("idler");
+  unit.start();
+  double none = 0;
+  auto& promises = unit->require_capability<core::IdlePromises>();
+  const auto error = run_error([&] {
+    promises.get_derivatives({}, {&none, std::size_t{1} << 60});
+  });
+  CHECK_THAT(error,
+             Contains("unit 'u', at 0 s: there is not enough memory for what was requested"));
 }

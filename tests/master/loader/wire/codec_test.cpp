@@ -53,13 +53,12 @@ TEST_CASE("blocks of all types come over") {
       put_values(to, values);
     });
     PacketReader from = there.read();
-    ValueBlock copy = take_shape(from);
-    CHECK(copy.type() == type);
-    take_values(from, copy);
-    CHECK(copy == values);
+    const Shape shape = take_shape(from);
+    CHECK(shape.type == type);
+    CHECK(take_block(from, shape) == values);
     PacketReader less = there.read_all_but(1);
-    ValueBlock other = take_shape(less);
-    CHECK_THROWS_AS(take_values(less, other), BadPacket);
+    const Shape other = take_shape(less);
+    CHECK_THROWS_AS(take_block(less, other), BadPacket);
   }
 }
 
@@ -80,9 +79,11 @@ TEST_CASE("results of steps and events come over") {
     CHECK(copy.reached == result.reached);
   }
   for (const auto next : {std::optional<Time>(), std::optional(Time(Duration(12)))}) {
-    const There there([&](PacketWriter& to) { put_events(to, {true, false, next}); });
+    const There there([&](PacketWriter& to) {
+      Form<core::EventResult>::put(to, {true, false, next});
+    });
     PacketReader from = there.read();
-    const core::EventResult copy = take_events(from);
+    const core::EventResult copy = Form<core::EventResult>::take(from);
     CHECK(copy.discrete_states_need_update);
     CHECK_FALSE(copy.terminate_simulation);
     CHECK(copy.next_event_time == next);
@@ -96,7 +97,7 @@ TEST_CASE("an error comes over with all its parts") {
   const There there([&](PacketWriter& to) { put_error(to, error, {}); });
   PacketReader from = there.read();
   try {
-    throw_error(from);
+    take_error(from).raise();
   } catch (const core::Error& copy) {
     CHECK(std::string(copy.what()) == error.what());
     CHECK(copy.kind() == core::Error::Kind::Input);
@@ -112,12 +113,16 @@ TEST_CASE("what is not an error of core's becomes one of the unit, and consequen
     put_error(to, std::runtime_error("no"), {.where = {"system.ssd", 3}, .unit = "u"});
   });
   PacketReader from = plain.read();
-  CHECK_THROWS_WITH(throw_error(from), "system.ssd:3: unit 'u': no");
+  CHECK_THROWS_WITH(take_error(from).raise(), "system.ssd:3: unit 'u': no");
   const There consequent([](PacketWriter& to) {
     put_error(to, core::ConsequentError(core::Error::Kind::Run, {}, "later"), {});
   });
   from = consequent.read();
-  CHECK_THROWS_AS(throw_error(from), core::ConsequentError);
+  CHECK_THROWS_AS(take_error(from).raise(), core::ConsequentError);
+  const There environment(
+      [](PacketWriter& to) { put_error(to, core::EnvironmentError({}, "full"), {}); });
+  from = environment.read();
+  CHECK_THROWS_AS(take_error(from).raise(), core::EnvironmentError);
 }
 
 TEST_CASE("values that do not exist are refused, whatever the other process has written") {
@@ -132,20 +137,55 @@ TEST_CASE("values that do not exist are refused, whatever the other process has 
             [&](PacketReader& from) { take_step(from, interval); });
   }
   for (const Time next : {Time::min(), Time::max()}) {
-    refused([&](PacketWriter& to) { put_events(to, {.next_event_time = next}); }, take_events);
+    refused([&](PacketWriter& to) { Form<core::EventResult>::put(to, {.next_event_time = next}); },
+            Form<core::EventResult>::take);
   }
+  refused([](PacketWriter& to) { to.put(std::array<std::uint8_t, 25>{77}); },
+          Form<core::ClockInterval>::take);
   refused(
       [](PacketWriter& to) {
-        put_clock(to, {static_cast<core::ClockInterval::State>(77), {}});
+        to.put(std::array<std::uint64_t, 3>{1, 2, 0});
       },
-      take_clock);
-  refused(
-      [](PacketWriter& to) {
-        const std::array<std::byte, sizeof(core::Interval)> zeros{};
-        to.put_bytes(zeros.data(), zeros.size());
-      },
-      take_interval);
-  refused([](PacketWriter& to) { to.put(77); }, throw_error);
+      Form<core::Interval>::take);
+  refused([](PacketWriter& to) { to.put(77); }, take_error);
+  refused([](PacketWriter& to) { to.put(std::uint8_t{core::kValueTypeCount}); }, take_shape);
+  const auto take_any = [](PacketReader& from) {
+    const Shape shape = take_shape(from);
+    take_block(from, shape);
+  };
+  for (const ValueType type : {ValueType::Int8, ValueType::String}) {
+    refused(
+        [&](PacketWriter& to) {
+          to.put(static_cast<std::uint8_t>(type));
+          to.put(std::size_t{1} << 60);
+        },
+        take_any);
+  }
+}
+
+TEST_CASE("clocks, statistics and what is in force come over") {
+  const core::ClockInterval clock{core::ClockInterval::State::Changed,
+                                  core::Interval::from_fraction(1, 3)};
+  const core::HostStatistics host{.snapshots = 1,
+                                  .restores = 2,
+                                  .most_snapshots = 3,
+                                  .most_snapshot_memory = 4,
+                                  .most_memory = 5,
+                                  .protections = {"a", "b"},
+                                  .missing_protections = {"c"}};
+  const There there([&](PacketWriter& to) {
+    Form<core::ClockInterval>::put(to, clock);
+    Form<core::HostStatistics>::put(to, host);
+  });
+  PacketReader from = there.read();
+  const core::ClockInterval copy = Form<core::ClockInterval>::take(from);
+  CHECK((copy.state == clock.state && copy.interval == clock.interval));
+  const core::HostStatistics same = Form<core::HostStatistics>::take(from);
+  CHECK(same.restores == 2);
+  CHECK(same.most_memory == 5);
+  CHECK(same.protections == host.protections);
+  CHECK(same.missing_protections == host.missing_protections);
+  CHECK_NOTHROW(from.require_end());
 }
 
 TEST_CASE("a truth value of any byte is true or false") {
