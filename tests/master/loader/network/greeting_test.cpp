@@ -2,8 +2,10 @@
 
 #include <catch2/catch.hpp>
 
+#include "master/loader/wire/calls.h"
 #include "tests/error_of.h"
 
+using namespace stride;
 using namespace stride::remote;
 using stride::tests::error_of;
 
@@ -46,4 +48,12 @@ TEST_CASE("what is no greeting is refused") {
 TEST_CASE("each side looks for the other's greeting only") {
   CHECK_FALSE(GreetingScanner(Side::Server).take(greeting_line(Side::Master, own_greeting())));
   CHECK(GreetingScanner(Side::Master).take(greeting_line(Side::Master, own_greeting())));
+}
+
+TEST_CASE("the protocol is raised with the table of calls, whose places are their numbers") {
+  CHECK(kProtocol == 2);
+  CHECK(isolation::kCallCount == 28);
+  CHECK(isolation::code_of<&core::Unit::get>() == isolation::RequestCode{9});
+  CHECK(isolation::code_of<&core::HostDiagnostics::host_statistics>() ==
+        isolation::RequestCode{32});
 }
