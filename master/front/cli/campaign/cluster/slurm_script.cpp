@@ -107,7 +107,7 @@ std::string range_lines(const std::vector<campaign::CaseRange>& ranges) {
   return text + " " + line + "\n";
 }
 
-std::string command_line(const JobArray& array) {
+std::string command_text(const JobArray& array) {
   std::string text = "exec";
   for (const std::string& word : array.command) text += " " + core::shell_word(word);
   return text + " \"${ranges[SLURM_ARRAY_TASK_ID]}\"\n";
@@ -125,7 +125,7 @@ std::string slurm_script(const JobArray& array) {
     text += fmt::format("export {}{}\n", variable.substr(0, end),
                         core::shell_word(variable.substr(end)));
   }
-  return text + command_line(array);
+  return text + command_text(array);
 }
 
 }  // namespace stride::cli

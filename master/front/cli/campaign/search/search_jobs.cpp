@@ -32,7 +32,7 @@ constexpr std::chrono::seconds kLeastUnasked = 1s, kMostUnasked = 10s;
 constexpr int kMostFailedQuestions = 60;
 /// A shared folder may show new files late.
 constexpr std::chrono::seconds kLateness = 5s;
-constexpr std::size_t kShownLogs = 3, kShownCases = 10;
+constexpr std::size_t kShownLogs = 3, kMostNamedCases = 10;
 
 std::string last_line(const std::filesystem::path& file) {
   std::ifstream stream(file);
@@ -148,7 +148,7 @@ void SearchJobs::require_records() const {
   core::fail_run(
       {},
       fmt::format("jobs have left the queue of {}, and {} {} no record{}", jobs_.cluster().name(),
-                  (is_one ? "case " : "cases ") + core::abridged(lost_.cases, kShownCases),
+                  (is_one ? "case " : "cases ") + core::abridged(lost_.cases, kMostNamedCases),
                   is_one ? "has" : "have",
                   last.empty() ? "" : "; a log file ends with: " + core::name_text(last)),
       fmt::format("{}; the same command submits these cases again",
