@@ -19,7 +19,7 @@ constexpr std::int64_t kMillisecond = 1'000'000'000;
 Time at(std::int64_t milliseconds) { return Time(Duration(milliseconds * kMillisecond)); }
 
 /// A clock that goes on where it is waited for, or where a test says so.
-struct Bench {
+struct WaitBench {
   WallClock::Instant now{};
   int pauses = 0;
   volatile std::sig_atomic_t interrupted = 0;
@@ -43,7 +43,7 @@ struct Bench {
 }  // namespace
 
 TEST_CASE("a run in real time waits for each of its instants") {
-  Bench bench;
+  WaitBench bench;
   RealTime real_time(1, bench.interrupted, bench.clock());
   CHECK(real_time.text() == "");
   bench.now += 5ms;
@@ -61,7 +61,7 @@ TEST_CASE("a run in real time waits for each of its instants") {
 }
 
 TEST_CASE("a factor makes it slower or faster") {
-  Bench bench;
+  WaitBench bench;
   RealTime slow(0.5, bench.interrupted, bench.clock());
   slow.on_communication_point(at(0));
   slow.on_communication_point(at(10));
@@ -74,7 +74,7 @@ TEST_CASE("a factor makes it slower or faster") {
 }
 
 TEST_CASE("a run that is late does not wait until it has caught up, and says how late it was") {
-  Bench bench;
+  WaitBench bench;
   RealTime real_time(1, bench.interrupted, bench.clock());
   real_time.on_communication_point(at(0));
   bench.now += 160ms;
@@ -90,7 +90,7 @@ TEST_CASE("a run that is late does not wait until it has caught up, and says how
 }
 
 TEST_CASE("where there is time, something is done about once a second") {
-  Bench bench;
+  WaitBench bench;
   bench.now += 1h;
   int done = 0;
   RealTime real_time(1, bench.interrupted, bench.clock());
@@ -103,7 +103,7 @@ TEST_CASE("where there is time, something is done about once a second") {
 }
 
 TEST_CASE("an interruption ends a long pause") {
-  Bench bench;
+  WaitBench bench;
   bench.interrupted_after = 100ms;
   RealTime real_time(1, bench.interrupted, bench.clock());
   real_time.on_communication_point(at(0));
