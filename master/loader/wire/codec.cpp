@@ -1,6 +1,7 @@
 #include "master/loader/wire/codec.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <type_traits>
 #include <utility>
@@ -96,23 +97,30 @@ namespace {
 
 enum Flag : std::uint8_t { kRejected = 1, kEarlyReturn = 2, kEventNeeded = 4, kTerminate = 8 };
 
+/// In one piece, without gaps.
+struct SentStepResult {
+  Time reached;
+  std::uint8_t flags;
+  std::array<std::uint8_t, 7> unused{};
+};
+static_assert(sizeof(SentStepResult) == 16);
+
 }  // namespace
 
 void put_step(PacketWriter& to, const core::StepResult& result) {
-  to.put(static_cast<std::uint8_t>((result.rejected ? kRejected : 0) |
-                                   (result.early_return ? kEarlyReturn : 0) |
-                                   (result.event_handling_needed ? kEventNeeded : 0) |
-                                   (result.terminate_simulation ? kTerminate : 0)));
-  to.put(result.reached);
+  const int flags = (result.rejected ? kRejected : 0) | (result.early_return ? kEarlyReturn : 0) |
+                    (result.event_handling_needed ? kEventNeeded : 0) |
+                    (result.terminate_simulation ? kTerminate : 0);
+  to.put(SentStepResult{result.reached, static_cast<std::uint8_t>(flags)});
 }
 
 core::StepResult take_step(PacketReader& from, const core::StepInterval& interval) {
-  const auto flags = from.take<std::uint8_t>();
+  const auto [reached, flags, unused] = from.take<SentStepResult>();
   const core::StepResult result{.rejected = (flags & kRejected) != 0,
                                 .early_return = (flags & kEarlyReturn) != 0,
                                 .event_handling_needed = (flags & kEventNeeded) != 0,
                                 .terminate_simulation = (flags & kTerminate) != 0,
-                                .reached = from.take<Time>()};
+                                .reached = reached};
   if (!result.rejected && (result.reached < interval.from || result.reached > interval.to)) {
     throw BadPacket("a step has ended outside of itself");
   }
