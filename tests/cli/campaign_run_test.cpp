@@ -505,9 +505,9 @@ TEST_CASE("what campaign run refuses") {
   const CampaignRuns space(campaign("5", kKeepNone), two_filters());
   REQUIRE(space.campaign("out").exit_code == 0);
   CHECK_THAT(input_error_of(space.campaign("out", {"--case", "5"})),
-             Contains("--case 5: there are 5 cases, the last one is 4"));
+             Contains("--case 5: the campaign has 5 cases, the last one is 4"));
   CHECK_THAT(input_error_of(space.campaign("out", {"--cases", "3-5"})),
-             Contains("--cases 5: there are 5 cases, the last one is 4"));
+             Contains("--cases 5: the campaign has 5 cases, the last one is 4"));
   for (const char* index : {"-1", "1e3", "99999999999999999999"}) {
     for (const char* verb : {"run", "plan"}) {
       const Outcome outcome = space.stride({"campaign", verb, "c.xosc", "--case", index});

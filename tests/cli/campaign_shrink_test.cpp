@@ -180,7 +180,7 @@ TEST_CASE("what cannot be shrunk is refused") {
     CHECK_THAT(outcome.err, Contains(why));
   };
   check_refused("1", {}, "--case 1: this case passes, so there is nothing to shrink");
-  check_refused("6", {}, "--case 6: there are 6 cases, the last one is 5");
+  check_refused("6", {}, "--case 6: the campaign has 6 cases, the last one is 5");
   for (const char* tolerance : {"0", "nan", "0.6", "x"}) {
     check_refused("4", {"--tolerance", tolerance}, "is no number from 1e-09 to 0.5");
   }

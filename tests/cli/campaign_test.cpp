@@ -104,7 +104,7 @@ TEST_CASE("nothing is written for a campaign with mistakes") {
 TEST_CASE("what --case and --ssv cannot do") {
   const CampaignSpace space(campaign_file(normal_draws("3"), kWire));
   CHECK_THAT(input_error_of(space.plan({"--case", "3"})),
-             Contains("--case 3: there are 3 cases, the last one is 2"));
+             Contains("--case 3: the campaign has 3 cases, the last one is 2"));
   CHECK_THAT(input_error_of(space.plan({"--ssv"})),
              Contains("a parameter set (.ssv) cannot hold the intervention 'wire'"));
   CHECK_FALSE(fs::exists(space / "campaigns"));

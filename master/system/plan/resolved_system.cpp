@@ -31,7 +31,7 @@ void describe_units(ResolvedSystem& resolved, const ScenarioRequest& request) {
 }
 
 /// Those that `stride complete` has written are there already.
-void connect_terminals(ResolvedSystem& resolved) {
+void add_terminal_connections(ResolvedSystem& resolved) {
   auto& connections = resolved.scenario.system.connections;
   for (auto& made :
        scenario::connect_terminals(resolved.scenario.annotation.terminals,
@@ -86,7 +86,7 @@ ResolvedSystem resolve(Scenario declared, const ScenarioRequest& request) {
   describe_units(resolved, request);
   switch_on(kFilm, resolved.scenario.system, request.film);
   switch_on(kScene, resolved.scenario.system, request.scene);
-  connect_terminals(resolved);
+  add_terminal_connections(resolved);
   if (request.idle_twins) add_twins(resolved);
   allow_early_returns(resolved);
   allow_state_saving(resolved);

@@ -177,7 +177,8 @@ fs::path Files::system_file(const fs::path& package, const std::string& name,
 }
 
 std::vector<fs::path> Files::variants(const fs::path& path, const fs::path& file) const {
-  if (!archive_of(file) && !core::is_folder(path)) return {};
+  const bool is_unit = file.extension() != ".ssd";
+  if (is_unit || (!archive_of(file) && !core::is_folder(path))) return {};
   std::vector<fs::path> found;
   for (const auto& entry : fs::directory_iterator(file.parent_path())) {
     if (entry.path().extension() == ".ssd") found.push_back(entry.path());

@@ -24,7 +24,7 @@ Json number_json(std::optional<double> number) {
   return *number > 0 ? "inf" : "-inf";
 }
 
-std::optional<double> number_of(const Json& json) {
+std::optional<double> number_if_any(const Json& json) {
   if (json.is_null()) return std::nullopt;
   if (json.is_number()) return json.get<double>();
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -40,7 +40,7 @@ Json margin_json(const std::optional<CaseMargin>& margin) {
 
 std::optional<CaseMargin> margin_of(const Json& json) {
   if (json.is_null()) return std::nullopt;
-  return CaseMargin{number_of(json.at("value")).value(), json.at("unit"), json.at("at")};
+  return CaseMargin{number_if_any(json.at("value")).value(), json.at("unit"), json.at("at")};
 }
 
 /// What is known of a case beforehand.
@@ -98,16 +98,16 @@ CaseResult result_of(const Plan& plan, const Json& json) {
   for (const Json& verdict : json.at("checks")) {
     result.verdicts.push_back({verdict.at("name"), verdict.at("kind"),
                                passed_of(verdict.at("verdict")), verdict.at("text"),
-                               number_of(verdict.at("time")), margin_of(verdict.at("margin"))});
+                               number_if_any(verdict.at("time")), margin_of(verdict.at("margin"))});
   }
   for (const Aggregate& aggregate : plan.campaign().aggregates) {
-    result.aggregates.push_back(number_of(json.at("aggregates").at(aggregate.name)));
+    result.aggregates.push_back(number_if_any(json.at("aggregates").at(aggregate.name)));
   }
   if (json.contains("coverage")) {
     result.coverage = {json.at("coverage_definition"),
                        coverage::covered_bins_of(json.at("coverage"))};
   }
-  result.reached = number_of(json.at("reached"));
+  result.reached = number_if_any(json.at("reached"));
   result.has_results = json.at("results");
   result.wall_time = json.at("wall_time");
   result.began = json.at("began");
