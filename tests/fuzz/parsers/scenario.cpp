@@ -58,9 +58,7 @@ void read_command_line(const std::string& bytes) {
 const Registration kScenarioParsers(
     "scenario",
     {
-        {.name = "run_plan",
-         .read = load_scenario,
-         .seed_files = {"tests/fuzz/seeds/scenario"}},
+        {.name = "run_plan", .read = load_scenario, .seed_files = {"tests/fuzz/seeds/scenario"}},
         {.name = "command_line",
          .read = read_command_line,
          .seeds = {"set a.float64=0.5\nsignals a.*\nstop 3\n",
