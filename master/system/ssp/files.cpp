@@ -36,6 +36,28 @@ bool begins_as_archive(const fs::path& path) {
   return core::head_of(path, kBegin.size()) == kBegin;
 }
 
+bool may_be_xml(const fs::path& path) {
+  constexpr std::size_t kHead = 256;
+  const std::string head = core::head_of(path, kHead);
+  const std::size_t begin = head.find_first_not_of(" \t\r\n");
+  return begin == head.npos || head[begin] == '<' || static_cast<signed char>(head[begin]) <= 0;
+}
+
+/// What is not XML would be an error of its first line.
+void refuse_other_kind(const fs::path& path) {
+  const std::string extension = core::lower_case(path.extension().string());
+  if (extension == ".ssd" || extension == ".ssp" || !core::is_file(path) || may_be_xml(path))
+    return;
+  const std::string name = path.string();
+  core::fail_input(
+      {{name, 0}, {}, {}, {}},
+      "this is neither a system (.ssd, .ssp), nor a unit (.fmu, .so), nor a table "
+      "(.csv, .parquet, .mcap)",
+      extension == ".py"
+          ? fmt::format("a unit in Python is packed first: python3 -m stride.unit {}", name)
+          : "");
+}
+
 /// Some of them, where the folder is none of a package but a disk.
 std::vector<std::string> files_in(const fs::path& folder) {
   constexpr int kMostEntries = 1000;
@@ -144,7 +166,11 @@ fs::path Files::system_file(const fs::path& path, const core::Location& where) {
 }
 
 fs::path Files::scenario_file(const fs::path& path) {
-  if (!is_unit(path)) return system_file(path);
+  if (!is_unit(path)) {
+    const fs::path file = system_file(path);
+    refuse_other_kind(file);
+    return file;
+  }
   return *units_.insert(with_name(path)).first;
 }
 

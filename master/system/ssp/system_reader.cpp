@@ -210,6 +210,13 @@ class SystemReader {
     reading_.warnings.push_back(core::to_text({.where = element.where()}) + message);
   }
 
+  /// Of a file that is read for each component that it is the source of.
+  void warn_once(const xml::Element& element, const std::string& message) {
+    warn(element, message);
+    auto& warnings = reading_.warnings;
+    if (std::ranges::count(warnings, warnings.back()) > 1) warnings.pop_back();
+  }
+
   /// What is written, if that is a type, else what its source says.
   static std::string type_of(const xml::Element& component) {
     const std::string type = core::lower_case(component.attribute_or("type"));
@@ -300,7 +307,22 @@ class SystemReader {
     const xml::Document document = reading_.files.document(path);
     const xml::Element root = document.root();
     check_system_description(root);
+    warn_of_own_settings(root);
     return SystemReader(root, path, reading_).read();
+  }
+
+  /// A system inside another one is no scenario.
+  void warn_of_own_settings(const xml::Element& root) {
+    for (const xml::Element& child : root.children()) {
+      if (!child.is(kSsd, "Annotations")) continue;
+      for (const xml::Element& annotation : child.children()) {
+        if (annotation.attribute_or("type") != "org.stride") continue;
+        warn_once(
+            annotation,
+            "the annotation org.stride of a system inside another one is not used: its steps, "
+            "checks and recordings are those of the scenario");
+      }
+    }
   }
 
   /// With its indices, if the connection is restricted to an element: "m[1,2]".

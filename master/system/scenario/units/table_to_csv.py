@@ -121,7 +121,9 @@ def _time_column(schema: Any, types: Any) -> tuple[int, str, _Text]:
         power = {"s": 0, "ms": 3, "us": 6, "ns": 9}[field.type.unit]
         return places[0], "time", lambda count: f"{count}e-{power}"
     if types.is_integer(field.type) or types.is_floating(field.type) or types.is_decimal(field.type):
-        return places[0], field.name, str if types.is_decimal(field.type) else repr
+        unit = (field.metadata or {}).get(b"unit", b"").decode()
+        heading = f"time [{unit}]" if unit and field.name.strip() in ("time", "Time") else field.name
+        return places[0], heading, str if types.is_decimal(field.type) else repr
     raise _Mistake(
         f"column '{field.name}' has values of the type {field.type}; expected numbers or durations",
         "subtract the date at which the run begins: a difference of dates is a duration",

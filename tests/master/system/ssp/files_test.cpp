@@ -76,6 +76,17 @@ TEST_CASE("a package with several systems, none of which is called so, asks for 
                     Contains("pack the contents of each as a package of its own"));
 }
 
+TEST_CASE("a file of another kind is named as such") {
+  const TemporaryFolder folder;
+  CHECK_THROWS_WITH(read_scenario(folder.write("car.py", "import stride.unit\n")),
+                    Contains("car.py: this is neither a system (.ssd, .ssp), nor a unit") &&
+                        Contains("hint: a unit in Python is packed first: python3 -m stride.unit"));
+  CHECK_THROWS_WITH(read_scenario(folder.write("x.txt", "time;u\n")),
+                    Contains("x.txt: this is neither a system"));
+  CHECK_THROWS_WITH(read_scenario(folder.write("x.ssd", "time;u\n")), Contains("well-formed XML"));
+  CHECK(first_component(folder.write("x.xml", "\n" + system_named("a"))) == "a");
+}
+
 TEST_CASE("an FMU is a scenario of itself") {
   const TemporaryFolder folder;
   const archive::Content content{"<x/>", {}, false};

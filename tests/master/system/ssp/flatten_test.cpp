@@ -285,6 +285,25 @@ TEST_CASE("a system in a file of its own is a component") {
   CHECK(values(scenario) == Strings{"s.core.k = 5"});
 }
 
+TEST_CASE("the settings of a system that is a component are not used, which is said once") {
+  const TemporaryFolder folder;
+  std::string inner = ssd(filter("any", component("core")), "1.0");
+  const std::string end = "</ssd:SystemStructureDescription>";
+  inner.insert(inner.find(end),
+               "<ssd:Annotations><ssc:Annotation type='org.stride'/>"
+               "<ssc:Annotation type='other'/></ssd:Annotations>");
+  folder.write("s.ssd", inner);
+  const std::string twice =
+      "<ssd:Component name='s' source='s.ssd'/>"
+      "<ssd:Component name='t' source='s.ssd'/>";
+  const Scenario scenario =
+      read_scenario(folder.write("x.ssd", ssd(system("root", "", twice, ""))));
+  REQUIRE(scenario.warnings.size() == 1);
+  CHECK_THAT(scenario.warnings[0],
+             Contains("s.ssd:") && Contains("the annotation org.stride of a system inside "
+                                            "another one is not used"));
+}
+
 TEST_CASE("a system of the same file can be used more than once") {
   const Scenario scenario = read(ssd(
       system("root", "",
