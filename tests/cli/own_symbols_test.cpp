@@ -43,7 +43,8 @@ class OtherAllocator {
 
 TEST_CASE("a unit calls its own functions, whatever names others in the process have") {
   if (kSanitized) return;  // whose functions come before all others
-  const std::string unit = GENERATE("own_checksum", "own_names", "every_symbol");
+  const std::string unit =
+      GENERATE("own_checksum", "own_names", "own_names_static", "every_symbol");
   const Arguments hosting =
       GENERATE(Arguments{}, Arguments{"--isolate"},
                Arguments{"--at", "unit=exec:exec " + stride_program().string() + " serve"});
@@ -81,6 +82,29 @@ TEST_CASE("units that bring along libraries of one name have their own ones") {
     CAPTURE(name, order[i]);
     CHECK(signals.numbers(name + ".value").back() == order[i]);
     CHECK(signals.numbers(name + ".own").back() == signals.numbers(name + ".called").back());
+  }
+}
+
+TEST_CASE("units have their own ones of what a process has once") {
+  if (kSanitized) return;
+  const Arguments hosting = GENERATE(Arguments{}, Arguments{"--isolate"}, Arguments{"--isolate=b"});
+  const auto order = GENERATE(std::array{1, 2, 1}, std::array{2, 1, 2});
+  const std::string unit = "only_one_";
+  const Workspace workspace(Parts{component("a", unit + std::to_string(order[0]) + ".fmu") +
+                                  component("b", unit + std::to_string(order[1]) + ".fmu") +
+                                  component("c", unit + std::to_string(order[2]) + ".fmu")});
+  Arguments arguments{"--quiet"};
+  arguments.insert(arguments.end(), hosting.begin(), hosting.end());
+  const Outcome outcome = workspace.run(arguments);
+  INFO(outcome.err);
+  REQUIRE(outcome.exit_code == 0);
+  CHECK(outcome.err == "");
+  CHECK(workspace.left_behind().empty());
+  const Csv signals = workspace.signals();
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const std::string name(1, static_cast<char>('a' + i));
+    CHECK(signals.numbers(name + ".value").back() == order[i]);
+    CHECK(signals.numbers(name + ".own").back() == 2);
   }
 }
 

@@ -52,7 +52,7 @@ def test_results_are_those_of_a_run(folder):
     assert stepped.verdicts == whole.verdicts
 
 
-@pytest.mark.parametrize("unit", ["own_checksum", "own_names", "every_symbol"])
+@pytest.mark.parametrize("unit", ["own_checksum", "own_names", "own_names_static", "every_symbol"])
 def test_a_unit_calls_its_own_functions(folder, unit):
     (folder / "own.ssd").write_text(scenario(f"unit={unit}"), encoding="utf-8")
     with stride.Simulation("own.ssd") as sim:
@@ -71,6 +71,17 @@ def test_units_that_bring_along_libraries_of_one_name_have_their_own_ones(folder
         sim.run()
         assert sim["unit.value"] == answer
         assert sim["unit.own"] == sim["unit.called"]
+        sim.close()
+
+
+def test_units_have_their_own_ones_of_what_a_process_has_once(folder):
+    simulations = []
+    for answer in (1, 2, 1):
+        (folder / "own.ssd").write_text(scenario(f"unit=only_one_{answer}"), encoding="utf-8")
+        simulations.append(stride.Simulation("own.ssd"))
+    for answer, sim in zip((1, 2, 1), simulations):
+        sim.run()
+        assert (sim["unit.value"], sim["unit.own"]) == (answer, 2)
         sim.close()
 
 

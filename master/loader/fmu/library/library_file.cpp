@@ -1,10 +1,12 @@
 #include "master/loader/fmu/library/library_file.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <iterator>
 #include <sstream>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -54,8 +56,8 @@ struct Texts {
 
 class LibraryFile {
  public:
-  explicit LibraryFile(const std::filesystem::path& path)
-      : file_(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC)) {
+  explicit LibraryFile(const std::filesystem::path& path, int access = O_RDONLY)
+      : file_(::open(path.c_str(), access | O_NONBLOCK | O_CLOEXEC)) {
     struct stat status {};
     if (!file_.is_open() || ::fstat(file_.number(), &status) != 0) return;
     if (S_ISREG(status.st_mode)) size_ = static_cast<std::uint64_t>(status.st_size);
@@ -91,6 +93,28 @@ class LibraryFile {
     return part;
   }
 
+  /// Whether all of them could be written.
+  bool make_ordinary(const std::set<std::string>& names) const {
+    Header header{};
+    if (!read(&header, {0, sizeof header}) || !is_for_loader(header)) return false;
+    const auto sections = table<Section>({header.e_shoff, header.e_shnum * sizeof(Section)});
+    const auto section = std::ranges::find(sections, SHT_DYNSYM, &Section::sh_type);
+    if (section == sections.end() || section->sh_link >= sections.size()) return false;
+    const Section& strings = sections[section->sh_link];
+    const Texts texts{table<char>({strings.sh_offset, strings.sh_size})};
+    std::uint64_t place = section->sh_offset;
+    for (const Symbol& symbol : table<Symbol>({section->sh_offset, section->sh_size})) {
+      const unsigned type = ELF64_ST_TYPE(symbol.st_info);
+      const auto info = static_cast<unsigned char>(ELF64_ST_INFO(STB_GLOBAL, type));
+      const bool is_meant = ELF64_ST_BIND(symbol.st_info) == STB_GNU_UNIQUE &&
+                            names.contains(texts.at(symbol.st_name));
+      const auto at = static_cast<off_t>(place + offsetof(Symbol, st_info));
+      if (is_meant && ::pwrite(file_.number(), &info, 1, at) != 1) return false;
+      place += sizeof symbol;
+    }
+    return true;
+  }
+
  private:
   static void add_symbols(const std::vector<Symbol>& symbols, const Texts& texts,
                           DynamicPart& part) {
@@ -102,8 +126,9 @@ class LibraryFile {
       const bool is_function = type == STT_FUNC || type == STT_GNU_IFUNC;
       std::string name = texts.at(symbol.st_name);
       if (name.empty()) continue;
-      if (is_defined && binding == STB_GNU_UNIQUE) part.stays_loaded = true;
-      part.symbols.push_back({std::move(name), is_defined, is_function});
+      const bool is_unique = is_defined && binding == STB_GNU_UNIQUE;
+      part.stays_loaded |= is_unique;
+      part.symbols.push_back({std::move(name), is_defined, is_function, is_unique});
     }
   }
 
@@ -233,6 +258,12 @@ std::string find_damage(const std::filesystem::path& library) {
 
 DynamicPart read_dynamic_part(const std::filesystem::path& library) {
   return LibraryFile(library).dynamic_part();
+}
+
+void make_ordinary(const std::filesystem::path& library, const std::set<std::string>& symbols) {
+  if (LibraryFile(library, O_RDWR).make_ordinary(symbols)) return;
+  throw std::filesystem::filesystem_error("cannot write", library,
+                                          std::make_error_code(std::errc::io_error));
 }
 
 std::set<std::string> exported_names(const std::filesystem::path& library) {

@@ -92,7 +92,7 @@ void link_all(const fs::path& from, const fs::path& to, const fs::path& except) 
 
 }  // namespace
 
-PrivateCopy::PrivateCopy(const UnitLibraries& libraries) {
+PrivateCopy::PrivateCopy(const UnitLibraries& libraries, const std::set<std::string>& own) {
   const fs::path& unit = libraries.file;
   const fs::path beside = unit.parent_path(), binaries = beside.parent_path();
   fs::path folder = folder_.path();
@@ -108,9 +108,12 @@ PrivateCopy::PrivateCopy(const UnitLibraries& libraries) {
     if (!library.bundled.empty()) names[library.name] = new_name(library.name, folder);
   }
   copy_renamed(unit, libraries.part, library_, names);
+  make_ordinary(library_, own);
   for (const NeededLibrary& library : libraries.needed) {
     if (library.bundled.empty()) continue;
-    copy_renamed(library.bundled, library.part, folder / names[library.name], names);
+    const fs::path copy = folder / names[library.name];
+    copy_renamed(library.bundled, library.part, copy, names);
+    make_ordinary(copy, own);
   }
 }
 

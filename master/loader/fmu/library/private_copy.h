@@ -3,6 +3,8 @@
 #define STRIDE_MASTER_LOADER_FMU_LIBRARY_PRIVATE_COPY_H
 
 #include <filesystem>
+#include <set>
+#include <string>
 
 #include "master/base/archive/temporary_folder.h"
 #include "master/loader/fmu/library/needed_libraries.h"
@@ -14,8 +16,9 @@ namespace stride::importer {
 /// libraries in which the names of those that it brings along are others, of the same length.
 class PrivateCopy {
  public:
-  /// Throws core::Error, or std::filesystem::filesystem_error, if it cannot be made.
-  explicit PrivateCopy(const UnitLibraries& libraries);
+  /// `own`: symbols that exist once per process, and in the copy once in each library. Throws
+  /// core::Error, or std::filesystem::filesystem_error, if it cannot be made.
+  PrivateCopy(const UnitLibraries& libraries, const std::set<std::string>& own);
 
   /// The unit's library.
   const std::filesystem::path& library() const { return library_; }

@@ -204,7 +204,7 @@ SharedLibrary::SharedLibrary(const fs::path& path, core::Context user, const fs:
 }
 
 /// Of a private copy, from then on, where another library in the process has the name of one that
-/// it brings along.
+/// it brings along, or a symbol of which a process has one.
 UnitLibraries SharedLibrary::find_libraries() {
   UnitLibraries libraries = read_libraries(path_);
   for (NeededLibrary& library : libraries.needed) {
@@ -219,19 +219,29 @@ UnitLibraries SharedLibrary::find_libraries() {
       namesakes_.push_back(library.name);
     }
   }
-  if (namesakes_.empty()) return libraries;
+  const std::set<std::string> taken = taken_unique_symbols(libraries);
+  if (namesakes_.empty() && taken.empty()) return libraries;
   std::string failure;
   try {
-    copy_.emplace(libraries);
+    copy_.emplace(libraries, taken);
     path_ = copy_->library();
     return read_libraries(path_);
   } catch (const std::exception& error) {  // no room, no memory
     failure = error.what();
   }
-  warnings_.push_back(
-      fmt::format("its library brings {} along, and other libraries of such names are in this "
-                  "process and take their places, since there can be no copy by another name: {}",
-                  core::quoted(namesakes_), failure));
+  if (!namesakes_.empty()) {
+    warnings_.push_back(
+        fmt::format("its library brings {} along, and other libraries of such names are in this "
+                    "process and take their places, since there can be no copy by another name: {}",
+                    core::quoted(namesakes_), failure));
+  }
+  if (!taken.empty()) {
+    warnings_.push_back(
+        fmt::format("its library has {}, of which a process has one, and another library's takes "
+                    "its place, since there can be no copy of its own: {}; compile it with "
+                    "-fno-gnu-unique",
+                    core::abridged(std::vector(taken.begin(), taken.end()), 3), failure));
+  }
   namesakes_.clear();
   return libraries;
 }

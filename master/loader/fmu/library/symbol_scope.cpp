@@ -82,8 +82,9 @@ bool is_placement(std::string_view name) {
   return std::ranges::count(kNames, name) > 0;
 }
 
-/// Memory that one of them gives must go back to the same allocator, whoever has asked for it.
-bool is_of_allocator(std::string_view name) {
+/// Memory that one of them gives must go back to the same allocator, whoever has asked for it. With
+/// the whole standard library of C++ in the unit nobody else asks by its operators.
+bool is_of_allocator(std::string_view name, bool has_own_operators) {
   if (is_placement(name)) return false;
   constexpr std::array<std::string_view, 11> kNames{
       "malloc",  "calloc",         "realloc",           "free",
@@ -91,7 +92,8 @@ bool is_of_allocator(std::string_view name) {
       "pvalloc", "posix_memalign", "malloc_usable_size"};
   constexpr std::array<std::string_view, 4> kOperators{"_Znw", "_Zna", "_Zdl", "_Zda"};
   return std::ranges::count(kNames, name) > 0 ||
-         std::ranges::any_of(kOperators, [&](auto begin) { return name.starts_with(begin); });
+         (!has_own_operators &&
+          std::ranges::any_of(kOperators, [&](auto begin) { return name.starts_with(begin); }));
 }
 
 /// Variables that a program may have copies of, all with one value: streams of C, tables of C++.
@@ -146,12 +148,14 @@ class Group {
 
  private:
   void add(const DynamicPart& part, bool is_unit) {
+    const bool has_own_operators = std::ranges::none_of(
+        part.needed, [](const std::string& name) { return name.starts_with("libstdc++.so"); });
     for (const DynamicSymbol& symbol : part.symbols) {
       if (!symbol.is_defined) {
         outer_.insert(symbol.name);
       } else if (is_unit && part.binds_to_itself) {
         bound_.insert(symbol.name);
-      } else if (is_of_allocator(symbol.name)) {
+      } else if (is_of_allocator(symbol.name, has_own_operators)) {
         allocator_.insert(symbol.name);
       } else {
         add_own(symbol);
@@ -231,7 +235,46 @@ std::string some_of(const std::vector<std::string>& names) {
   return text;
 }
 
+std::set<std::string> unique_symbols(const DynamicPart& part) {
+  std::set<std::string> names;
+  for (const DynamicSymbol& symbol : part.symbols) {
+    if (symbol.is_unique && !is_of_standard_templates(symbol.name)) names.insert(symbol.name);
+  }
+  return names;
+}
+
+std::vector<std::filesystem::path> loaded_files() {
+  std::vector<std::filesystem::path> files;
+  ::dl_iterate_phdr(
+      [](dl_phdr_info* object, std::size_t, void* found) {
+        const bool is_program = object->dlpi_name == nullptr || *object->dlpi_name == '\0';
+        static_cast<std::vector<std::filesystem::path>*>(found)->emplace_back(
+            is_program ? "/proc/self/exe" : object->dlpi_name);
+        return 0;
+      },
+      &files);
+  return files;
+}
+
 }  // namespace
+
+std::set<std::string> taken_unique_symbols(const UnitLibraries& libraries) {
+  std::set<std::filesystem::path> own_files{libraries.file};
+  std::set<std::string> own = unique_symbols(libraries.part);
+  for (const NeededLibrary& library : libraries.needed) {
+    if (library.bundled.empty()) continue;
+    own_files.insert(library.bundled);
+    own.merge(unique_symbols(library.part));
+  }
+  std::set<std::string> taken;
+  if (own.empty()) return taken;
+  for (const std::filesystem::path& file : loaded_files()) {
+    if (own_files.contains(file) || is_of_compiler(file.filename().string())) continue;
+    std::ranges::set_intersection(own, unique_symbols(read_dynamic_part(file)),
+                                  std::inserter(taken, taken.end()));
+  }
+  return taken;
+}
 
 SymbolScope find_symbol_scope(const UnitLibraries& libraries) {
   const Group group(libraries);

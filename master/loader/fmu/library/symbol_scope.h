@@ -2,6 +2,7 @@
 #ifndef STRIDE_MASTER_LOADER_FMU_LIBRARY_SYMBOL_SCOPE_H
 #define STRIDE_MASTER_LOADER_FMU_LIBRARY_SYMBOL_SCOPE_H
 
+#include <set>
 #include <string>
 
 #include "master/loader/fmu/library/needed_libraries.h"
@@ -22,6 +23,10 @@ struct SymbolScope {
 /// RTLD_DEEPBIND is not possible where something in the process replaces functions that the library
 /// takes from elsewhere, as sanitizers replace malloc(): it would get the original ones.
 SymbolScope find_symbol_scope(const UnitLibraries& libraries);
+
+/// Those of its symbols that exist once per process and are in it already, of another library: it
+/// would get that one's, whatever is in it. Without those of the standard library.
+std::set<std::string> taken_unique_symbols(const UnitLibraries& libraries);
 
 }  // namespace stride::importer
 

@@ -1,6 +1,8 @@
 #include "master/loader/fmu/library/private_copy.h"
 
 #include <optional>
+#include <set>
+#include <string>
 
 #include "tests/build.h"
 #include "tests/master/loader/fmu/support.h"
@@ -12,7 +14,7 @@ using importer::read_libraries;
 TEST_CASE("in a private copy the libraries of a unit have other names, and all else its own") {
   const importer::UnitLibraries libraries = read_libraries(fmi2_library("bundling_3"));
   REQUIRE(libraries.needed.size() == 1);
-  std::optional<importer::PrivateCopy> copy(std::in_place, libraries);
+  std::optional<importer::PrivateCopy> copy(std::in_place, libraries, std::set<std::string>{});
   const fs::path library = copy->library();
   CHECK(library.filename() == "bundling_3.so");
   const fs::path top = library.parent_path().parent_path().parent_path();
