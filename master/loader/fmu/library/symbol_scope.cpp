@@ -105,6 +105,16 @@ bool is_alike_in_copies(std::string_view name) {
          std::ranges::any_of(kTables, [&](auto begin) { return name.starts_with(begin); });
 }
 
+/// The first ones, and how many more there are.
+std::string some_of(const std::vector<std::string>& names) {
+  constexpr std::size_t kMost = 4;
+  const std::size_t shown = std::min(names.size(), kMost);
+  const auto end = std::next(names.begin(), static_cast<std::ptrdiff_t>(shown));
+  std::string text = fmt::format("{}", fmt::join(names.begin(), end, ", "));
+  if (shown < names.size()) text += fmt::format(" and {} more", names.size() - shown);
+  return text;
+}
+
 class Group {
  public:
   explicit Group(const UnitLibraries& libraries) {
@@ -131,6 +141,15 @@ class Group {
       found.push_back(fmt::format("'{}' ({})", name, library.empty() ? "the program" : library));
     }
     return found;
+  }
+
+  /// Empty if it defines none.
+  std::string allocator_warning() const {
+    if (allocator_.empty()) return "";
+    return fmt::format(
+        "the unit defines {} itself, and others of these names in this process are "
+        "called: memory has to go back to the allocator that it is from",
+        some_of({allocator_.begin(), allocator_.end()}));
   }
 
   /// What forbids that its own symbols come first: names that are replaced in this process for all
@@ -225,16 +244,6 @@ class Group {
   std::vector<Handle> neighbours_;
 };
 
-/// The first ones, and how many more there are.
-std::string some_of(const std::vector<std::string>& names) {
-  constexpr std::size_t kMost = 4;
-  const std::size_t shown = std::min(names.size(), kMost);
-  const auto end = std::next(names.begin(), static_cast<std::ptrdiff_t>(shown));
-  std::string text = fmt::format("{}", fmt::join(names.begin(), end, ", "));
-  if (shown < names.size()) text += fmt::format(" and {} more", names.size() - shown);
-  return text;
-}
-
 std::set<std::string> unique_symbols(const DynamicPart& part) {
   std::set<std::string> names;
   for (const DynamicSymbol& symbol : part.symbols) {
@@ -279,7 +288,7 @@ std::set<std::string> taken_unique_symbols(const UnitLibraries& libraries) {
 SymbolScope find_symbol_scope(const UnitLibraries& libraries) {
   const Group group(libraries);
   const std::vector<std::string> contested = group.contested();
-  if (contested.empty()) return {};
+  if (contested.empty()) return {0, group.allocator_warning()};
   const std::vector<std::string> replaced = group.replaced();
   if (replaced.empty()) return {RTLD_DEEPBIND, ""};
   return {0,
