@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <cstring>
 #include <iterator>
+#include <optional>
 #include <sstream>
 #include <system_error>
 #include <utility>
@@ -73,41 +74,29 @@ class LibraryFile {
   }
 
   DynamicPart dynamic_part() const {
-    Header header{};
-    if (!read(&header, {0, sizeof header}) || !is_for_loader(header)) return {};
     DynamicPart part;
-    const auto sections = table<Section>({header.e_shoff, header.e_shnum * sizeof(Section)});
-    for (const std::uint32_t type : {SHT_DYNSYM, SHT_DYNAMIC}) {
-      const auto section = std::ranges::find(sections, type, &Section::sh_type);
-      if (section == sections.end() || section->sh_link >= sections.size()) continue;
-      const Section& strings = sections[section->sh_link];
-      const Texts texts{table<char>({strings.sh_offset, strings.sh_size})};
-      const Range content{section->sh_offset, section->sh_size};
-      if (type == SHT_DYNSYM) add_symbols(table<Symbol>(content), texts, part);
-      if (type == SHT_DYNAMIC) {
-        add_entries(table<Entry>(content), texts, part);
-        part.texts_begin = strings.sh_offset;
-        part.texts_size = texts.bytes.size();
-      }
+    const std::vector<Section> sections = this->sections();
+    if (const auto symbols = content_of(SHT_DYNSYM, sections)) {
+      add_symbols(table<Symbol>(symbols->content), symbols->texts, part);
+    }
+    if (const auto entries = content_of(SHT_DYNAMIC, sections)) {
+      add_entries(table<Entry>(entries->content), entries->texts, part);
+      part.texts_begin = entries->texts_begin;
+      part.texts_size = entries->texts.bytes.size();
     }
     return part;
   }
 
   /// Whether all of them could be written.
   bool make_ordinary(const std::set<std::string>& names) const {
-    Header header{};
-    if (!read(&header, {0, sizeof header}) || !is_for_loader(header)) return false;
-    const auto sections = table<Section>({header.e_shoff, header.e_shnum * sizeof(Section)});
-    const auto section = std::ranges::find(sections, SHT_DYNSYM, &Section::sh_type);
-    if (section == sections.end() || section->sh_link >= sections.size()) return false;
-    const Section& strings = sections[section->sh_link];
-    const Texts texts{table<char>({strings.sh_offset, strings.sh_size})};
-    std::uint64_t place = section->sh_offset;
-    for (const Symbol& symbol : table<Symbol>({section->sh_offset, section->sh_size})) {
+    const auto part = content_of(SHT_DYNSYM, sections());
+    if (!part) return false;
+    std::uint64_t place = part->content.begin;
+    for (const Symbol& symbol : table<Symbol>(part->content)) {
       const unsigned type = ELF64_ST_TYPE(symbol.st_info);
       const auto info = static_cast<unsigned char>(ELF64_ST_INFO(STB_GLOBAL, type));
       const bool is_meant = ELF64_ST_BIND(symbol.st_info) == STB_GNU_UNIQUE &&
-                            names.contains(texts.at(symbol.st_name));
+                            names.contains(part->texts.at(symbol.st_name));
       const auto at = static_cast<off_t>(place + offsetof(Symbol, st_info));
       if (is_meant && ::pwrite(file_.number(), &info, 1, at) != 1) return false;
       place += sizeof symbol;
@@ -116,6 +105,30 @@ class LibraryFile {
   }
 
  private:
+  /// The first section of a type, and the texts that its elements refer to.
+  struct SectionContent {
+    Range content;
+    Texts texts;
+    std::uint64_t texts_begin;
+  };
+
+  /// None of what is not for this machine.
+  std::vector<Section> sections() const {
+    Header header{};
+    if (!read(&header, {0, sizeof header}) || !is_for_loader(header)) return {};
+    return table<Section>({header.e_shoff, header.e_shnum * sizeof(Section)});
+  }
+
+  std::optional<SectionContent> content_of(std::uint32_t type,
+                                           const std::vector<Section>& sections) const {
+    const auto section = std::ranges::find(sections, type, &Section::sh_type);
+    if (section == sections.end() || section->sh_link >= sections.size()) return std::nullopt;
+    const Section& strings = sections[section->sh_link];
+    return SectionContent{{section->sh_offset, section->sh_size},
+                          {table<char>({strings.sh_offset, strings.sh_size})},
+                          strings.sh_offset};
+  }
+
   static void add_symbols(const std::vector<Symbol>& symbols, const Texts& texts,
                           DynamicPart& part) {
     for (const Symbol& symbol : symbols) {

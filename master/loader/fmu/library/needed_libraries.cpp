@@ -154,18 +154,20 @@ bool NeededLibrary::is_displaced() const {
 UnitLibraries read_libraries(const fs::path& unit) {
   UnitLibraries libraries{unit, read_dynamic_part(unit)};
   std::vector<NeededLibrary>& found = libraries.needed;
-  const auto add_needed_of = [&](const fs::path& file, const DynamicPart& part) {
-    for (const std::string& name : part.needed) {
+  // by value: `found` grows
+  const auto add_needed_of = [&](const fs::path file, const std::vector<std::string> needed,
+                                 const std::vector<std::string> search_path) {
+    for (const std::string& name : needed) {
       const bool is_known = std::ranges::count(found, name, &NeededLibrary::name) > 0;
       if (is_known || is_of_compiler(name)) continue;
-      found.push_back(find_needed(name, file, part.search_path, unit));
+      found.push_back(find_needed(name, file, search_path, unit));
     }
   };
-  add_needed_of(unit, libraries.part);
+  add_needed_of(unit, libraries.part.needed, libraries.part.search_path);
   for (std::size_t i = 0; i < found.size(); ++i) {
     if (found[i].is_loaded && found[i].bundled.empty()) continue;
-    const DynamicPart part = found[i].part;  // `found` grows
-    add_needed_of(fs::path(found[i].bundled.empty() ? found[i].file : found[i].bundled), part);
+    add_needed_of(found[i].bundled.empty() ? found[i].file : found[i].bundled, found[i].part.needed,
+                  found[i].part.search_path);
   }
   return libraries;
 }

@@ -252,19 +252,6 @@ std::set<std::string> unique_symbols(const DynamicPart& part) {
   return names;
 }
 
-std::vector<std::filesystem::path> loaded_files() {
-  std::vector<std::filesystem::path> files;
-  ::dl_iterate_phdr(
-      [](dl_phdr_info* object, std::size_t, void* found) {
-        const bool is_program = object->dlpi_name == nullptr || *object->dlpi_name == '\0';
-        static_cast<std::vector<std::filesystem::path>*>(found)->emplace_back(
-            is_program ? "/proc/self/exe" : object->dlpi_name);
-        return 0;
-      },
-      &files);
-  return files;
-}
-
 }  // namespace
 
 std::set<std::string> taken_unique_symbols(const UnitLibraries& libraries) {
@@ -277,10 +264,12 @@ std::set<std::string> taken_unique_symbols(const UnitLibraries& libraries) {
   }
   std::set<std::string> taken;
   if (own.empty()) return taken;
-  for (const std::filesystem::path& file : loaded_files()) {
+  for (const link_map* const object : core::loaded_objects()) {
+    const std::filesystem::path file = *object->l_name == '\0' ? "/proc/self/exe" : object->l_name;
     if (own_files.contains(file) || is_of_compiler(file.filename().string())) continue;
-    std::ranges::set_intersection(own, unique_symbols(read_dynamic_part(file)),
-                                  std::inserter(taken, taken.end()));
+    for (const DynamicSymbol& symbol : read_dynamic_part(file).symbols) {
+      if (symbol.is_unique && own.contains(symbol.name)) taken.insert(symbol.name);
+    }
   }
   return taken;
 }
