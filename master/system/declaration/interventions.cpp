@@ -11,6 +11,7 @@
 #include <spdlog/spdlog.h>
 
 #include "master/base/diagnostics.h"
+#include "master/base/parse_option.h"
 #include "master/base/time_text.h"
 #include "master/base/xml/element.h"
 #include "master/engine/model/finite.h"
@@ -34,11 +35,7 @@ constexpr const char* kCorruptForm = "COMPONENT.VARIABLE[=BITS[,HEADER[,SEED]]]@
 }
 
 Time parse_time(const char* option, const std::string& text, const std::string& seconds) {
-  try {
-    return core::parse_time(seconds);
-  } catch (const std::invalid_argument& mistake) {
-    core::fail_input({}, fmt::format("{} {}: {}", option, text, mistake.what()));
-  }
+  return core::parse_option(option, text, [&](const auto&) { return core::parse_time(seconds); });
 }
 
 /// What is before the last '@', and behind it: a value may contain one.

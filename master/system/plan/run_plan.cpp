@@ -10,11 +10,11 @@
 
 #include "master/base/error.h"
 #include "master/base/message_text.h"
+#include "master/base/parse_option.h"
 #include "master/base/time_text.h"
 #include "master/observe/checks/checks.h"
 #include "master/observe/coverage/coverage.h"
 #include "master/system/declaration/component_selection.h"
-#include "master/system/plan/parse_option.h"
 #include "master/system/plan/run_steps.h"
 #include "master/system/plan/run_times.h"
 #include "master/system/scenario/check_selection.h"
@@ -36,9 +36,7 @@ void check_column_count(const core::System& system, std::span<const core::Variab
                    "choose fewer signals, with <stride:Record signals=\"…\"/> or --signals");
 }
 
-void warn(std::span<const std::string> texts) {
-  for (const std::string& text : texts) spdlog::warn("{}", core::message_text(text));
-}
+void warn(const std::string& text) { spdlog::warn("{}", core::message_text(text)); }
 
 std::vector<std::size_t> repeated_each_step(const ResolvedSystem& resolved) {
   std::vector<std::size_t> components;
@@ -62,10 +60,10 @@ RunPlan::RunPlan(ResolvedSystem resolved, const ScenarioRequest& request)
   for (std::size_t i = 0; i < components.size(); ++i) {
     log_->add_unit(components[i].name, resolved_.fmus[i]->path().string());
   }
-  warn(resolved_.scenario.warnings);
-  warn(system_.warnings());
+  std::ranges::for_each(resolved_.scenario.warnings, warn);
+  std::ranges::for_each(system_.warnings(), warn);
   const PlannedTimes times = choose_times(resolved_, request);
-  options_.warn = [](const std::string& text) { spdlog::warn("{}", core::message_text(text)); };
+  options_.warn = warn;
   options_.start = times.start;
   options_.stop = times.stop;
   has_stop_ = times.has_stop;
@@ -117,7 +115,7 @@ void RunPlan::choose_idle_skips(const ScenarioRequest& request) {
   }
   IdleSettings settings = resolved_.scenario.annotation.idle;
   if (!request.max_skip.empty()) {
-    const Duration skip = parse_option("--max-skip", request.max_skip, &parse_max_skip);
+    const Duration skip = core::parse_option("--max-skip", request.max_skip, &parse_max_skip);
     for (IdleRule& rule : settings.rules) rule.max_skip = skip;
     settings.rules.insert(settings.rules.begin(), {{"*"}, true, skip, {"--max-skip", 0}});
   }
@@ -191,7 +189,7 @@ void RunPlan::choose_coverage(const ScenarioRequest& request) {
   if (request.no_checks || request.no_coverage) demands = {};
   coverage_ = select_coverage(system_, groups, demands);
   check_demand_names();
-  for (const std::string& note : coverage_.notes) spdlog::warn("{}", core::message_text(note));
+  std::ranges::for_each(coverage_.notes, warn);
   if (coverage_.groups.empty()) return;
   const std::vector<core::VariableId> signals = coverage::Coverage(coverage_.groups).signals();
   options_.watched.insert(options_.watched.end(), signals.begin(), signals.end());

@@ -10,8 +10,8 @@
 #include <spdlog/spdlog.h>
 
 #include "master/base/error.h"
+#include "master/base/parse_option.h"
 #include "master/base/time_text.h"
-#include "master/system/plan/parse_option.h"
 
 namespace stride::scenario {
 namespace {
@@ -38,7 +38,8 @@ Time earliest_start_of_units(const ResolvedSystem& resolved) {
 }
 
 Time chosen_start(const ResolvedSystem& resolved, const ScenarioRequest& request) {
-  if (!request.start.empty()) return parse_option("--start", request.start, &core::parse_time);
+  if (!request.start.empty())
+    return core::parse_option("--start", request.start, &core::parse_time);
   return resolved.scenario.start ? *resolved.scenario.start : earliest_start_of_units(resolved);
 }
 
@@ -54,7 +55,7 @@ std::optional<Time> declared_stop(const ResolvedSystem& resolved) {
 }
 
 Time chosen_stop(const ResolvedSystem& resolved, const ScenarioRequest& request) {
-  if (!request.stop.empty()) return parse_option("--stop", request.stop, &core::parse_time);
+  if (!request.stop.empty()) return core::parse_option("--stop", request.stop, &core::parse_time);
   const std::optional<Time> stop = declared_stop(resolved);
   const std::string hint =
       "use --stop SECONDS; a system has it in <ssd:DefaultExperiment stopTime=\"…\"/>";

@@ -14,8 +14,8 @@
 
 #include "master/base/files/input_file.h"
 #include "master/base/message_text.h"
+#include "master/base/parse_option.h"
 #include "master/system/declaration/scenario_path.h"
-#include "master/system/settings/parse_option.h"
 #include "master/system/ssp/parameters.h"
 
 namespace stride::settings {
@@ -39,7 +39,7 @@ CLI::Option* add_setting(CLI::App& command, const std::string& name,
   return command.add_option_function<std::string>(
       name,
       [&settings, name, set](const std::string& text) {
-        parse_option(name, text, [&](std::string_view value) { (settings.*set)(value); });
+        core::parse_option(name, text, [&](std::string_view value) { (settings.*set)(value); });
       },
       help);
 }
@@ -51,8 +51,8 @@ void add_step_options(CLI::App& command, scenario::StepSettings& settings) {
           "--step",
           [&settings](const std::vector<std::string>& texts) {
             for (const std::string& text : texts) {
-              parse_option("--step", text,
-                           [&](std::string_view value) { settings.set_step(value); });
+              core::parse_option("--step", text,
+                                 [&](std::string_view value) { settings.set_step(value); });
             }
           },
           "Communication step size; that of the first step with error control; or the step of some "

@@ -11,6 +11,7 @@
 
 #include "master/base/error.h"
 #include "master/base/files/input_file.h"
+#include "master/base/parse_option.h"
 #include "master/base/text/number_text.h"
 #include "master/base/time_text.h"
 #include "master/front/cli/compare/comparison_table.h"
@@ -23,7 +24,6 @@
 #include "master/study/compare/comparison_json.h"
 #include "master/study/compare/comparison_page.h"
 #include "master/study/results/output_paths.h"
-#include "master/system/settings/parse_option.h"
 
 namespace stride::cli {
 namespace {
@@ -43,11 +43,11 @@ compare::Settings settings_of(const CompareArguments& arguments) {
   compare::Settings settings{
       .only = arguments.only, .ignored = arguments.ignored, .is_golden = arguments.is_golden};
   settings.tolerance = {
-      settings::parse_option("--absolute", arguments.absolute, core::parse_at_least_zero),
-      settings::parse_option("--relative", arguments.relative, core::parse_at_least_zero)};
+      core::parse_option("--absolute", arguments.absolute, core::parse_at_least_zero),
+      core::parse_option("--relative", arguments.relative, core::parse_at_least_zero)};
   if (arguments.time_tolerance) {
     settings.time_tolerance =
-        settings::parse_option("--time-tolerance", *arguments.time_tolerance, core::parse_seconds)
+        core::parse_option("--time-tolerance", *arguments.time_tolerance, core::parse_seconds)
             .count();
   }
   for (const std::string& text : arguments.tolerances) {

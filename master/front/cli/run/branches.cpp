@@ -10,11 +10,11 @@
 
 #include "master/base/error.h"
 #include "master/base/message_text.h"
+#include "master/base/parse_option.h"
 #include "master/base/text/counted.h"
 #include "master/base/time_text.h"
 #include "master/front/cli/program/output.h"
 #include "master/front/cli/terminal/table.h"
-#include "master/system/settings/parse_option.h"
 
 namespace stride::cli {
 namespace {
@@ -33,7 +33,7 @@ BranchRequest parse_branch(const std::string& text) {
                      "name the instant at which the branches begin, and the file that lists them");
   }
   const auto instant = [&](const std::string&) { return core::parse_time(text.substr(0, colon)); };
-  return {settings::parse_option("--branch", text, instant), text.substr(colon + 1)};
+  return {core::parse_option("--branch", text, instant), text.substr(colon + 1)};
 }
 
 }  // namespace

@@ -13,8 +13,8 @@
 
 #include "master/base/error.h"
 #include "master/base/files/input_file.h"
+#include "master/base/parse_option.h"
 #include "master/base/time_text.h"
-#include "master/system/settings/parse_option.h"
 
 namespace stride::cli {
 namespace {
@@ -47,7 +47,7 @@ void add_checkpoint_options(CLI::App& command, CheckpointTimes& times) {
           "--checkpoint",
           [&times](const std::vector<std::string>& texts) {
             for (const std::string& text : texts) {
-              times.at.push_back(settings::parse_option("--checkpoint", text, core::parse_time));
+              times.at.push_back(core::parse_option("--checkpoint", text, core::parse_time));
             }
           },
           "Write the state of the run at this simulated time, for 'stride resume'; may be given "
@@ -58,7 +58,7 @@ void add_checkpoint_options(CLI::App& command, CheckpointTimes& times) {
       .add_option_function<std::string>(
           "--checkpoint-every",
           [&times](const std::string& text) {
-            times.every = settings::parse_option("--checkpoint-every", text, core::parse_seconds);
+            times.every = core::parse_option("--checkpoint-every", text, core::parse_seconds);
           },
           "Likewise, each time that so much simulated time has passed, and where a signal ends the "
           "run; the last two stay")

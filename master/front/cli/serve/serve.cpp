@@ -12,11 +12,11 @@
 
 #include "master/base/error.h"
 #include "master/base/files/descriptor.h"
+#include "master/base/parse_option.h"
 #include "master/front/cli/program/commands.h"
 #include "master/front/cli/program/interruption.h"
 #include "master/system/declaration/run_settings.h"
 #include "master/system/scenario/units/unit_path.h"
-#include "master/system/settings/parse_option.h"
 
 namespace stride::cli {
 namespace {
@@ -61,16 +61,16 @@ void serve(const ServeRequest& request) {
   options.find = [](const std::string& name) { return scenario::find_unit(name, {}); };
   if (request.accepts_files) {
     options.file_limit =
-        settings::parse_option("--file-limit", request.file_limit, scenario::parse_memory_limit);
+        core::parse_option("--file-limit", request.file_limit, scenario::parse_memory_limit);
   }
   options.may_leave_sandbox = request.no_sandbox;
   if (!request.unit_timeout.empty()) {
     options.call_limit =
-        settings::parse_option("--unit-timeout", request.unit_timeout, scenario::parse_call_limit);
+        core::parse_option("--unit-timeout", request.unit_timeout, scenario::parse_call_limit);
   }
   if (!request.memory_limit.empty()) {
-    options.memory_limit = settings::parse_option("--memory-limit", request.memory_limit,
-                                                  scenario::parse_memory_limit);
+    options.memory_limit =
+        core::parse_option("--memory-limit", request.memory_limit, scenario::parse_memory_limit);
   }
   const Pipes pipes;
   const Interruption interruption;

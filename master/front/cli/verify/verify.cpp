@@ -16,6 +16,7 @@
 #include "master/base/error.h"
 #include "master/base/files/input_file.h"
 #include "master/base/files/output_file.h"
+#include "master/base/parse_option.h"
 #include "master/base/text/number_text.h"
 #include "master/base/time_text.h"
 #include "master/front/cli/program/commands.h"
@@ -26,7 +27,6 @@
 #include "master/study/verify/checks.h"
 #include "master/system/scenario/units/file_units.h"
 #include "master/system/scenario/units/unit_path.h"
-#include "master/system/settings/parse_option.h"
 
 namespace stride::cli {
 namespace {
@@ -103,8 +103,7 @@ template <class Take>
 CLI::Option* add_parsed(CLI::App& command, const std::string& name, Take take,
                         const std::string& help) {
   return command.add_option_function<std::string>(
-      name, [name, take](const std::string& text) { settings::parse_option(name, text, take); },
-      help);
+      name, [name, take](const std::string& text) { core::parse_option(name, text, take); }, help);
 }
 
 Duration parse_step(const std::string& text) {

@@ -1,6 +1,6 @@
 // The value of an option, of its text.
-#ifndef STRIDE_MASTER_SYSTEM_SETTINGS_PARSE_OPTION_H
-#define STRIDE_MASTER_SYSTEM_SETTINGS_PARSE_OPTION_H
+#ifndef STRIDE_MASTER_BASE_PARSE_OPTION_H
+#define STRIDE_MASTER_BASE_PARSE_OPTION_H
 
 #include <stdexcept>
 #include <string>
@@ -9,7 +9,7 @@
 
 #include "master/base/error.h"
 
-namespace stride::settings {
+namespace stride::core {
 
 /// What parse(text) returns. Where that throws std::invalid_argument, throws core::Error (Input)
 /// with the option, the text and what was expected.
@@ -18,10 +18,10 @@ auto parse_option(const std::string& option, const std::string& text, Parse&& pa
   try {
     return parse(text);
   } catch (const std::invalid_argument& mistake) {
-    core::fail_input({}, fmt::format("{} {}: {}", option, text, mistake.what()));
+    fail_input({}, fmt::format("{} {}: {}", option, text, mistake.what()));
   }
 }
 
-}  // namespace stride::settings
+}  // namespace stride::core
 
 #endif
