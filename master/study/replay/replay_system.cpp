@@ -46,7 +46,7 @@ class ReplayWriter {
                   {{"startTime", request_.stimuli.start}, {"stopTime", request_.stimuli.end}});
     writer_.open("ssd:Annotations");
     writer_.open("ssc:Annotation");
-    writer_.attribute("type", "org.stride");
+    writer_.attribute("type", ssp::kStrideAnnotation);
     write_annotation();
     writer_.close();
     writer_.close();

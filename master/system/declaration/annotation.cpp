@@ -23,24 +23,22 @@
 namespace stride::scenario {
 namespace {
 
-constexpr const char* kType = "org.stride";
-
 /// An annotation of another type that was meant to be ours, by its elements or nearly by its type.
 void check_foreign(const xml::Element& annotation) {
   const std::string type = annotation.attribute("type").value_or("");
-  const std::string own[] = {kType};
+  const std::string own[] = {ssp::kStrideAnnotation};
   bool is_meant = !core::nearest(type, own).empty();
   for (const xml::Element& child : annotation.children()) {
     is_meant |= child.local_name() == "Scenario" && child.prefix_of(ssp::kStrideScenario);
   }
   if (!is_meant) return;
   annotation.fail(fmt::format("the type of this annotation is '{}', so it would be ignored", type),
-                  fmt::format("write type=\"{}\"", kType));
+                  fmt::format("write type=\"{}\"", ssp::kStrideAnnotation));
 }
 
 void collect(const xml::Element& element, std::vector<xml::Element>& found) {
   if (element.local_name() == "Annotation") {  // those of other tools may hold anything
-    if (element.attribute("type") != kType) {
+    if (element.attribute("type") != ssp::kStrideAnnotation) {
       check_foreign(element);
     } else if (element.is(ssp::kSsc, "Annotation")) {
       found.push_back(element);
@@ -358,13 +356,14 @@ ScenarioAnnotation read_annotation(const xml::Element& root) {
   collect(root, found);
   for (const xml::Element& annotation : found) {
     if (is_of_root_or_system(annotation, root)) continue;
-    annotation.fail(fmt::format("an annotation of the type '{}' does not belong here", kType),
-                    "move it to the <Annotations> at the end of <SystemStructureDescription>");
+    annotation.fail(
+        fmt::format("an annotation of the type '{}' does not belong here", ssp::kStrideAnnotation),
+        "move it to the <Annotations> at the end of <SystemStructureDescription>");
   }
   if (found.empty()) return {};
   if (found.size() > 1) {
     found[1].fail(fmt::format("a second annotation of the type '{}'; the first is in line {}",
-                              kType, found[0].where().line),
+                              ssp::kStrideAnnotation, found[0].where().line),
                   "put everything into one <stride:Scenario>");
   }
   found[0].allow_attributes({"type"});
@@ -372,7 +371,8 @@ ScenarioAnnotation read_annotation(const xml::Element& root) {
   const auto scenario = found[0].child({ssp::kStrideScenario, "Scenario"});
   if (!scenario) {
     found[0].fail(
-        fmt::format("the annotation of the type '{}' holds no <stride:Scenario>", kType),
+        fmt::format("the annotation of the type '{}' holds no <stride:Scenario>",
+                    ssp::kStrideAnnotation),
         fmt::format("write <stride:Scenario xmlns:stride=\"{}\"> into it", ssp::kStrideScenario));
   }
   return read_scenario_element(*scenario);

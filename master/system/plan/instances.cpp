@@ -8,6 +8,7 @@
 #include "master/loader/network/remote_unit.h"
 #include "master/loader/process/hosted_unit.h"
 #include "master/observe/recorders/unit_folders.h"
+#include "master/system/plan/run_steps.h"
 
 namespace stride::scenario {
 namespace {
@@ -23,7 +24,7 @@ importer::InstanceOptions instance_options(const RunPlan& plan, std::size_t comp
   options.intermediate_update = plan.options().sets_inputs_in_steps();
   options.where = declared.where;
   if (declared.own_step || plan.options().step.policy->has_grid)
-    options.step = declared.own_step.value_or(plan.options().step.size);
+    options.step = StepGrids(plan.scenario().system.components, plan.options()).step_of(component);
   options.interrupted = interrupted;
   if (!results.empty()) options.results = recorders::unit_folder(results, declared.name);
   options.description = plan.system().components()[component].description;

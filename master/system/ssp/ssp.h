@@ -16,6 +16,8 @@ inline constexpr const char* kSsb = "http://ssp-standard.org/SSP1/SystemStructur
 inline constexpr xml::Prefix kPrefixes[] = {
     {"ssd", kSsd}, {"ssc", kSsc}, {"ssv", kSsv}, {"ssm", kSsm}, {"ssb", kSsb}};
 
+/// The type of stride's annotation, and the namespace of what is in it.
+inline constexpr const char* kStrideAnnotation = "org.stride";
 inline constexpr const char* kStrideScenario = "urn:org.stride:scenario:1";
 
 }  // namespace stride::ssp

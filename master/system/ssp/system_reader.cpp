@@ -316,7 +316,7 @@ class SystemReader {
     for (const xml::Element& child : root.children()) {
       if (!child.is(kSsd, "Annotations")) continue;
       for (const xml::Element& annotation : child.children()) {
-        if (annotation.attribute_or("type") != "org.stride") continue;
+        if (annotation.attribute_or("type") != kStrideAnnotation) continue;
         warn_once(
             annotation,
             "the annotation org.stride of a system inside another one is not used: its steps, "
