@@ -40,9 +40,15 @@ void collect(const xml::Element& element, std::vector<xml::Element>& found) {
   if (element.local_name() == "Annotation") {  // those of other tools may hold anything
     if (element.attribute("type") != ssp::kStrideAnnotation) {
       check_foreign(element);
-    } else if (element.is(ssp::kSsc, "Annotation")) {
-      found.push_back(element);
+      return;
     }
+    if (!element.is(ssp::kSsc, "Annotation")) {
+      element.fail(
+          fmt::format("this is an <Annotation> of the namespace '{}', so it would be ignored",
+                      element.name().name_space),
+          fmt::format("write <ssc:Annotation> with xmlns:ssc=\"{}\"", ssp::kSsc));
+    }
+    found.push_back(element);
     return;
   }
   for (const xml::Element& child : element.children()) collect(child, found);

@@ -230,6 +230,12 @@ TEST_CASE("An annotation that was meant to be ours is not ignored") {
                                                       Contains("write type=\"org.stride\""));
   }
   CHECK_THAT(error("org.strde", "<other/>"), Contains("so it would be ignored"));
+  CHECK_THAT(
+      error_of([&] {
+        read_annotation(at_root("<ssd:Annotations><ssd:Annotation type='org.stride'>" +
+                                scenario_element("") + "</ssd:Annotation></ssd:Annotations>"));
+      }),
+      Contains("so it would be ignored") && Contains("write <ssc:Annotation>"));
   CHECK_NOTHROW(
       read_annotation(at_root("<ssd:Annotations><ssc:Annotation "
                               "type='com.example'><x/></ssc:Annotation></ssd:Annotations>")));
