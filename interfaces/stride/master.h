@@ -31,7 +31,7 @@
  * simulation is the parent's; in the child nothing may be called with it, and what is, fails with
  * STRIDE_MISUSE.
  *
- * Time.  int64_t picoseconds of simulated time.
+ * Time.  Simulated time is exact to the picosecond, and a run may take years: see stride_time.
  *
  * Versions.  Structures begin with their size, which the caller sets to sizeof; later versions add
  * members at the end. Zero is the default of each member.
@@ -55,7 +55,16 @@ typedef enum stride_status {
   STRIDE_MISUSE = 3         /* a call that its documentation does not allow; nothing has changed */
 } stride_status;
 
-/* What is not known is an empty text, 0, or INT64_MIN. */
+/* An instant: `seconds`, rounded down, and the `picoseconds` above them, 0 to 999999999999. So
+ * -0.5 s is {-1, 500000000000}. Where there is none, `seconds` is STRIDE_NO_TIME. */
+typedef struct stride_time {
+  int64_t seconds;
+  int64_t picoseconds;
+} stride_time;
+
+#define STRIDE_NO_TIME INT64_MIN
+
+/* What is not known is an empty text, 0, or no time. */
 typedef struct stride_error {
   stride_status status;
   const char*
@@ -66,7 +75,7 @@ typedef struct stride_error {
   int line;
   const char* component;
   const char* variable;
-  int64_t time;
+  stride_time time;
 } stride_error;
 
 /* Of the last function that has failed in this thread; valid until the next one that fails. */
@@ -88,10 +97,14 @@ void stride_set_log(stride_log log, void* user);
 
 /* ---- Time ---- */
 
-#define STRIDE_SECOND INT64_C(1000000000000)
+/* The nearest picosecond; what is beyond 1e15 s becomes that, NaN no time. */
+stride_time stride_seconds(double seconds);
 
-/* The nearest picosecond; what is beyond the range becomes its end, NaN INT64_MIN. */
-int64_t stride_seconds(double seconds);
+/* The instant `after` later than `time`, exactly. */
+stride_time stride_sum(stride_time time, stride_time after);
+
+/* Later than each run ends. */
+stride_time stride_end_of_time(void);
 
 /* ---- A simulation ---- */
 
@@ -111,7 +124,7 @@ typedef struct stride_setting {
 /* Called some ten times a second while stride_advance() runs, by the thread that has called it.
  * Another value than 0 interrupts the run, as stride_interrupt() does. Calls no function with the
  * simulation. */
-typedef int (*stride_progress)(void* user, int64_t time);
+typedef int (*stride_progress)(void* user, stride_time time);
 
 typedef struct stride_options {
   size_t size;
@@ -133,10 +146,10 @@ stride_status stride_open(const char* scenario, const stride_options* options,
                           stride_simulation** simulation);
 
 /* Simulates up to this instant, at which a communication step ends, or up to the end of the run if
- * that is earlier: the stop time, or where a unit ends it. INT64_MAX: to its end. Where the run
+ * that is earlier: the stop time, or where a unit ends it. Where the run
  * would not have a communication point by itself, this makes one, as an intervention does, and
  * results may differ by that. */
-stride_status stride_advance(stride_simulation* simulation, int64_t until);
+stride_status stride_advance(stride_simulation* simulation, stride_time until);
 
 /* Ends the run where it is: units are terminated, verdicts are given, and the results completed.
  * A failed verdict is none of the status. Afterwards stride_get_verdict(), stride_end_reason() and
@@ -153,9 +166,9 @@ stride_status stride_close(stride_simulation* simulation);
 void stride_interrupt(stride_simulation* simulation);
 
 /* The instant that the simulation has reached. */
-int64_t stride_now(const stride_simulation* simulation);
-int64_t stride_start_time(const stride_simulation* simulation);
-int64_t stride_stop_time(const stride_simulation* simulation);
+stride_time stride_now(const stride_simulation* simulation);
+stride_time stride_start_time(const stride_simulation* simulation);
+stride_time stride_stop_time(const stride_simulation* simulation);
 
 /* Whether there is nothing more to simulate: the stop time is reached, a unit has ended the run, or
  * it has failed, was interrupted or ended. */
@@ -256,7 +269,7 @@ stride_status stride_send(stride_simulation* simulation, size_t clock, const str
 
 typedef struct stride_message {
   size_t size;
-  int64_t time;
+  stride_time time;
   uint32_t super_dense_index; /* which event iteration at this time */
   size_t index;               /* of the variable, or of the clock of a message without a value */
   int is_received;            /* 0: sent by the component, 1: received by it */
@@ -282,7 +295,7 @@ typedef struct stride_verdict {
   const char* name;
   const char* text; /* why */
   int passed;       /* 1, 0, or -1: not decided */
-  int64_t time;     /* of the first failure; INT64_MIN: none */
+  stride_time time; /* of the first failure; STRIDE_NO_TIME: there is none */
   double margin;    /* how far from failing, negative: failed; NaN: it has none */
 } stride_verdict;
 

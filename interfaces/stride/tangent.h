@@ -25,7 +25,7 @@ inline Duration tangent_holds_for(double tolerance, double curvature, double slo
     seconds = 2 * (tolerance / (slope_error + root));
   }
   if (!(seconds <= kMaxSeconds)) return Duration::max();
-  return Duration(static_cast<std::int64_t>(std::floor(seconds * 1e12)));
+  return Duration(static_cast<Picoseconds>(std::floor(seconds * 1e12)));
 }
 
 }  // namespace stride

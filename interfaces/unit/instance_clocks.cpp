@@ -11,11 +11,11 @@ Duration duration_of_fraction(std::uint64_t counter, std::uint64_t resolution) {
   if (resolution == 0) throw Misuse("the resolution is 0");
   const Wide picoseconds =
       (Wide{counter} * Wide{Duration::period::den} + resolution / 2) / resolution;
-  if (picoseconds > static_cast<Wide>(Duration::max().count())) {
+  if (picoseconds / Duration::period::den > static_cast<Wide>(kMaxSeconds)) {
     throw Misuse("the interval " + std::to_string(counter) + " / " + std::to_string(resolution) +
                  " s is longer than any simulation");
   }
-  return Duration(static_cast<std::int64_t>(picoseconds));
+  return Duration(static_cast<Picoseconds>(picoseconds));
 }
 
 const Variable& Instance::time_based_clock(fmi3ValueReference reference) const {

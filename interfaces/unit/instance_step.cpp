@@ -13,17 +13,11 @@ namespace {
 /// coarser than a picosecond.
 Duration rounding(double seconds) {
   const double picoseconds = 4 * std::numeric_limits<double>::epsilon() * std::abs(seconds) * 1e12;
-  return Duration(1 + static_cast<std::int64_t>(picoseconds));
+  return Duration(1 + static_cast<Picoseconds>(picoseconds));
 }
 
-/// Whether two instants are at most this far apart. Their difference may be more than a Duration
-/// holds.
 bool are_near(Time one, Time other, Duration distance) {
-  const auto count = [](Time time) {
-    return static_cast<std::uint64_t>(time.time_since_epoch().count());
-  };
-  const std::uint64_t apart = one < other ? count(other) - count(one) : count(one) - count(other);
-  return apart <= static_cast<std::uint64_t>(distance.count());
+  return std::chrono::abs(one - other) <= distance;
 }
 
 }  // namespace

@@ -76,7 +76,7 @@ class StateArchive {
   template <class Rep, class Period>
   void value(std::chrono::duration<Rep, Period>& duration) {
     Rep count = duration.count();
-    value(count);
+    copy(&count, sizeof count);
     duration = std::chrono::duration<Rep, Period>(count);
   }
   template <class Clock, class Duration>

@@ -7,29 +7,20 @@
 
 #include <fmt/format.h>
 
+#include <stride/time_text.h>
+
 #include "master/base/message_text.h"
 
 namespace stride::core {
 
 std::string to_text(Time time) { return to_text(time.time_since_epoch()); }
 
-std::string to_text(Duration duration) {
-  const std::int64_t ticks = duration.count();
-  const std::uint64_t magnitude =
-      ticks < 0 ? 0 - static_cast<std::uint64_t>(ticks) : static_cast<std::uint64_t>(ticks);
-  constexpr std::uint64_t kPerSecond = 1'000'000'000'000;
-  std::string text = fmt::format("{}{}.{:012}", ticks < 0 ? "-" : "", magnitude / kPerSecond,
-                                 magnitude % kPerSecond);
-  text.erase(text.find_last_not_of('0') + 1);
-  if (text.back() == '.') text.pop_back();
-  return text;
-}
+std::string to_text(Duration duration) { return decimal_seconds(duration); }
 
 namespace {
 
 constexpr std::string_view kBlanks = " \t\r\n";
 constexpr int kDecimals = 12;
-constexpr std::int64_t kMaxTicks = 9'200'000'000'000'000'000;  // kMaxSeconds
 
 /// 0.DIGITS * 10^point, without leading or trailing zeros: no digits is zero.
 struct Decimal {
@@ -118,20 +109,21 @@ std::optional<Duration> parse_plain(std::string_view text) {
 Duration magnitude(const Decimal& decimal, std::string_view text) {
   if (decimal.digits.empty()) return Duration::zero();
   const std::int64_t kept = decimal.point + kDecimals;  // digits left of the picosecond's end
-  constexpr std::int64_t kMostDigits = 19;
-  if (kept > kMostDigits) reject(text, "is beyond 9.2e6 s, the largest time");
+  constexpr std::int64_t kMostDigits = 28;              // of kMaxSeconds
+  if (kept > kMostDigits) reject(text, "is beyond 1e15 s, the largest time");
   if (kept < 0) return Duration::zero();
-  std::string ticks = decimal.digits.substr(0, static_cast<std::size_t>(kept));
-  const bool round_up = ticks.size() < decimal.digits.size() && decimal.digits[ticks.size()] >= '5';
-  ticks.resize(static_cast<std::size_t>(kept), '0');
+  std::string digits = decimal.digits.substr(0, static_cast<std::size_t>(kept));
+  const bool round_up =
+      digits.size() < decimal.digits.size() && decimal.digits[digits.size()] >= '5';
+  digits.resize(static_cast<std::size_t>(kept), '0');
 
-  std::uint64_t count = 0;
-  std::from_chars(ticks.data(), ticks.data() + ticks.size(), count);
-  count += round_up ? 1 : 0;
-  if (count > static_cast<std::uint64_t>(kMaxTicks)) {
-    reject(text, "is beyond 9.2e6 s, the largest time");
+  Picoseconds count = 0;
+  for (const char digit : digits) count = 10 * count + (digit - '0');
+  const Duration duration(count + (round_up ? 1 : 0));
+  if (duration > std::chrono::seconds(static_cast<std::int64_t>(kMaxSeconds))) {
+    reject(text, "is beyond 1e15 s, the largest time");
   }
-  return Duration(static_cast<std::int64_t>(count));
+  return duration;
 }
 
 }  // namespace

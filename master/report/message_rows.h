@@ -8,13 +8,15 @@
 #include <optional>
 #include <string>
 
+#include <stride/time.h>
+
 #include "master/report/table.h"
 
 namespace stride::report {
 
 /// A row of events.csv.
 struct RecordedMessage {
-  std::int64_t time = 0;  ///< [ps]
+  Time time;
   std::uint64_t index = 0;
   std::string component;
   std::string variable;

@@ -113,6 +113,16 @@ std::string base64(std::span<const std::uint8_t> bytes) {
 
 std::string blob(std::span<const double> values) { return numbers("float64", values); }
 std::string blob(std::span<const std::int64_t> values) { return numbers("int64", values); }
+std::string blob(std::span<const Time> times) {
+  const auto count = [](Time time) { return time.time_since_epoch().count(); };
+  if (!std::ranges::all_of(times, [&](Time time) { return detail::is_narrow(count(time)); })) {
+    return numbers("int128", times);
+  }
+  std::vector<std::int64_t> narrow(times.size());
+  std::ranges::transform(times, narrow.begin(),
+                         [&](Time time) { return static_cast<std::int64_t>(count(time)); });
+  return blob(std::span<const std::int64_t>(narrow));
+}
 std::string blob(std::span<const std::int32_t> values) { return numbers("int32", values); }
 std::string blob(std::span<const std::uint8_t> values) { return numbers("uint8", values); }
 

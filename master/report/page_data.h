@@ -9,6 +9,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include <stride/time.h>
+
 #include "master/report/column.h"
 
 namespace stride::report {
@@ -30,6 +32,7 @@ std::string base64(std::span<const std::uint8_t> bytes);
 /// to compress, then deflated (RFC 1951) and in base64.
 std::string blob(std::span<const double> values);
 std::string blob(std::span<const std::int64_t> values);
+std::string blob(std::span<const Time> times);
 std::string blob(std::span<const std::int32_t> values);
 std::string blob(std::span<const std::uint8_t> values);
 /// Likewise for texts: {"type":"strings","count":…,"values":[…],"indices":…}.

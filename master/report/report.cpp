@@ -75,7 +75,7 @@ class DataWriter {
   }
 
   void write(const RecordedMessage& message) {
-    file_.write(json_text({{"time", std::to_string(message.time)},
+    file_.write(json_text({{"time", fmt::to_string(message.time.time_since_epoch().count())},
                            {"index", message.index},
                            {"component", message.component},
                            {"variable", message.variable},

@@ -49,8 +49,8 @@ std::vector<UnitActivities> read_activities(const fs::path& file, Notes& notes) 
   const std::size_t kind = table.place("kind");
   std::map<std::pair<std::string, std::string>, std::size_t> places;
   const auto unread = table.for_each_row([&] {
-    const std::int64_t from = table.time(time);
-    const std::int64_t to = table.time(until);
+    const Time from = table.time(time);
+    const Time to = table.time(until);
     if (to < from) table.fail(until, "it ends before it begins");
     const std::pair key(table.field(component).value(), table.field(kind).value());
     const auto [place, is_new] = places.try_emplace(key, all.size());
@@ -80,7 +80,7 @@ class FilmReader {
     const std::size_t file = table.place("file");
     unread_ = table.for_each_row([&] {
       const fs::path picture = path_ / fs::path(table.field(file).value()).filename();
-      const std::int64_t at = table.time(time);
+      const Time at = table.time(time);
       if (!film.times.empty() && at <= film.times.back()) {
         table.fail(time, "the time does not grow");
       }

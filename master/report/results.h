@@ -2,11 +2,12 @@
 #ifndef STRIDE_MASTER_REPORT_RESULTS_H
 #define STRIDE_MASTER_REPORT_RESULTS_H
 
-#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
+
+#include <stride/time.h>
 
 #include "master/observe/coverage/report.h"
 #include "master/observe/recorders/results_folder.h"
@@ -20,14 +21,13 @@ namespace stride::report {
 struct UnitActivities {
   std::string component;
   std::string kind;
-  std::vector<std::int64_t> from;   ///< [ps]
-  std::vector<std::int64_t> until;  ///< likewise
+  std::vector<Time> from, until;
 };
 
 /// Pictures that a component has made of itself.
 struct Film {
   std::string component;
-  std::vector<std::int64_t> times;              ///< [ps]
+  std::vector<Time> times;
   std::vector<std::filesystem::path> pictures;  ///< in the results folder
 };
 

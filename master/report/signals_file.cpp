@@ -64,8 +64,8 @@ class SignalsReader {
 
  private:
   void take_row() {
-    const std::int64_t time = table_.time(0);
-    std::vector<std::int64_t>& times = signals_.times;
+    const Time time = table_.time(0);
+    std::vector<Time>& times = signals_.times;
     if (!times.empty() && time < times.back()) table_.fail(0, "the time goes back");
     if (!times.empty() && time == times.back()) {
       drop_last_row();

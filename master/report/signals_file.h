@@ -2,12 +2,13 @@
 #define STRIDE_MASTER_REPORT_SIGNALS_FILE_H
 
 #include <cstddef>
-#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
+
+#include <stride/time.h>
 
 #include "master/report/column.h"
 #include "master/report/notes.h"
@@ -16,10 +17,9 @@
 
 namespace stride::report {
 
-/// signals.csv. Times are in picoseconds and grow strictly: of several rows at one instant the last
-/// one counts.
+/// signals.csv. Times grow strictly: of several rows at one instant the last one counts.
 struct Signals {
-  std::vector<std::int64_t> times;
+  std::vector<Time> times;
   std::vector<Column> columns;
   std::size_t left_out = 0;            ///< columns behind these, which were not read
   std::optional<std::size_t> thinned;  ///< rows of each block of which only the extremes were kept

@@ -73,9 +73,9 @@ std::optional<Table::Unread> Table::for_each_row(const std::function<bool()>& ta
   return first;
 }
 
-std::int64_t Table::time(std::size_t place) const {
+Time Table::time(std::size_t place) const {
   try {
-    return core::parse_time(field(place).text).time_since_epoch().count();
+    return core::parse_time(field(place).text);
   } catch (const std::invalid_argument& mistake) {
     fail(place, mistake.what());
   }

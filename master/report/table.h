@@ -1,12 +1,13 @@
 #ifndef STRIDE_MASTER_REPORT_TABLE_H
 #define STRIDE_MASTER_REPORT_TABLE_H
 
-#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
 #include <vector>
+
+#include <stride/time.h>
 
 #include "master/base/files/csv_reader.h"
 
@@ -43,8 +44,7 @@ class Table {
   const core::CsvReader::Field& field(std::size_t place) const { return fields()[place]; }
   /// Where the present row begins, counted from 1.
   std::size_t line() const { return reader_.line(); }
-  /// The field as a time [ps].
-  std::int64_t time(std::size_t place) const;
+  Time time(std::size_t place) const;
 
   /// After the last row: the line that was cut off behind it; nothing if none was.
   std::optional<std::size_t> cut() const;

@@ -42,7 +42,7 @@ std::optional<std::size_t> block_size(std::size_t rows, std::size_t columns, std
   return (rows + blocks - 1) / blocks;
 }
 
-void thin(std::vector<std::int64_t>& times, std::vector<Column>& columns, std::size_t first) {
+void thin(std::vector<Time>& times, std::vector<Column>& columns, std::size_t first) {
   if (first == times.size()) return;
   std::vector<std::size_t> rows = {first, times.size() - 1};
   for (const Column& column : columns) {
@@ -69,7 +69,7 @@ Thinner::Thinner(std::size_t rows, std::size_t columns, std::size_t limit)
   if (block_) most_held_ = std::max(limit / columns, 2 * most_kept(columns));
 }
 
-void Thinner::make_room(std::vector<std::int64_t>& times, std::vector<Column>& columns) {
+void Thinner::make_room(std::vector<Time>& times, std::vector<Column>& columns) {
   if (!block_) return;
   const bool is_full = count_ == *block_;
   if (is_full || times.size() - first_ >= most_held_) thin(times, columns, first_);
@@ -80,7 +80,7 @@ void Thinner::make_room(std::vector<std::int64_t>& times, std::vector<Column>& c
   ++count_;
 }
 
-void Thinner::finish(std::vector<std::int64_t>& times, std::vector<Column>& columns) {
+void Thinner::finish(std::vector<Time>& times, std::vector<Column>& columns) {
   if (!block_) return;
   thin(times, columns, first_);
   for (Column& column : columns) column.drop_unused_texts();

@@ -3,9 +3,10 @@
 #define STRIDE_MASTER_REPORT_THINNING_H
 
 #include <cstddef>
-#include <cstdint>
 #include <optional>
 #include <vector>
+
+#include <stride/time.h>
 
 #include "master/report/column.h"
 
@@ -18,7 +19,7 @@ std::optional<std::size_t> block_size(std::size_t rows, std::size_t columns, std
 /// Thins the rows from `first` on, one block of them: in each column the least and the greatest
 /// value stay, and a NaN where there is one, each with its whole row; so do the block's first row
 /// and its last.
-void thin(std::vector<std::int64_t>& times, std::vector<Column>& columns, std::size_t first);
+void thin(std::vector<Time>& times, std::vector<Column>& columns, std::size_t first);
 
 /// Thins rows, block by block, while they are added at the end. A block that has grown too long to
 /// be held is thinned before it ends, too, which does not change what stays of it.
@@ -32,9 +33,9 @@ class Thinner {
   /// How many rows to a block.
   std::optional<std::size_t> block() const { return block_; }
   /// Before a row is added whose time is not that of the last one.
-  void make_room(std::vector<std::int64_t>& times, std::vector<Column>& columns);
+  void make_room(std::vector<Time>& times, std::vector<Column>& columns);
   /// After the last row.
-  void finish(std::vector<std::int64_t>& times, std::vector<Column>& columns);
+  void finish(std::vector<Time>& times, std::vector<Column>& columns);
 
  private:
   std::optional<std::size_t> block_;

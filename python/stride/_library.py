@@ -11,11 +11,29 @@ from typing import Any, Optional
 from ._errors import Error, InputError, MisuseError, RunError
 from ._installed import choose_python, prefix
 
-UNKNOWN_TIME = -(2**63)
-END_OF_TIME = 2**63 - 1
-SECOND = 10**12
+SECOND = 10**12  # in picoseconds
 
 OK, RUN_FAILED, INVALID_INPUT, MISUSE = range(4)
+
+
+class Time(ctypes.Structure):
+    """stride_time: times are counted in picoseconds in Python."""
+
+    _fields_ = [("seconds", c_int64), ("picoseconds", c_int64)]
+
+    @classmethod
+    def of(cls, picoseconds: int) -> Time:
+        return cls(*divmod(picoseconds, SECOND))
+
+    def count(self) -> int:
+        return int(self.seconds) * SECOND + int(self.picoseconds)
+
+    def known(self) -> Optional[float]:
+        """In seconds; None where there is no time."""
+        return None if self.seconds == -(2**63) else seconds(self.count())
+
+
+END_OF_TIME = 10**15 * SECOND
 
 
 class StrideError(ctypes.Structure):
@@ -28,7 +46,7 @@ class StrideError(ctypes.Structure):
         ("line", c_int),
         ("component", c_char_p),
         ("variable", c_char_p),
-        ("time", c_int64),
+        ("time", Time),
     ]
 
 
@@ -37,7 +55,7 @@ class Setting(ctypes.Structure):
 
 
 Log = ctypes.CFUNCTYPE(None, c_void_p, c_int, c_char_p)
-Progress = ctypes.CFUNCTYPE(c_int, c_void_p, c_int64)
+Progress = ctypes.CFUNCTYPE(c_int, c_void_p, Time)
 
 
 class Options(ctypes.Structure):
@@ -85,7 +103,7 @@ class Value(ctypes.Structure):
 class Message(ctypes.Structure):
     _fields_ = [
         ("size", c_size_t),
-        ("time", c_int64),
+        ("time", Time),
         ("super_dense_index", c_uint32),
         ("index", c_size_t),
         ("is_received", c_int),
@@ -102,7 +120,7 @@ class Verdict(ctypes.Structure):
         ("name", c_char_p),
         ("text", c_char_p),
         ("passed", c_int),
-        ("time", c_int64),
+        ("time", Time),
         ("margin", c_double),
     ]
 
@@ -111,15 +129,15 @@ _FUNCTIONS = {
     "stride_last_error": (POINTER(StrideError), []),
     "stride_version": (c_char_p, []),
     "stride_set_log": (None, [Log, c_void_p]),
-    "stride_seconds": (c_int64, [c_double]),
+    "stride_seconds": (Time, [c_double]),
     "stride_open": (c_int, [c_char_p, POINTER(Options), POINTER(c_void_p)]),
-    "stride_advance": (c_int, [c_void_p, c_int64]),
+    "stride_advance": (c_int, [c_void_p, Time]),
     "stride_end": (c_int, [c_void_p]),
     "stride_close": (c_int, [c_void_p]),
     "stride_interrupt": (None, [c_void_p]),
-    "stride_now": (c_int64, [c_void_p]),
-    "stride_start_time": (c_int64, [c_void_p]),
-    "stride_stop_time": (c_int64, [c_void_p]),
+    "stride_now": (Time, [c_void_p]),
+    "stride_start_time": (Time, [c_void_p]),
+    "stride_stop_time": (Time, [c_void_p]),
     "stride_is_over": (c_int, [c_void_p]),
     "stride_end_reason": (c_char_p, [c_void_p]),
     "stride_variable_count": (c_size_t, [c_void_p]),
@@ -179,7 +197,7 @@ def last_error() -> Error:
         line=error.line or None,
         component=text(error.component) or None,
         variable=text(error.variable) or None,
-        time=None if error.time == UNKNOWN_TIME else seconds(error.time),
+        time=error.time.known(),
     )
 
 

@@ -308,7 +308,7 @@ class Simulation:
 
     def _advance(self, target: int) -> float:
         with self._interruption:
-            self._call("stride_advance", target)
+            self._call("stride_advance", c.Time.of(target))
         return self.time
 
     # ---- Variables ----
@@ -445,7 +445,7 @@ class Simulation:
                 value = _value(variable, space, raw.count)
             found.append(
                 Message(
-                    c.seconds(raw.time),
+                    c.seconds(raw.time.count()),
                     variable.name,
                     bool(raw.is_received),
                     value,
@@ -488,7 +488,7 @@ class Simulation:
                     c.text(raw.name),
                     None if raw.passed < 0 else bool(raw.passed),
                     c.text(raw.text),
-                    None if raw.time == c.UNKNOWN_TIME else c.seconds(raw.time),
+                    raw.time.known(),
                     None if math.isnan(raw.margin) else raw.margin,
                 )
             )
@@ -558,7 +558,7 @@ class _Interruption:
         except BaseException as raised:  # noqa: BLE001 - such as KeyboardInterrupt and SystemExit
             self._raised = raised
 
-    def tell(self, _user: Any, _time: int) -> int:
+    def tell(self, _user: Any, _time: Any) -> int:
         return 0 if self._raised is None else 1
 
 

@@ -75,6 +75,11 @@ TEST_CASE("a run goes on from a checkpoint to the same results") {
   check_resumption(plain_parts(), {"--quiet", "--set", "a.u=1"}, {"0", "0.25", "0.7501", "1"});
 }
 
+TEST_CASE("a run goes on before and behind the picoseconds that 64 bits can count") {
+  check_resumption(ticking_parts(), {"--quiet", "--start", "9223371", "--stop", "9223373"},
+                   {"9223371.5", "9223372.036854775808", "9223372.5"});
+}
+
 TEST_CASE("a run that begins before 0 s goes on") {
   check_resumption(ticking_parts(), {"--start", "-0.5", "--stop", "0.5", "--quiet"},
                    {"-0.25", "0.3"});

@@ -36,7 +36,7 @@ SHOWN = {
            "connect_input_updates should_continue make_stretch conclude_step",
     "Stepper": "result has_requests steps was_parallel make_timed_passes step_together step_share succeeds "
                "may_be_regular advance_regularly make_further_passes "
-               "form_stages form_rows row_members coasting_row step_rows note_plain_ones note_outcome note_step "
+               "form_stages form_rows row_members coasting_row step_rows step_whole_rows note_stop_in note_plain_ones note_outcome note_step "
                "note_whole_rows count_whole_rows "
                "batches interval step_one_by_one step_plainly make_step save_and_step reached_by attempt_timed begin_timed "
                "finish persist prepare conclude report record_time index name rethrow_failure reason hint_for_final fail_final plan pool",

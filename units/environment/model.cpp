@@ -27,7 +27,7 @@ const Parameters& checked(const Parameters& p) {
   require(p.ambient_mean >= kAbsoluteZero, "ambient.mean", p.ambient_mean, above_zero);
   require(p.drift_amplitude >= 0.0, "ambient.drift.amplitude", p.drift_amplitude, "0 or more");
   require(p.drift_period > 0.0 && p.drift_period <= stride::kMaxSeconds, "ambient.drift.period",
-          p.drift_period, "more than 0 and at most 9.2e6 s");
+          p.drift_period, "more than 0 and at most 1e15 s");
   require(p.heat_capacity > 0.0, "case.heat_capacity", p.heat_capacity, positive);
   require(p.thermal_resistance > 0.0, "case.thermal_resistance", p.thermal_resistance, positive);
   require(p.initial_temperature >= kAbsoluteZero, "case.initial_temperature", p.initial_temperature,

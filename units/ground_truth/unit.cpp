@@ -27,8 +27,7 @@ stride::Duration duration(const char* name, double seconds) {
     return stride::duration_from_seconds(seconds);
   }
   throw std::invalid_argument(std::string(name) + " is " +
-                              ground_truth::quantity_text(seconds, "s") +
-                              ": expected 0 to 9.2e6 s");
+                              ground_truth::quantity_text(seconds, "s") + ": expected 0 to 1e15 s");
 }
 
 }  // namespace

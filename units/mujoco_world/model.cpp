@@ -36,10 +36,10 @@ int joint_of_position(const mjModel& model, int index) {
   return static_cast<int>(std::upper_bound(first, first + model.njnt, index) - first) - 1;
 }
 
-// A time goes bit by bit into a double of the state block: as a value, it would not be exact.
-constexpr std::size_t kTimes = 2;
-constexpr std::size_t kRest = 2;  // whether it rests, and until when
-static_assert(sizeof(Time::rep) == sizeof(double));
+// A time goes bit by bit into doubles of the state block: as a value, it would not be exact.
+constexpr std::size_t kTime = sizeof(Time::rep) / sizeof(double);
+constexpr std::size_t kTimes = 2 * kTime;
+constexpr std::size_t kRest = 1 + kTime;  // whether it rests, and until when
 
 void put_time(double* place, Time time) {
   const Time::rep count = time.time_since_epoch().count();
@@ -323,11 +323,13 @@ void World::save(double* block) const {
   block = std::copy(lamps_.begin(), lamps_.end(), block);
   block = std::copy(fields_.begin(), fields_.end(), block);
   block = std::copy(touching_.begin(), touching_.end(), block);
-  put_time(block++, grid_);
-  put_time(block++, now_);
+  put_time(block, grid_);
+  put_time(block + kTime, now_);
+  block += kTimes;
   if (!rest_settings_) return;
   *block++ = resting_ ? 1 : 0;
-  put_time(block++, rest_end_);
+  put_time(block, rest_end_);
+  block += kTime;
   rest_detector_.save(block);
 }
 
@@ -350,10 +352,11 @@ void World::restore(const double* block) {
   block += kTimes;
   if (rest_settings_) {
     resting_ = *block++ != 0;
-    rest_end_ = get_time(block++);
+    rest_end_ = get_time(block);
+    block += kTime;
     rest_detector_.restore(block);
   }
-  move(get_time(times), get_time(times + 1));
+  move(get_time(times), get_time(times + kTime));
 }
 
 }  // namespace mujoco_world

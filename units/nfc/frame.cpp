@@ -8,6 +8,7 @@ namespace nfc {
 namespace {
 
 constexpr std::size_t kHeaderSize = 16;
+constexpr stride::Picoseconds kWrap = stride::Picoseconds{1} << 64;
 
 template <class Integer>
 void put(Bytes& bytes, Integer value) {
@@ -52,17 +53,20 @@ stride::Duration air_time(const Frame& frame) {
 }
 
 Frame cut_off(Frame frame, stride::Time time) {
-  const std::int64_t periods = (time - frame.start) / bit_duration(frame.bit_rate);
-  const auto all = static_cast<std::int64_t>(frame.bits.size());
-  frame.bits.resize(static_cast<std::size_t>(std::clamp<std::int64_t>(periods - 1, 0, all)));
+  const stride::Picoseconds periods = (time - frame.start) / bit_duration(frame.bit_rate);
+  const stride::Picoseconds all = frame.bits.size();
+  frame.bits.resize(static_cast<std::size_t>(std::clamp<stride::Picoseconds>(periods - 1, 0, all)));
   return frame;
 }
 
 Bytes encode(const Frame& frame) {
   Bytes bytes;
   bytes.reserve(kHeaderSize + (frame.bits.size() + 7) / 8);
-  put(bytes, static_cast<std::int64_t>(frame.start.time_since_epoch().count()));
-  put(bytes, frame.bit_rate);
+  const stride::Picoseconds start = frame.start.time_since_epoch().count();
+  const auto narrow = static_cast<std::int64_t>(start);
+  put(bytes, narrow);
+  put(bytes, static_cast<std::uint16_t>(frame.bit_rate));
+  put(bytes, static_cast<std::int16_t>((start - narrow) >> 64));
   put(bytes, static_cast<std::uint32_t>(frame.bits.size()));
   bytes.resize(kHeaderSize + (frame.bits.size() + 7) / 8);
   for (std::size_t i = 0; i < frame.bits.size(); ++i) {
@@ -77,8 +81,9 @@ Frame decode(const Bytes& payload) {
                                 std::to_string(payload.size()));
   }
   Frame frame;
-  frame.start = stride::Time(stride::Duration(take<std::int64_t>(payload, 0)));
-  frame.bit_rate = take<std::uint32_t>(payload, 8);
+  const stride::Picoseconds beyond = take<std::int16_t>(payload, 10);
+  frame.start = stride::Time(stride::Duration(beyond * kWrap + take<std::int64_t>(payload, 0)));
+  frame.bit_rate = take<std::uint16_t>(payload, 8);
   carrier_periods_per_bit(frame.bit_rate);
   const std::size_t count = take<std::uint32_t>(payload, 12);
   if (payload.size() != kHeaderSize + (count + 7) / 8) {

@@ -52,7 +52,7 @@ void Playback::note_irregular(stride::Time now) {
     position_.late = static_cast<std::int64_t>(position_.next + 1);
   }
   if (now < after.time && next().time < now && position_.beside == kNowhere) {
-    position_.beside = now.time_since_epoch().count();
+    position_.beside = now;
   }
 }
 

@@ -16,7 +16,7 @@
 namespace player {
 
 /// No instant.
-inline constexpr std::int64_t kNowhere = std::numeric_limits<std::int64_t>::min();
+inline constexpr stride::Time kNowhere = stride::Time::min();
 
 /// Goes through the entries of stimuli, which must outlive it, from the first to the last, once
 /// begin() was called. At an instant come first those that arrived there in Step Mode or in the
@@ -30,7 +30,7 @@ class Playback {
     std::int64_t iteration = 0;  ///< event iterations at the present instant
     std::int64_t late = -1;      ///< an entry that was played behind its time
     /// [ps] An instant in a step that was not to be cut there.
-    std::int64_t beside = kNowhere;
+    stride::Time beside = kNowhere;
   };
 
   explicit Playback(const Stimuli& stimuli) : stimuli_(&stimuli), ticked_(stimuli.inputs.size()) {}

@@ -6,6 +6,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include <stride/time_text.h>
+
 #include "units/player/csv.h"
 #include "units/player/table.h"
 #include "units/xml/file.h"
@@ -18,25 +20,8 @@ constexpr const char* kVersion = "1";
 constexpr std::size_t kByteOrderMark = 3;  ///< bytes that may come before it
 constexpr std::size_t kMostElements = 1u << 20;
 
-/// Exact decimal seconds with twelve places at most.
 stride::Time parse_time(const std::string& text) {
-  constexpr std::size_t kDecimals = 12;
-  const bool is_negative = !text.empty() && text[0] == '-';
-  const std::size_t point = std::min(text.find('.'), text.size());
-  std::string digits = text.substr(is_negative, point - is_negative);
-  const std::string fraction = point < text.size() ? text.substr(point + 1) : "";
-  const bool has_whole = !digits.empty();
-  std::int64_t ticks = 0;
-  digits += fraction;
-  digits.append(kDecimals - std::min(kDecimals, fraction.size()), '0');
-  const char* const last = digits.data() + digits.size();
-  const auto [end, mistake] = std::from_chars(digits.data(), last, ticks);
-  const bool has_both = has_whole && (point == text.size() || !fraction.empty());
-  const bool is_number = mistake == std::errc() && end == last && digits[0] != '-';
-  const double seconds = static_cast<double>(ticks) / 1e12;
-  if (has_both && is_number && fraction.size() <= kDecimals && seconds <= stride::kMaxSeconds) {
-    return stride::Time(stride::Duration(is_negative ? -ticks : ticks));
-  }
+  if (const auto time = stride::time_of_decimal(text)) return *time;
   throw std::invalid_argument("'" + text +
                               "' is not a time; expected seconds such as 14.200358702064");
 }

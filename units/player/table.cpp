@@ -308,7 +308,7 @@ class TableReader {
     const long double ticks = number * static_cast<long double>(ticks_);
     const bool is_time = mistake == std::errc() && end == last && !text.empty();
     if (is_time && std::abs(ticks) <= stride::kMaxSeconds * 1e12L) {
-      return stride::Time(stride::Duration(std::llround(ticks)));
+      return stride::Time(stride::Duration(static_cast<stride::Picoseconds>(std::round(ticks))));
     }
     throw std::invalid_argument("column 'time': '" + text + "' is not a time; expected a number");
   }

@@ -244,8 +244,7 @@ class PlayerUnit : public stride::Unit {
                                 "played to does not stop there (see stop_at_stimuli)");
     }
     if (position.beside != player::kNowhere) {
-      const stride::Time beside{stride::Duration(position.beside)};
-      warn_once(told_beside_, "there is a communication point at " + text(beside) +
+      warn_once(told_beside_, "there is a communication point at " + text(position.beside) +
                                   " s where the captured unit had none, so steps are cut otherwise "
                                   "than they were; let the step policy be event-driven");
     }

@@ -75,7 +75,7 @@ class Session {
   void tell_inputs(bool all);
   void tell_value(std::string_view tag, std::size_t variable,
                   std::optional<stride::Time> time = std::nullopt);
-  std::int64_t count(stride::Duration duration) const { return duration / unit_; }
+  stride::Picoseconds count(stride::Duration duration) const { return duration / unit_; }
 
   Sync read_answer(stride::Time to, bool may_stop);
   void read_tag(std::string_view line);

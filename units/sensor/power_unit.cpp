@@ -140,7 +140,7 @@ std::optional<PowerUnit::Crossing> PowerUnit::next_crossing() const {
   const auto consider = [&](Threshold threshold, double target) {
     const double seconds = law.time_to(voltage_, target);
     if (seconds > stride::kMaxSeconds / 2) return;
-    const stride::Duration wait(static_cast<std::int64_t>(std::ceil(seconds * 1e12)));
+    const stride::Duration wait(static_cast<stride::Picoseconds>(std::ceil(seconds * 1e12)));
     if (!next || last_event_ + wait < next->instant) next = {threshold, last_event_ + wait};
   };
   const bool ends_rising = flow_.mode == Mode::ConstantCurrent;

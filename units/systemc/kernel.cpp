@@ -110,7 +110,7 @@ void Kernel::handle(const sc_core::sc_report& report, const sc_core::sc_actions&
 }
 
 std::string Kernel::true_time(const sc_core::sc_time& kernel_time) const {
-  return sc_core::sc_time::from_value(kernel_time.value() + advance_time_).to_string();
+  return to_sc_time(to_duration(kernel_time) + skipped_ * ticks_).to_string();
 }
 
 std::string Kernel::describe(const sc_core::sc_report& report) const {
@@ -186,9 +186,8 @@ void Kernel::require_not_before_now(Time to) const {
   require_usable();
   if (!initialized_) throw std::logic_error("initialize() comes before advance()");
   if (to < now()) {
-    throw std::invalid_argument("SystemC cannot go back from " +
-                                std::to_string(now().time_since_epoch().count()) + " ps to " +
-                                std::to_string(to.time_since_epoch().count()) + " ps");
+    throw std::invalid_argument("SystemC cannot go back from " + decimal_seconds(now()) + " s to " +
+                                decimal_seconds(to) + " s");
   }
 }
 
@@ -277,7 +276,14 @@ void Kernel::skip(Duration duration) {
   if (timer && *timer <= now() + duration) {
     throw std::logic_error("a timer is due within the time that is to be skipped");
   }
-  advance_time_ += static_cast<sc_dt::uint64>(duration.count()) * ticks_;
+  skipped_ += duration;
+  if (is_traced_) advance_time_ = to_sc_time(skipped_, ticks_).value();
+}
+
+void Kernel::trace_skipped(sc_core::sc_trace_file* file, const char* name) {
+  is_traced_ = true;
+  advance_time_ = to_sc_time(skipped_, ticks_).value();
+  sc_core::sc_trace(file, advance_time_, name);
 }
 
 // One process for all timers: they go off in the order of their construction, wherever the

@@ -29,7 +29,7 @@ void Timer::set(Time at) {
   const Time now = kernel_.now();
   if (at < now) {
     throw std::invalid_argument(std::string("the timer ") + event_.name() + " is set to " +
-                                std::to_string((now - at).count()) + " ps ago");
+                                decimal_seconds(now - at) + " s ago");
   }
   cancel();
   if (at == now) return event_.notify(sc_core::SC_ZERO_TIME);

@@ -170,14 +170,14 @@ void require_ok(const Transaction& response, const std::string& variable) {
 }
 
 Duration quantum_within(Duration from, Duration size, Duration longest) {
-  constexpr std::int64_t kMostParts = 100'000;
-  const std::int64_t whole = std::gcd(from.count(), size.count());
-  if (whole <= longest.count()) return Duration(whole);
-  const std::int64_t fewest = (whole + longest.count() - 1) / longest.count();
-  for (std::int64_t parts = fewest; parts < fewest + kMostParts; ++parts) {
-    if (whole % parts == 0) return Duration(whole / parts);
+  constexpr int kMostParts = 100'000;
+  const Duration whole = common_divisor(from, size);
+  if (whole <= longest) return whole;
+  const Picoseconds fewest = (whole + longest - Duration(1)) / longest;
+  for (Picoseconds parts = fewest; parts < fewest + kMostParts; ++parts) {
+    if (whole % parts == Duration()) return whole / parts;
   }
-  return Duration(std::gcd(whole, longest.count()));
+  return common_divisor(whole, longest);
 }
 
 }  // namespace stride::systemc::detail

@@ -125,7 +125,7 @@ void Trace::open(const std::vector<const SignalList::Signal*>& chosen) {
   file_ = sc_core::sc_create_vcd_trace_file(path_.c_str());
   file_->set_time_unit(1000.0 / static_cast<double>(kernel_.ticks_per_picosecond()),
                        sc_core::SC_FS);
-  sc_core::sc_trace(file_, kernel_.advance_time(), kAdvanceTime);
+  kernel_.trace_skipped(file_, kAdvanceTime);
   for (const SignalList::Signal* signal : chosen) signal->trace(file_, signal->full_name);
 }
 

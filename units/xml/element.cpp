@@ -55,7 +55,7 @@ double Element::to_number(const char* attribute, const std::string& value) const
 stride::Time Element::time(const char* attribute) const {
   const double seconds = number(attribute);
   if (seconds < 0.0 || seconds > stride::kMaxSeconds) {
-    fail(std::string(attribute) + "=\"" + text(attribute) + "\": expected 0 to 9.2e6 seconds");
+    fail(std::string(attribute) + "=\"" + text(attribute) + "\": expected 0 to 1e15 seconds");
   }
   return stride::time_from_seconds(seconds);
 }

@@ -138,14 +138,11 @@ void OutputFile::write_slowly(std::string_view text) {
 }
 
 void OutputFile::write_seconds(Time time) {
-  constexpr std::int64_t kPerSecond = 1'000'000'000'000;
-  std::int64_t ticks = time.time_since_epoch().count();
-  if (ticks < 0) {
-    write('-');
-    ticks = -ticks;
-  }
-  write_number(ticks / kPerSecond);
-  if (ticks % kPerSecond != 0) write_fraction(ticks % kPerSecond, kPerSecond);
+  const Duration since = time.time_since_epoch();
+  if (since < Duration()) write('-');
+  const auto [seconds, picoseconds] = split(since < Duration() ? -since : since);
+  write_number(seconds);
+  if (picoseconds != 0) write_fraction(picoseconds, 1'000'000'000'000);
 }
 
 /// ".DIGITS" of numerator / denominator, a power of ten, which is greater.

@@ -33,8 +33,10 @@ std::uint64_t Stretch::steps_from(Time now) const {
 std::optional<Time> Stretch::make(Time& time, std::uint64_t steps) {
   const Grid& grid = *parts_.policy.regular_grid(time);
   const double size_seconds = grid.seconds(size_);
-  return grid.is_whole() ? walk(Grid::WholeWalk(grid, time), size_seconds, time, steps)
-                         : walk(Grid::Walk(grid, time), size_seconds, time, steps);
+  if (grid.is_narrow(steps, time)) {
+    return walk(Grid::NarrowWalk(grid, time), size_seconds, time, steps);
+  }
+  return walk(Grid::Walk(grid, time), size_seconds, time, steps);
 }
 
 /// `next` is at `time`.
@@ -42,22 +44,22 @@ template <class Walk>
 inline std::optional<Time> Stretch::walk(Walk next, double size_seconds, Time& time,
                                          std::uint64_t steps) {
   double seconds = next.seconds();
+  Time reached;
   for (std::uint64_t made = 0; made < steps && !is_interrupted(); ++made) {
     parts_.sampling.pass_step();
     next.advance();
     const StepInterval interval(time, seconds, next.time(), next.seconds(), size_seconds);
-    const Time reached = parts_.stepper.advance_regularly(interval);
-    if (reached != interval.to || parts_.stepper.has_requests()) [[unlikely]]
+    if (!parts_.stepper.advance_regularly(interval, reached)) [[unlikely]]
       return reached;
-    time = reached;
+    time = interval.to;
     seconds = interval.end_seconds;
-    parts_.event_handler.pass_quietly(time);
-    observe(time);
+    parts_.event_handler.pass_quietly(interval.to);
+    observe(interval.to);
   }
   return std::nullopt;
 }
 
-inline void Stretch::observe(Time time) {
+inline void Stretch::observe(const Time& time) {
   ++context_.statistics.communication_steps;
   context_.statistics.reached = time;
   context_.outputs.update(time);

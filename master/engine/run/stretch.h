@@ -52,7 +52,7 @@ class Stretch {
   Time free_until() const;
   template <class Walk>
   std::optional<Time> walk(Walk next, double size_seconds, Time& time, std::uint64_t steps);
-  void observe(Time time);
+  void observe(const Time& time);
 
   RunContext& context_;
   const Parts parts_;

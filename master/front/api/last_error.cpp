@@ -1,9 +1,9 @@
 #include "master/front/api/last_error.h"
 
-#include <cstdint>
 #include <stdexcept>
 
 #include "master/base/error.h"
+#include "master/front/api/c_time.h"
 
 namespace stride::api {
 namespace {
@@ -20,7 +20,7 @@ stride_status keep(stride_status status, const std::string& message) {
   kept = {};
   kept.message = kept.text = message;
   kept.error.status = status;
-  kept.error.time = INT64_MIN;
+  kept.error.time = kNoTime;
   return status;
 }
 
@@ -43,7 +43,7 @@ void add(const core::Error& error) {
   kept.component = context.unit;
   kept.variable = context.variable;
   kept.error.line = context.where.line;
-  if (context.time) kept.error.time = context.time->time_since_epoch().count();
+  if (context.time) kept.error.time = c_time(*context.time);
 }
 
 }  // namespace

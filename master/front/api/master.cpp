@@ -1,4 +1,5 @@
 // The C interface of the master, interfaces/stride/master.h, on api::Session.
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <cstdint>
@@ -16,15 +17,18 @@
 
 #include <stride/master.h>
 
+#include "master/front/api/c_time.h"
 #include "master/front/api/elements.h"
 #include "master/front/api/last_error.h"
 #include "master/front/api/log.h"
 #include "master/front/api/process_use.h"
 #include "master/front/api/session.h"
 
-using stride::Duration;
 using stride::Time;
+using stride::api::c_time;
 using stride::api::CElements;
+using stride::api::duration_of;
+using stride::api::kNoTime;
 using stride::api::Session;
 
 namespace core = stride::core;
@@ -43,8 +47,6 @@ struct stride_simulation {
 };
 
 namespace {
-
-std::int64_t picoseconds(Time time) { return time.time_since_epoch().count(); }
 
 void require(bool condition, const char* message) {
   if (!condition) throw std::logic_error(message);
@@ -141,12 +143,18 @@ void stride_set_log(stride_log log, void* user) {
   attempt([&] { stride::api::set_log(log, user); });
 }
 
-int64_t stride_seconds(double seconds) {
-  if (std::isnan(seconds)) return INT64_MIN;
-  const double count = std::nearbyint(seconds * static_cast<double>(STRIDE_SECOND));
-  if (count >= 0x1p63) return INT64_MAX;
-  return count < -0x1p63 ? INT64_MIN : static_cast<int64_t>(count);
+stride_time stride_seconds(double seconds) {
+  if (std::isnan(seconds)) return kNoTime;
+  return c_time(
+      stride::time_from_seconds(std::clamp(seconds, -stride::kMaxSeconds, stride::kMaxSeconds)));
 }
+
+stride_time stride_sum(stride_time time, stride_time after) {
+  if (time.seconds == STRIDE_NO_TIME || after.seconds == STRIDE_NO_TIME) return kNoTime;
+  return c_time(Time(duration_of(time) + duration_of(after)));
+}
+
+stride_time stride_end_of_time(void) { return stride_seconds(stride::kMaxSeconds); }
 
 stride_status stride_open(const char* scenario, const stride_options* given,
                           stride_simulation** simulation) {
@@ -163,7 +171,7 @@ stride_status stride_open(const char* scenario, const stride_options* given,
     if (options.checkpoint != nullptr) session.checkpoint = options.checkpoint;
     if (options.progress != nullptr) {
       session.progress = [progress = options.progress, user = options.user](Time time) {
-        return progress(user, picoseconds(time)) == 0;
+        return progress(user, c_time(time)) == 0;
       };
     }
     auto request = stride::api::read_request(scenario, {options.settings, options.setting_count});
@@ -171,8 +179,11 @@ stride_status stride_open(const char* scenario, const stride_options* given,
   });
 }
 
-stride_status stride_advance(stride_simulation* simulation, int64_t until) {
-  return attempt_with(simulation, [&] { simulation->session.advance(Time(Duration(until))); });
+stride_status stride_advance(stride_simulation* simulation, stride_time until) {
+  return attempt_with(simulation, [&] {
+    require(until.seconds != STRIDE_NO_TIME, "there is no time to simulate up to");
+    simulation->session.advance(Time(duration_of(until)));
+  });
 }
 
 stride_status stride_end(stride_simulation* simulation) {
@@ -192,16 +203,16 @@ void stride_interrupt(stride_simulation* simulation) {
   if (simulation != nullptr) simulation->session.interrupt();
 }
 
-int64_t stride_now(const stride_simulation* simulation) {
-  return simulation == nullptr ? INT64_MIN : picoseconds(simulation->session.now());
+stride_time stride_now(const stride_simulation* simulation) {
+  return simulation == nullptr ? kNoTime : c_time(simulation->session.now());
 }
 
-int64_t stride_start_time(const stride_simulation* simulation) {
-  return simulation == nullptr ? INT64_MIN : picoseconds(simulation->session.options().start);
+stride_time stride_start_time(const stride_simulation* simulation) {
+  return simulation == nullptr ? kNoTime : c_time(simulation->session.options().start);
 }
 
-int64_t stride_stop_time(const stride_simulation* simulation) {
-  return simulation == nullptr ? INT64_MIN : picoseconds(simulation->session.options().stop);
+stride_time stride_stop_time(const stride_simulation* simulation) {
+  return simulation == nullptr ? kNoTime : c_time(simulation->session.options().stop);
 }
 
 int stride_is_over(const stride_simulation* simulation) {
@@ -317,7 +328,7 @@ int stride_next_message(stride_simulation* simulation, stride_message* message) 
     simulation->elements = entry->value ? CElements(*std::move(entry->value)) : CElements();
     simulation->content = std::move(entry->content);
     give(message, {.size = 0,
-                   .time = picoseconds(entry->time),
+                   .time = c_time(entry->time),
                    .super_dense_index = entry->index,
                    .index = simulation->session.index(entry->id),
                    .is_received = entry->is_received,
@@ -351,7 +362,7 @@ stride_status stride_get_verdict(stride_simulation* simulation, size_t index,
                    .name = given.name.c_str(),
                    .text = given.text.c_str(),
                    .passed = given.passed ? static_cast<int>(*given.passed) : -1,
-                   .time = given.time ? picoseconds(*given.time) : INT64_MIN,
+                   .time = given.time ? c_time(*given.time) : kNoTime,
                    .margin = given.margin ? given.margin->value : std::nan("")});
   });
 }

@@ -12,7 +12,7 @@ namespace stride::remote {
 
 /// Of the messages (message.h). Raised with each change of them, and of the table of calls
 /// (wire/calls.h).
-inline constexpr unsigned kProtocol = 2;
+inline constexpr unsigned kProtocol = 3;
 
 enum class Side { Server, Master };
 

@@ -101,9 +101,9 @@ enum Flag : std::uint8_t { kRejected = 1, kEarlyReturn = 2, kEventNeeded = 4, kT
 struct SentStepResult {
   Time reached;
   std::uint8_t flags;
-  std::array<std::uint8_t, 7> unused{};
+  std::array<std::uint8_t, 15> unused{};
 };
-static_assert(sizeof(SentStepResult) == 16);
+static_assert(sizeof(SentStepResult) == 32);
 
 }  // namespace
 

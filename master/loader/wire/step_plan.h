@@ -100,7 +100,7 @@ struct StepRequest {
   }
   bool has(std::uint8_t flag) const { return (flags & flag) != 0; }
 };
-static_assert(sizeof(StepRequest) == 48);
+static_assert(sizeof(StepRequest) == 64);
 
 }  // namespace stride::isolation
 

@@ -15,6 +15,7 @@
 #include "master/base/files/input_file.h"
 #include "master/base/files/sha256.h"
 #include "master/base/state_archive.h"
+#include "master/base/time_text.h"
 
 namespace stride::checkpoint {
 namespace {
@@ -23,7 +24,7 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 /// Of what this version of stride writes: to be raised where states change.
-constexpr int kFormat = 1;
+constexpr int kFormat = 2;
 
 constexpr const char* kDescription = "checkpoint.json";
 constexpr const char* kDescriptionHash = "checkpoint.sha256";
@@ -45,8 +46,7 @@ Json description(const Checkpoint& checkpoint) {
         {{"name", name}, {"size", bytes.size()}, {"sha256", core::sha256(text_of(bytes))}});
   }
   return {{"stride checkpoint", kFormat},
-          {"time", to_seconds(checkpoint.time)},
-          {"picoseconds", checkpoint.time.time_since_epoch().count()},
+          {"time", core::to_text(checkpoint.time)},
           {"results", checkpoint.results.string()},
           {"interventions", checkpoint.interventions},
           {"provenance", recorders::to_json(checkpoint.provenance)},
@@ -105,7 +105,7 @@ Checkpoint read(const fs::path& file, const fs::path& folder) {
   const Json json = read_description(file, folder);
   Checkpoint checkpoint;
   checkpoint.provenance = recorders::provenance_of(json.at("provenance"));
-  checkpoint.time = Time(Duration(json.at("picoseconds").get<std::int64_t>()));
+  checkpoint.time = core::parse_time(json.at("time").get<std::string>());
   checkpoint.results = json.at("results").get<std::string>();
   checkpoint.interventions = json.at("interventions");
   for (const Json& unit : json.at("units")) {

@@ -10,7 +10,9 @@ void add(AnswerCheck& check, const core::EventResult& result) {
   check.add((result.discrete_states_need_update ? 1U : 0U) |
             (result.terminate_simulation ? 2U : 0U) | (result.next_event_time ? 4U : 0U));
   if (!result.next_event_time) return;
-  check.add(static_cast<std::uint64_t>(result.next_event_time->time_since_epoch().count()));
+  const auto [seconds, picoseconds] = split(result.next_event_time->time_since_epoch());
+  check.add(static_cast<std::uint64_t>(seconds));
+  check.add(static_cast<std::uint64_t>(picoseconds));
 }
 
 void add(AnswerCheck& check, const core::ClockInterval& answer) {

@@ -60,13 +60,10 @@ class RecordWriter {
   RecordWriter& operator=(const RecordWriter&) = delete;
 
   void put(std::uint8_t byte) { log_.tail().push_back(std::byte{byte}); }
-  void put_count(std::uint64_t count) {
-    for (; count >= 0x80; count >>= 7) put(static_cast<std::uint8_t>(count | 0x80));
-    put(static_cast<std::uint8_t>(count));
-  }
+  void put_count(std::uint64_t count) { put_digits(count); }
   void put_duration(Duration duration) {
-    const std::int64_t count = duration.count();
-    put_count((static_cast<std::uint64_t>(count) << 1) ^ static_cast<std::uint64_t>(count >> 63));
+    const Picoseconds count = duration.count();
+    put_digits((static_cast<Wide>(count) << 1) ^ static_cast<Wide>(count >> 127));
   }
   void put_time(Time time) { put_duration(time.time_since_epoch()); }
   void put_bytes(std::span<const std::byte> bytes) {
@@ -77,6 +74,14 @@ class RecordWriter {
   void put_values(VariableLists::Number number, VariableList& list, const core::ValueBlock& values);
 
  private:
+  __extension__ using Wide = unsigned __int128;
+
+  template <class Count>
+  void put_digits(Count count) {
+    for (; count >= 0x80; count >>= 7) put(static_cast<std::uint8_t>(count | 0x80));
+    put(static_cast<std::uint8_t>(count));
+  }
+
   ByteLog& log_;
 };
 

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <bit>
 #include <cctype>
+#include <chrono>
 #include <iterator>
+#include <limits>
 #include <string_view>
 #include <type_traits>
 #include <utility>
@@ -143,8 +145,11 @@ void VcdScope::write(core::OutputFile& file) const {
 }
 
 VcdRecorder::VcdRecorder(const core::System& system, std::filesystem::path file,
-                         core::OutputFile::Existing existing)
-    : system_(system), file_(std::move(file), {}, existing) {}
+                         core::OutputFile::Existing existing, Time stop)
+    : system_(system), file_(std::move(file), {}, existing) {
+  constexpr Duration kMost(std::numeric_limits<std::int64_t>::max());
+  if (stop.time_since_epoch() > kMost) tick_ = std::chrono::nanoseconds(1);
+}
 
 std::string VcdRecorder::next_code() { return core::vcd_code(codes_++); }
 
@@ -189,7 +194,8 @@ void VcdRecorder::on_start(std::span<const core::Signal> signals) {
   VcdScope top;
   declare_signals(signals, top);
   declare_messages(top);
-  file_.write("$version stride $end\n$timescale 1 ps $end\n");
+  const char* const tick = tick_ == Duration(1) ? "1 ps" : "1 ns";
+  file_.write(fmt::format("$version stride $end\n$timescale {} $end\n", tick));
   top.write(file_);
 }
 
@@ -197,7 +203,7 @@ void VcdRecorder::on_start(std::span<const core::Signal> signals) {
 void VcdRecorder::end_header(Time start) {
   if (start < Time()) {
     origin_ = start;
-    file_.write(fmt::format("$timezero {} $end\n", start.time_since_epoch().count()));
+    file_.write(fmt::format("$timezero {} $end\n", start.time_since_epoch() / tick_));
   }
   file_.write("$enddefinitions $end\n");
 }
@@ -207,7 +213,7 @@ void VcdRecorder::move_to(Time time) {
   if (!written_time_) end_header(time);
   written_time_ = time;
   file_.write('#');
-  file_.write_number((time - origin_).count());
+  file_.write_number(static_cast<std::int64_t>((time - origin_) / tick_));
   file_.write('\n');
 }
 
@@ -263,6 +269,7 @@ void VcdRecorder::persist(core::StateArchive& state) {
   });
   state.value(written_time_);
   state.value(origin_);
+  state.value(tick_);
   state.value(last_point_);
   state.value(is_first_point_);
 }

@@ -35,7 +35,8 @@ class VcdScope {
   std::vector<std::string> variables_;
 };
 
-/// signals.vcd: a value change dump (IEEE 1364) with a time scale of 1 ps, for GTKWave and others.
+/// signals.vcd: a value change dump (IEEE 1364) with a time scale of 1 ps, for GTKWave and others;
+/// of 1 ns where the stop time is later than the 64 bits of viewers have picoseconds for, 106 days.
 /// The parts of a structured name are scopes. The recorded signals are written at communication
 /// points, where they changed; each clock is an event at its exact time, and what it carries is
 /// written with it (Binary as a string of hexadecimal digits; strings are GTKWave's extension).
@@ -44,7 +45,8 @@ class VcdRecorder : public core::Observer {
  public:
   /// As CsvRecorder.
   VcdRecorder(const core::System& system, std::filesystem::path file,
-              core::OutputFile::Existing existing = core::OutputFile::Existing::Emptied);
+              core::OutputFile::Existing existing = core::OutputFile::Existing::Emptied,
+              Time stop = {});
 
   /// At a communication point, behind on_start(): as core::OutputFile::persist().
   void persist(core::StateArchive& state);
@@ -84,7 +86,8 @@ class VcdRecorder : public core::Observer {
   std::vector<VcdVariable> recorded_;
   std::vector<std::vector<MessageCodes>> messages_;  ///< by component and variable
   std::optional<Time> written_time_;
-  Time origin_{};  ///< of the time stamps
+  Time origin_{};     ///< of the time stamps
+  Duration tick_{1};  ///< the time scale
   Time last_point_{};
   bool is_first_point_ = true;
 };

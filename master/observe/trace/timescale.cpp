@@ -57,11 +57,11 @@ std::string Timescale::seconds(std::int64_t ticks) const {
 }
 
 std::int64_t Timescale::ticks_in(Duration duration) const {
-  constexpr std::int64_t kMost = std::numeric_limits<std::int64_t>::max();
-  std::int64_t ticks = duration.count();
+  constexpr Picoseconds kMost = std::numeric_limits<std::int64_t>::max();
+  Picoseconds ticks = duration.count();
   for (int i = -12; i < exponent; ++i) ticks /= 10;
-  for (int i = exponent; i < -12; ++i) ticks = ticks > kMost / 10 ? kMost : ticks * 10;
-  return ticks;
+  for (int i = exponent; i < -12; ++i) ticks = std::min(ticks * 10, kMost);
+  return static_cast<std::int64_t>(std::min(ticks, kMost));
 }
 
 }  // namespace stride::trace

@@ -65,9 +65,8 @@ std::vector<SignalTolerance> with_golden_tolerances(const fs::path& folder, Sett
 }
 
 bool is_earlier(const Difference& a, const Difference& b) {
-  constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::max();
-  const std::int64_t time_a = a.time.value_or(kNever);
-  const std::int64_t time_b = b.time.value_or(kNever);
+  const Time time_a = a.time.value_or(Time::max());
+  const Time time_b = b.time.value_or(Time::max());
   return time_a != time_b ? time_a < time_b : a.kind < b.kind;
 }
 

@@ -12,14 +12,15 @@ using report::Json;
 
 constexpr int kVersion = 1;
 
-Json time_entry(std::optional<std::int64_t> time) {
-  return time ? Json(to_seconds(Time(Duration(*time)))) : Json();
+template <class TimeOrDuration>
+Json time_entry(std::optional<TimeOrDuration> time) {
+  return time ? Json(to_seconds(*time)) : Json();
 }
 
 Json extreme_entry(const std::optional<Extreme>& extreme) {
   if (!extreme) return {};
   return {{"value", extreme->value},
-          {"time", time_entry(extreme->time)},
+          {"time", to_seconds(extreme->time)},
           {"a", extreme->a},
           {"b", extreme->b}};
 }

@@ -1,6 +1,7 @@
 #include "master/study/compare/outcomes.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <map>
@@ -20,23 +21,18 @@ namespace {
 using report::Json;
 
 /// Times of run.json are numbers of seconds, or there is none.
-std::optional<std::int64_t> time_of(const Json& object, const char* member) {
-  constexpr double kPerSecond = 1e12;
-  constexpr double kMost = 9e18;
+std::optional<Time> time_of(const Json& object, const char* member) {
   const Json& found = json_member(object, member);
-  if (!found.is_number()) return std::nullopt;
-  const double time = found.get<double>() * kPerSecond;
-  if (!(std::abs(time) < kMost)) return std::nullopt;
-  return std::llround(time);
+  if (!found.is_number() || !(std::abs(found.get<double>()) <= kMaxSeconds)) return std::nullopt;
+  return time_from_seconds(found.get<double>());
 }
 
-bool are_near(std::optional<std::int64_t> a, std::optional<std::int64_t> b,
-              std::int64_t tolerance) {
+bool are_near(std::optional<Time> a, std::optional<Time> b, Duration tolerance) {
   if (!a || !b) return a == b;
-  return (*a > *b ? *a - *b : *b - *a) <= tolerance;
+  return std::chrono::abs(*a - *b) <= tolerance;
 }
 
-std::optional<std::int64_t> earlier(std::optional<std::int64_t> a, std::optional<std::int64_t> b) {
+std::optional<Time> earlier(std::optional<Time> a, std::optional<Time> b) {
   if (!a || !b) return a ? a : b;
   return std::min(*a, *b);
 }
@@ -48,7 +44,7 @@ class OutcomeComparison {
         b_(b),
         is_exact_(!settings.time_tolerance &&
                   Tolerances(settings.tolerance, settings.tolerances).are_exact()),
-        time_tolerance_(settings.time_tolerance.value_or(0)) {}
+        time_tolerance_(settings.time_tolerance.value_or(Duration())) {}
 
   Differences differences() {
     compare_ends();
@@ -70,7 +66,7 @@ class OutcomeComparison {
     compare_words("error", time);
   }
 
-  bool compare_words(const char* member, std::optional<std::int64_t> time) {
+  bool compare_words(const char* member, std::optional<Time> time) {
     std::string a = json_word(a_.json, member);
     std::string b = json_word(b_.json, member);
     if (a == b) return true;
@@ -125,7 +121,7 @@ class OutcomeComparison {
   const RunRecord a_;
   const RunRecord b_;
   const bool is_exact_;
-  const std::int64_t time_tolerance_;
+  const Duration time_tolerance_;
   Differences differences_;
 };
 

@@ -23,10 +23,10 @@ void add(Streams& streams, const std::string& name, const std::string& variable,
   streams.order.push_back(place->second);
 }
 
-bool are_equal(const StreamEntry& a, const StreamEntry& b, std::optional<std::int64_t> tolerance) {
+bool are_equal(const StreamEntry& a, const StreamEntry& b, std::optional<Duration> tolerance) {
   if (!tolerance) return a == b;
-  const std::int64_t apart = a.time > b.time ? a.time - b.time : b.time - a.time;
-  return apart <= *tolerance && a.payload == b.payload && a.content == b.content;
+  return std::chrono::abs(a.time - b.time) <= *tolerance && a.payload == b.payload &&
+         a.content == b.content;
 }
 
 /// What tells it from the other one.
@@ -35,12 +35,12 @@ std::string text_of(const StreamEntry& entry, const StreamEntry& other) {
     if (entry.content != other.content) return entry.content;
     return entry.payload;
   }
-  if (entry.time != other.time) return fmt::format("at {} s", core::to_text(Duration(entry.time)));
+  if (entry.time != other.time) return fmt::format("at {} s", core::to_text(entry.time));
   return fmt::format("in iteration {}", entry.index);
 }
 
 std::optional<Difference> compare_entries(Kind kind, const std::string& name, const Entries& a,
-                                          const Entries& b, std::optional<std::int64_t> tolerance) {
+                                          const Entries& b, std::optional<Duration> tolerance) {
   Difference difference{kind, name, {}, {}, {}, 0};
   const std::size_t common = std::min(a.size(), b.size());
   for (std::size_t i = 0; i < common; ++i) {
@@ -81,7 +81,7 @@ std::map<std::string, std::pair<const Entries*, const Entries*>> pair_streams(
 
 struct Row {
   const std::string* stream;
-  std::int64_t time;
+  Time time;
 };
 
 std::vector<Row> selected_rows(const Streams& streams, const Selection& selection) {
@@ -132,7 +132,7 @@ Streams read_events(const std::filesystem::path& file) {
   const std::size_t component = table.place("component");
   const std::size_t kind = table.place("kind");
   while (table.next()) {
-    const std::int64_t at = table.time(time);
+    const Time at = table.time(time);
     if (table.field(kind).text != "event") continue;
     const std::string name = table.field(component).value();
     add(streams, name, name, {.time = at});
@@ -142,7 +142,7 @@ Streams read_events(const std::filesystem::path& file) {
 }
 
 Differences compare_streams(const Streams& a, const Streams& b,
-                            std::optional<std::int64_t> time_tolerance, const Selection& selection,
+                            std::optional<Duration> time_tolerance, const Selection& selection,
                             const std::string& file) {
   Differences differences;
   for (const auto& [name, entries] : pair_streams(a, b, selection)) {

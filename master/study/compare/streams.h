@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+#include <stride/time.h>
+
 #include "master/study/compare/criteria/difference.h"
 #include "master/study/compare/criteria/selection.h"
 
@@ -17,7 +19,7 @@ namespace stride::compare {
 
 /// The messages that one variable has sent or received, or the events of one component.
 struct StreamEntry {
-  std::int64_t time = 0;  ///< [ps]
+  Time time;
   std::uint64_t index = 0;
   std::string payload{};
   std::string content{};
@@ -46,7 +48,7 @@ Streams read_events(const std::filesystem::path& file);
 /// what they hold, without it all that the files have, also the order of the rows. Of events there
 /// is no selection. Takes linear time.
 Differences compare_streams(const Streams& a, const Streams& b,
-                            std::optional<std::int64_t> time_tolerance, const Selection& selection,
+                            std::optional<Duration> time_tolerance, const Selection& selection,
                             const std::string& file);
 
 }  // namespace stride::compare

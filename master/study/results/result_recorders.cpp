@@ -5,7 +5,7 @@
 
 namespace stride::results {
 
-ResultRecorders::ResultRecorders(const core::System& system, const ResultsTarget& target,
+ResultRecorders::ResultRecorders(const core::System& system, Time stop, const ResultsTarget& target,
                                  Beginning beginning) {
   using Existing = core::OutputFile::Existing;
   const auto& [folder, files] = target;
@@ -13,7 +13,7 @@ ResultRecorders::ResultRecorders(const core::System& system, const ResultsTarget
   const Existing signals = beginning == Beginning::Kept ? Existing::Kept : Existing::Emptied;
   if (!files.signals.empty()) signals_.emplace(system, folder / files.signals, signals);
   if (!files.events.empty()) events_.emplace(system, folder / files.events, all);
-  if (!files.trace.empty()) trace_.emplace(system, folder / files.trace, signals);
+  if (!files.trace.empty()) trace_.emplace(system, folder / files.trace, signals, stop);
   if (!files.activity.empty()) activity_.emplace(system, folder / files.activity, all);
 }
 

@@ -25,7 +25,8 @@ enum class Beginning {
 class ResultRecorders {
  public:
   /// Creates the files, or opens them. Throws core::Error.
-  ResultRecorders(const core::System& system, const ResultsTarget& target, Beginning beginning);
+  ResultRecorders(const core::System& system, Time stop, const ResultsTarget& target,
+                  Beginning beginning);
 
   void add_to(core::Simulation& simulation);
   void add_to(checkpoint::Checkpoint& checkpoint);

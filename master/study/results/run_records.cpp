@@ -35,7 +35,7 @@ RunRecords::RunRecords(const RecordedSubject& subject, core::Simulation& simulat
                        Beginning beginning)
     : subject_(subject),
       simulation_(simulation),
-      recorders_(subject_.loaded.system(), subject_.target, beginning),
+      recorders_(subject_.loaded.system(), subject_.options.stop, subject_.target, beginning),
       checks_(subject_.loaded.checks()),
       coverage_(subject_.loaded.coverage()) {
   recorders_.add_to(simulation_);

@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include "master/base/time_text.h"
+
 namespace stride::verify {
 namespace {
 
@@ -79,7 +81,7 @@ Deviation deviation(const std::vector<std::string>& names, const std::vector<Row
       if (!(share > result.worst)) continue;
       result.worst = share;
       result.text = fmt::format("at {} s '{}' is {} instead of {}",
-                                instant_text(expected[row].picoseconds), names[i], b, a);
+                                core::to_text(expected[row].time), names[i], b, a);
     }
   }
   return result;

@@ -1,6 +1,7 @@
 #include "master/study/verify/idle_comparison.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <iterator>
@@ -8,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "master/base/time_text.h"
 #include "master/engine/run/idle/idle_agreement.h"
 #include "master/study/verify/idle_run.h"
 
@@ -17,7 +19,7 @@ namespace {
 using core::Variable;
 
 struct Difference {
-  std::int64_t picoseconds = 0;
+  Time time;
   std::string text;
 };
 
@@ -60,22 +62,21 @@ class Comparison {
     const Duration shift = wander_ == Wander::Still ? Duration{} : tested_.step();
     const std::size_t common = std::min(full.size(), skipping.size());
     for (std::size_t i = 0; i < common; ++i) {
-      const std::int64_t apart = std::abs(full[i].picoseconds - skipping[i].picoseconds);
-      if (apart <= shift.count() && full[i].values == skipping[i].values) continue;
-      return Difference{std::min(full[i].picoseconds, skipping[i].picoseconds),
+      const Duration apart = std::chrono::abs(full[i].time - skipping[i].time);
+      if (apart <= shift && full[i].values == skipping[i].values) continue;
+      return Difference{std::min(full[i].time, skipping[i].time),
                         fmt::format("the event {} is at {} s, and without skipping {} is at {} s",
-                                    what_ticked(skipping[i]), instant_text(skipping[i].picoseconds),
-                                    what_ticked(full[i]), instant_text(full[i].picoseconds))};
+                                    what_ticked(skipping[i]), core::to_text(skipping[i].time),
+                                    what_ticked(full[i]), core::to_text(full[i].time))};
     }
     if (full.size() == skipping.size()) return std::nullopt;
     const bool is_missing = skipping.size() < full.size();
     const Row& row = (is_missing ? full : skipping)[common];
     const Time end = tested_.point(tested_.steps());
-    if (Time(Duration(row.picoseconds)) + shift >= end && shift > Duration{}) return std::nullopt;
-    return Difference{
-        row.picoseconds,
-        fmt::format("there is {}the event {} at {} s", is_missing ? "without skipping only " : "",
-                    what_ticked(row), instant_text(row.picoseconds))};
+    if (row.time + shift >= end && shift > Duration{}) return std::nullopt;
+    return Difference{row.time, fmt::format("there is {}the event {} at {} s",
+                                            is_missing ? "without skipping only " : "",
+                                            what_ticked(row), core::to_text(row.time))};
   }
 
   std::optional<Difference> of_points(const std::vector<Row>& full,
@@ -84,17 +85,17 @@ class Comparison {
     for (std::size_t row = 0; row < common; ++row) {
       for (std::size_t i = 0; i < outputs_.size(); ++i) {
         if (agrees(full, skipping[row], row, i)) continue;
-        return Difference{full[row].picoseconds,
-                          fmt::format("at {} s '{}' is {}, and {} without skipping{}",
-                                      instant_text(full[row].picoseconds), outputs_[i]->name,
-                                      skipping[row].values[i], full[row].values[i],
-                                      allowance_text(skipping[row], *outputs_[i]))};
+        return Difference{
+            full[row].time,
+            fmt::format("at {} s '{}' is {}, and {} without skipping{}",
+                        core::to_text(full[row].time), outputs_[i]->name, skipping[row].values[i],
+                        full[row].values[i], allowance_text(skipping[row], *outputs_[i]))};
       }
     }
     if (full.size() == skipping.size()) return std::nullopt;
-    const std::int64_t end = common == 0 ? 0 : full[common - 1].picoseconds;
+    const Time end = common == 0 ? Time() : full[common - 1].time;
     return Difference{end,
-                      fmt::format("after {} s only the run {} skipping goes on", instant_text(end),
+                      fmt::format("after {} s only the run {} skipping goes on", core::to_text(end),
                                   skipping.size() < full.size() ? "without" : "with")};
   }
 
@@ -135,7 +136,7 @@ std::optional<std::string> idle_difference(const TestedUnit& tested, const Recor
   const Comparison comparison(tested, wander);
   const auto event = comparison.of_events(rows_of(full, true), rows_of(skipping, true));
   const auto point = comparison.of_points(rows_of(full, false), rows_of(skipping, false));
-  if (event && point) return (event->picoseconds <= point->picoseconds ? event : point)->text;
+  if (event && point) return (event->time <= point->time ? event : point)->text;
   if (event) return event->text;
   if (point) return point->text;
   return std::nullopt;

@@ -72,8 +72,8 @@ Recording IdleRun::run() {
   }
   if (suspension_) catch_up(tested_.steps());
   Recording recording = instance_.recording();
-  recording.longest_promise = longest_promise_.count();
-  recording.longest_suspension = longest_suspension_.count();
+  recording.longest_promise = longest_promise_;
+  recording.longest_suspension = longest_suspension_;
   for (Row& row : rows_) recording.rows.push_back(std::move(row));
   return recording;
 }
@@ -183,7 +183,7 @@ std::vector<ValueBlock> IdleRun::read_outputs() {
 }
 
 void IdleRun::record(std::size_t k, const std::vector<ValueBlock>& outputs) {
-  Row row{tested_.point(k).time_since_epoch().count(), {}, false};
+  Row row{tested_.point(k), {}, false};
   for (const ValueBlock& value : outputs) row.values.push_back(core::elements_text(value));
   row.values.push_back(std::to_string(used_promises_));
   rows_.push_back(std::move(row));

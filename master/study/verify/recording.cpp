@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "master/base/error.h"
+#include "master/base/time_text.h"
 #include "master/study/verify/deviation.h"
 
 namespace stride::verify {
@@ -27,11 +28,11 @@ std::string describe(const Row& row) {
 
 std::string compare(const std::vector<std::string>& names, const Row& expected, const Row& seen,
                     const std::string& expected_when, const std::string& seen_when) {
-  const std::string at = fmt::format("at {} s ", instant_text(expected.picoseconds));
-  if (expected.picoseconds != seen.picoseconds || expected.is_event != seen.is_event) {
+  const std::string at = fmt::format("at {} s ", core::to_text(expected.time));
+  if (expected.time != seen.time || expected.is_event != seen.is_event) {
     const auto what = [](const Row& row) {
       return fmt::format("{} at {} s", row.is_event ? "the event " + describe(row) : "no event",
-                         instant_text(row.picoseconds));
+                         core::to_text(row.time));
     };
     return fmt::format("there is {} {}, and {} {}", what(expected), expected_when, what(seen),
                        seen_when);
@@ -103,8 +104,7 @@ std::optional<std::string> difference(const TestedUnit& tested, const std::vecto
   }
   if (expected.size() == seen.size()) return std::nullopt;
   const bool is_shorter = seen.size() < expected.size();
-  const std::string end =
-      common > 0 ? instant_text(expected[common - 1].picoseconds) : std::string("0");
+  const std::string end = common > 0 ? core::to_text(expected[common - 1].time) : std::string("0");
   return fmt::format("nothing follows after {} s {}, but something does {}", end,
                      is_shorter ? seen_when : expected_when,
                      is_shorter ? expected_when : seen_when);
@@ -122,38 +122,49 @@ std::optional<std::string> difference_beyond_rounding(
 std::string to_text(const Recording& recording) {
   Json rows = Json::array();
   for (const Row& row : recording.rows) {
-    rows.push_back({row.picoseconds, row.is_event, row.values});
+    rows.push_back({core::to_text(row.time), row.is_event, row.values});
   }
   Json steps = Json::array();
   for (const StepOutcome& step : recording.steps) {
-    steps.push_back({step.begin, step.end, step.is_rejected, step.needs_event, step.ends_run});
+    steps.push_back({core::to_text(step.begin), core::to_text(step.end), step.is_rejected,
+                     step.needs_event, step.ends_run});
   }
-  return Json{
-      {"rows", std::move(rows)},
-      {"steps", std::move(steps)},
-      {"counts",
-       {recording.rejections, recording.early_returns, recording.events,
-        recording.first_early_return, recording.longest_promise, recording.longest_suspension}},
-      {"ended", recording.has_ended}}
+  return Json{{"rows", std::move(rows)},
+              {"steps", std::move(steps)},
+              {"counts", {recording.rejections, recording.early_returns, recording.events}},
+              {"first early return", core::to_text(recording.first_early_return)},
+              {"longest promise", recording.longest_promise == Duration::max()
+                                      ? Json()
+                                      : Json(core::to_text(recording.longest_promise))},
+              {"longest suspension", core::to_text(recording.longest_suspension)},
+              {"ended", recording.has_ended}}
       .dump(-1, ' ', true, Json::error_handler_t::replace);
 }
+
+namespace {
+
+Time time_of(const Json& text) { return core::parse_time(text.get<std::string>()); }
+Duration duration_of(const Json& text) { return core::parse_seconds(text.get<std::string>()); }
+
+}  // namespace
 
 Recording recording_from_text(const std::string& text) {
   const Json json = Json::parse(text);
   Recording recording;
   for (const Json& row : json["rows"]) {
     recording.rows.push_back(
-        {row[0].get<std::int64_t>(), row[2].get<std::vector<std::string>>(), row[1].get<bool>()});
+        {time_of(row[0]), row[2].get<std::vector<std::string>>(), row[1].get<bool>()});
   }
   for (const Json& step : json["steps"]) {
-    recording.steps.push_back({step[0], step[1], step[2], step[3], step[4]});
+    recording.steps.push_back({time_of(step[0]), time_of(step[1]), step[2], step[3], step[4]});
   }
   recording.rejections = json["counts"][0];
   recording.early_returns = json["counts"][1];
   recording.events = json["counts"][2];
-  recording.first_early_return = json["counts"][3];
-  recording.longest_promise = json["counts"][4];
-  recording.longest_suspension = json["counts"][5];
+  recording.first_early_return = time_of(json["first early return"]);
+  const Json& promise = json["longest promise"];
+  recording.longest_promise = promise.is_null() ? Duration::max() : duration_of(promise);
+  recording.longest_suspension = duration_of(json["longest suspension"]);
   recording.has_ended = json["ended"];
   return recording;
 }

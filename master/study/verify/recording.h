@@ -2,10 +2,11 @@
 #ifndef STRIDE_MASTER_STUDY_VERIFY_RECORDING_H
 #define STRIDE_MASTER_STUDY_VERIFY_RECORDING_H
 
-#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
+
+#include <stride/time.h>
 
 #include "master/study/verify/row.h"
 #include "master/study/verify/step_outcome.h"
@@ -18,10 +19,10 @@ struct Recording {
   std::vector<StepOutcome> steps{};
   /// Beside what was recorded, how the unit went on.
   std::size_t rejections = 0, early_returns = 0, events = 0;
-  std::int64_t first_early_return = 0;  ///< [ps]
-  std::int64_t longest_promise = 0;     ///< [ps]; of one without an end Duration::max()
-  std::int64_t longest_suspension = 0;  ///< [ps]
-  bool has_ended = false;               ///< the unit wanted the simulation to end
+  Time first_early_return{};
+  Duration longest_promise{};  ///< of one without an end Duration::max()
+  Duration longest_suspension{};
+  bool has_ended = false;  ///< the unit wanted the simulation to end
 
   bool operator==(const Recording&) const = default;
   Recording without_events() const;

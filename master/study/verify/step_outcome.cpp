@@ -1,26 +1,26 @@
 #include "master/study/verify/step_outcome.h"
 
 #include <algorithm>
-#include <cstdlib>
+#include <chrono>
 
 #include <fmt/format.h>
 
 #include "master/base/text/counted.h"
+#include "master/base/time_text.h"
 #include "master/study/verify/deviation.h"
-#include "master/study/verify/row.h"
 
 namespace stride::verify {
 namespace {
 
 std::string end_of(const StepOutcome& step) {
   if (step.is_rejected) return "is rejected";
-  return fmt::format("ends at {} s{}{}", instant_text(step.end),
+  return fmt::format("ends at {} s{}{}", core::to_text(step.end),
                      step.needs_event ? " with an event" : "",
                      step.ends_run ? " and ends the run" : "");
 }
 
-bool is_near(std::int64_t one, std::int64_t other) {
-  return static_cast<double>(std::abs(one - other)) <= kRounding * static_cast<double>(one);
+bool is_near(Time one, Time other) {
+  return to_seconds(std::chrono::abs(one - other)) <= kRounding * to_seconds(one);
 }
 
 bool is_rounded(const StepOutcome& one, const StepOutcome& other) {
@@ -40,7 +40,7 @@ std::optional<std::string> difference_beyond_rounding(const std::vector<StepOutc
   for (std::size_t i = 0; i < common; ++i) {
     if (expected[i] == seen[i]) continue;
     std::string text =
-        fmt::format("the step from {} s {} {}, and {} {}", instant_text(expected[i].begin),
+        fmt::format("the step from {} s {} {}, and {} {}", core::to_text(expected[i].begin),
                     end_of(expected[i]), expected_when, end_of(seen[i]), seen_when);
     if (!is_rounded(expected[i], seen[i])) return text;
     if (note.empty()) note = std::move(text);

@@ -2,15 +2,16 @@
 #ifndef STRIDE_MASTER_STUDY_VERIFY_STEP_OUTCOME_H
 #define STRIDE_MASTER_STUDY_VERIFY_STEP_OUTCOME_H
 
-#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include <stride/time.h>
+
 namespace stride::verify {
 
 struct StepOutcome {
-  std::int64_t begin = 0, end = 0;  ///< [ps]
+  Time begin{}, end{};
   bool is_rejected = false;
   bool needs_event = false;
   bool ends_run = false;  ///< the unit wanted the simulation to end

@@ -189,7 +189,7 @@ void TestInstance::run_to(std::size_t k, bool records) {
 
 void TestInstance::record_point() {
   if (recording_.has_ended) return;
-  recording_.rows.push_back({position_.now.time_since_epoch().count(), observe(), false});
+  recording_.rows.push_back({position_.now, observe(), false});
 }
 
 void TestInstance::hand_over_inputs() {
@@ -245,7 +245,7 @@ bool TestInstance::try_step(Time to) {
     return false;
   }
   if (result.early_return && ++recording_.early_returns == 1) {
-    recording_.first_early_return = result.reached.time_since_epoch().count();
+    recording_.first_early_return = result.reached;
   }
   const bool stands_still = result.reached == position_.now && !result.event_handling_needed;
   if (stands_still) {
@@ -259,10 +259,9 @@ bool TestInstance::try_step(Time to) {
 }
 
 void TestInstance::record_step(const core::StepResult& result) {
-  const auto picoseconds = [](Time time) { return time.time_since_epoch().count(); };
   const Time end = result.rejected ? position_.now : result.reached;
-  recording_.steps.push_back({picoseconds(position_.now), picoseconds(end), result.rejected,
-                              result.event_handling_needed, result.terminate_simulation});
+  recording_.steps.push_back({position_.now, end, result.rejected, result.event_handling_needed,
+                              result.terminate_simulation});
 }
 
 void TestInstance::clear_recorded() {
@@ -339,7 +338,7 @@ void TestInstance::finish_events() {
 void TestInstance::record_ticks() {
   const core::UnitDescription& description = tested_.description();
   std::vector<ValueReference> active = ticking_;
-  Row row{position_.now.time_since_epoch().count(), {}, true};
+  Row row{position_.now, {}, true};
   for (const Variable& variable : description.variables) {
     if (variable.type != ValueType::Clock || variable.causality != Causality::Output) continue;
     if (!get(variable).numbers<bool>()[0]) continue;

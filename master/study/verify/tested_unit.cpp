@@ -102,7 +102,7 @@ core::Interval TestedUnit::chosen_step() const {
 void TestedUnit::choose_times() {
   const core::UnitDescription& unit = description();
   grid_ = core::Grid(unit.default_start.value_or(Time{}), chosen_step());
-  std::int64_t steps = kDefaultSteps;
+  Picoseconds steps = kDefaultSteps;
   const auto values = static_cast<std::int64_t>(std::max<std::size_t>(1, observed_count_));
   if (request_.stop) {
     steps = *request_.stop / step();
@@ -114,9 +114,12 @@ void TestedUnit::choose_times() {
                        "choose a smaller --step or a later --stop");
     }
   } else if (unit.default_stop) {
-    steps = std::clamp((*unit.default_stop - start()) / step(), kFewestSteps, kMostSimulatedSteps);
+    steps = std::clamp<Picoseconds>((*unit.default_stop - start()) / step(), kFewestSteps,
+                                    kMostSimulatedSteps);
   }
-  if (!request_.stop) steps = std::min(steps, std::max(kFewestSteps, kMostValues / values));
+  if (!request_.stop) {
+    steps = std::min<Picoseconds>(steps, std::max(kFewestSteps, kMostValues / values));
+  }
   steps_ = static_cast<std::size_t>(steps);
 }
 

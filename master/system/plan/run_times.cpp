@@ -65,7 +65,7 @@ Time chosen_stop(const ResolvedSystem& resolved, const ScenarioRequest& request)
   }
   if (*stop == Time::max()) {
     core::fail_input(resolved.of_file(),
-                     "the stop time of a unit's DefaultExperiment is beyond 9.2e6 s, the largest "
+                     "the stop time of a unit's DefaultExperiment is beyond 1e15 s, the largest "
                      "time",
                      hint);
   }

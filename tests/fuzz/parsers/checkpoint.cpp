@@ -59,7 +59,7 @@ const Registration kCheckpointParsers(
         {.name = "checkpoint_file", .read = read_checkpoint, .make_seed = written_checkpoint},
         {.name = "checkpoint_description",
          .read = read_description,
-         .seeds = {R"({"stride checkpoint": 1, "time": 1.5, "picoseconds": 1500000000000,
+         .seeds = {R"({"stride checkpoint": 2, "time": "1.5",
            "results": "/tmp", "interventions": 0,
            "provenance": {"version": "0.1.0", "date": "2026-01-01T00:00:00Z", "host": "desk",
              "commands": [{"words": ["run", "a.ssd"], "folder": "/tmp"}],

@@ -63,9 +63,9 @@ TEST_CASE("What is not a time is refused, and the text says what was expected") 
       {"1.2.3", "is not a number"},
       {"-1", "is negative"},
       {"-1e-12", "is negative"},
-      {"9200000.000000000001", "is beyond 9.2e6 s"},
-      {"1e7", "is beyond 9.2e6 s"},
-      {"1e99999999999999999999", "is beyond 9.2e6 s"},
+      {"1000000000000000.000000000001", "is beyond 1e15 s"},
+      {"1e16", "is beyond 1e15 s"},
+      {"1e99999999999999999999", "is beyond 1e15 s"},
   }));
   CAPTURE(text);
   CHECK_THROWS_AS(parse_seconds(text), std::invalid_argument);
@@ -78,7 +78,7 @@ TEST_CASE("an instant may be before 0 s") {
   CHECK(parse_time(" -1e-12 ") == Time(Duration(-1)));
   CHECK(parse_time("-0") == Time());
   CHECK(parse_time("14.2") == Time(std::chrono::milliseconds(14'200)));
-  CHECK_THROWS_WITH(parse_time("-1e7"), Catch::Contains("'-1e7' is beyond 9.2e6 s"));
+  CHECK_THROWS_WITH(parse_time("-1e16"), Catch::Contains("'-1e16' is beyond 1e15 s"));
   CHECK_THROWS_WITH(parse_time("--1"), Catch::Contains("is not a number"));
 }
 

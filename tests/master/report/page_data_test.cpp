@@ -57,6 +57,19 @@ TEST_CASE("integers come back, and empty arrays") {
   CHECK(round_trip(std::vector<double>{}).empty());
 }
 
+TEST_CASE("times are 64-bit counts of picoseconds where these are enough") {
+  using namespace std::chrono_literals;
+  const std::vector<stride::Time> near{stride::Time(-1s), stride::Time(2s)};
+  const json narrow = json::parse(blob(std::span(near)));
+  CHECK(narrow["type"] == "int64");
+  CHECK(unpacked<std::int64_t>(narrow) ==
+        std::vector<std::int64_t>{-1'000'000'000'000, 2'000'000'000'000});
+  const std::vector<stride::Time> years{stride::Time(2s), stride::Time(3155760000s)};
+  const json wide = json::parse(blob(std::span(years)));
+  CHECK(wide["type"] == "int128");
+  CHECK(unpacked<stride::Time>(wide) == years);
+}
+
 TEST_CASE("arrays of several pieces come back, whether they can be compressed or not") {
   std::mt19937_64 random(4);
   std::vector<std::int64_t> noise(400'001);

@@ -144,7 +144,7 @@ TEST_CASE("Every error has the file and the line") {
     check([](Lines& l) { l.waypoint = R"(<motion><waypoint pose="rest"/></motion>)"; },
           "4:", "'at'");
     check([](Lines& l) { l.waypoint = R"(<motion><waypoint at="-1" pose="rest"/></motion>)"; },
-          "4:", "0 to 9.2e6 seconds");
+          "4:", "0 to 1e15 seconds");
     check(
         [](Lines& l) {
           l.waypoint =

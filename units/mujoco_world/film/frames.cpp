@@ -10,7 +10,6 @@
 #include <fcntl.h>
 #include <unistd.h>
 
-#include "units/mujoco_world/seconds.h"
 #include "units/mujoco_world/write_error.h"
 
 namespace mujoco_world::film {
@@ -78,7 +77,7 @@ void Frames::read_rows(stride::Time last) {
   if (!std::getline(list, line) || line + "\n" != kHeader) return;
   while (std::getline(list, line) && !list.eof()) {
     const std::size_t comma = std::min(line.find(','), line.size());
-    const auto time = time_of(line.substr(0, comma));
+    const auto time = stride::time_of_decimal(line.substr(0, comma));
     const std::string name = picture_name(rows_.size());
     std::error_code ignored;
     if (!time || *time > last || (!rows_.empty() && *time <= rows_.back().time)) return;
@@ -96,7 +95,7 @@ fs::path Frames::picture(std::size_t number) const { return folder_ / picture_na
 void Frames::add(stride::Time time, const std::vector<std::uint8_t>& jpeg) {
   const std::size_t number = rows_.size();
   write_file(picture(number), jpeg);
-  const std::string line = seconds_text(time) + "," + picture_name(number) + "\n";
+  const std::string line = stride::decimal_seconds(time) + "," + picture_name(number) + "\n";
   write_line(line, end());
   rows_.push_back({time, end() + static_cast<off_t>(line.size())});
 }

@@ -11,7 +11,6 @@
 #include <system_error>
 #include <utility>
 
-#include "units/mujoco_world/seconds.h"
 #include "units/mujoco_world/write_error.h"
 
 namespace mujoco_world::scene {
@@ -94,16 +93,14 @@ Value rotation(const double* quaternion) {
 void SceneState::write(stride::StateWriter& writer) const {
   writer.write(has_begun);
   if (!has_begun) return;
-  writer.write(start.time_since_epoch().count());
+  writer.write(start);
   animation.write(writer);
 }
 
 void SceneState::read(stride::StateReader& reader) {
   reader.read(has_begun);
   if (!has_begun) return;
-  Duration::rep count = 0;
-  reader.read(count);
-  start = Time(Duration(count));
+  reader.read(start);
   animation.read(reader);
 }
 
@@ -164,8 +161,8 @@ void Scene::write() { write_to_file(world_.now(), values()); }
 void Scene::write_to_file(Time end, const std::vector<Value>& values) {
   const auto begin = Clock::now();
   RunNotes notes;
-  notes.start_time = seconds_text(start_);
-  notes.stop_time = seconds_text(end);
+  notes.start_time = stride::decimal_seconds(start_);
+  notes.stop_time = stride::decimal_seconds(end);
   notes.interval = stride::to_seconds(interval_);
   notes.tolerance = animation_.tolerance();
   notes.resolution = animation_.resolution();

@@ -54,9 +54,8 @@ class Cistern : public stride::process::Program {
   Time when_full(Time time) const {
     if (volume_ >= capacity_ || inflow_ <= 0) return Time::max();
     const double picoseconds = std::ceil((capacity_ - volume_) / inflow_ * 1e12);
-    constexpr double kNever = 9e18;
-    return picoseconds < kNever
-               ? stride::later(time, Duration(static_cast<std::int64_t>(picoseconds)))
+    return picoseconds < stride::kMaxSeconds * 1e12
+               ? stride::later(time, Duration(static_cast<stride::Picoseconds>(picoseconds)))
                : Time::max();
   }
 

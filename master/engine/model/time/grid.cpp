@@ -5,8 +5,6 @@
 namespace stride::core {
 namespace {
 
-__extension__ using Wide = unsigned __int128;
-
 /// A billionth of a step; at least a picosecond where that is not more than a millionth.
 Duration negligible_part(Duration step) {
   constexpr Duration kLeast = std::chrono::microseconds(1);
@@ -17,7 +15,7 @@ Duration negligible_part(Duration step) {
 
 Grid::Grid(Time start, const Interval& step)
     : start_(start),
-      step_(std::min(step, Interval(Duration::max()))),
+      step_(std::min(step, Interval::from_seconds(kMaxSeconds))),
       is_whole_(step_.is_whole()),
       denominator_(step_.parts().denominator),
       regular_(step_.rounded()),
@@ -26,7 +24,7 @@ Grid::Grid(Time start, const Interval& step)
       ratio_(step_.ratio()) {
   const Interval::Parts parts = step_.parts();
   const Wide numerator = Wide{parts.numerator_high} << 64 | parts.numerator_low;
-  whole_ = static_cast<std::uint64_t>(numerator / denominator_);
+  whole_ = numerator / denominator_;
   fraction_ = static_cast<std::uint64_t>(numerator % denominator_);
 }
 
@@ -34,9 +32,10 @@ Time Grid::fractional_point(std::uint64_t index) const {
   return tick_time(start_, {}, step_, index).value_or(Time::max());
 }
 
-std::uint64_t Grid::fractional_index(std::uint64_t since) const {
-  const Wide numerator = Wide{whole_} * denominator_ + fraction_;
-  const Wide most = Wide{since + 1} * denominator_ - denominator_ / 2 - 1;
+/// No product is too wide: a step's numerator has 57 bits where its denominator is not 1.
+std::uint64_t Grid::fractional_index(Wide since) const {
+  const Wide numerator = whole_ * denominator_ + fraction_;
+  const Wide most = (since + 1) * denominator_ - denominator_ / 2 - 1;
   return static_cast<std::uint64_t>(most / numerator);
 }
 

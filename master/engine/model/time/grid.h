@@ -13,23 +13,23 @@ namespace stride::core {
 /// Point k is at start + k * step, rounded once to the picosecond, never at a sum of rounded steps.
 /// So steps of 1/3 s meet each whole second, and their sizes differ by a picosecond at most.
 class Grid {
+  __extension__ using Wide = unsigned __int128;
+
  public:
   /// The step is one picosecond at least.
   Grid(Time start, const Interval& step);
 
   Time start() const { return start_; }
-  /// Whether each point is a whole number of picoseconds before it is rounded.
-  bool is_whole() const { return is_whole_; }
   const Interval& step() const { return step_; }
 
-  /// Time::max() if it would be later than that.
+  /// Later than any stop time if it would be beyond kMaxSeconds.
   Time point(std::uint64_t index) const {
     return is_whole_ ? whole_point(index) : fractional_point(index);
   }
   /// The last point that is not later than a time, which is not before the start.
   std::uint64_t index_at(Time time) const {
-    const auto since = static_cast<std::uint64_t>((time - start_).count());
-    return is_whole_ ? since / whole_ : fractional_index(since);
+    const auto since = static_cast<Wide>((time - start_).count());
+    return is_whole_ ? static_cast<std::uint64_t>(since / whole_) : fractional_index(since);
   }
   Time last_point(Time time) const { return point(index_at(time)); }
   bool has(Time time) const { return last_point(time) == time; }
@@ -51,19 +51,27 @@ class Grid {
     return !is_whole_ && is_regular(size) ? step_.seconds() : to_seconds(size);
   }
 
-  /// Goes from point to point of a grid that is_whole(), by one addition.
-  class WholeWalk {
+  /// Whether so many steps from a point on are whole picoseconds that 64 bits can count.
+  bool is_narrow(std::uint64_t steps, Time from) const {
+    return is_whole_ && detail::is_narrow(start_.time_since_epoch().count()) &&
+           detail::is_narrow(point(index_at(from) + steps).time_since_epoch().count());
+  }
+
+  /// Goes from point to point where is_narrow(), by one addition.
+  class NarrowWalk {
    public:
     /// From a point.
-    WholeWalk(const Grid& grid, Time point) : time_(point), size_(grid.regular_) {}
+    NarrowWalk(const Grid& grid, Time point)
+        : count_(static_cast<std::int64_t>(point.time_since_epoch().count())),
+          size_(static_cast<std::int64_t>(grid.regular_.count())) {}
 
-    Time time() const { return time_; }
-    double seconds() const { return to_seconds(time_); }
-    void advance() { time_ += size_; }
+    Time time() const { return Time(Duration(count_)); }
+    double seconds() const { return static_cast<double>(count_) / 1e12; }
+    void advance() { count_ += size_; }
 
    private:
-    Time time_;
-    const Duration size_;
+    std::int64_t count_;  ///< of picoseconds
+    const std::int64_t size_;
   };
 
   /// Goes from point to point of any grid, without a division.
@@ -81,7 +89,7 @@ class Grid {
       rest_ += grid_.fraction_;
       const bool carries = rest_ >= grid_.denominator_;
       if (carries) rest_ -= grid_.denominator_;
-      time_ += Duration(static_cast<std::int64_t>(grid_.whole_ + carries));
+      time_ += Duration(static_cast<Picoseconds>(grid_.whole_ + carries));
     }
 
    private:
@@ -93,12 +101,12 @@ class Grid {
 
  private:
   Time whole_point(std::uint64_t index) const {
-    std::int64_t count = 0;
+    Picoseconds count = 0;
     if (__builtin_mul_overflow(index, whole_, &count)) return Time::max();
     return later(start_, Duration(count));
   }
   Time fractional_point(std::uint64_t index) const;
-  std::uint64_t fractional_index(std::uint64_t since) const;
+  std::uint64_t fractional_index(Wide since) const;
   double point_seconds(Time time) const;
   double point_seconds(std::uint64_t index) const {
     return to_seconds(start_) + static_cast<double>(index) * ratio_.numerator / ratio_.denominator;
@@ -107,7 +115,7 @@ class Grid {
   Time start_;
   Interval step_;
   bool is_whole_;
-  std::uint64_t whole_;  ///< of the step, in picoseconds: whole_ + fraction_ / denominator_
+  Wide whole_;  ///< of the step, in picoseconds: whole_ + fraction_ / denominator_
   std::uint64_t fraction_;
   std::uint64_t denominator_;
   Duration regular_;

@@ -25,6 +25,9 @@ constexpr std::uint64_t kPicoseconds = 1'000'000'000'000;
 /// So that the sum of two fractions of different denominators fits into 128 bits.
 constexpr std::uint64_t kMaxDenominator = std::uint64_t{1} << 62;
 constexpr int kMaxDecimals = 18;  // 10^18 < 2^62
+/// [ps] The sum of a few of them has room in 128 bits.
+constexpr Wide kMost = Wide{static_cast<std::uint64_t>(kMaxSeconds)} * kPicoseconds;
+constexpr Time kLatest = Time(Duration(static_cast<Picoseconds>(kMost)));
 
 Wide greatest_common_divisor(Wide a, Wide b) {
   while (b != 0) {
@@ -136,7 +139,7 @@ Interval Interval::from_seconds(double seconds) {
 
 Interval Interval::from_duration(Duration duration) {
   if (duration < Duration{}) throw std::invalid_argument("it is negative");
-  return {static_cast<std::uint64_t>(duration.count()), 1};
+  return {static_cast<Wide>(duration.count()), 1};
 }
 
 Interval Interval::parse(std::string_view seconds) {
@@ -206,23 +209,21 @@ std::string to_text(const Interval& interval) {
 
 std::optional<Time> tick_time(Time base, const Interval& shift, const Interval& interval,
                               std::uint64_t count) {
-  constexpr Wide kMax = std::numeric_limits<std::int64_t>::max();
-  if (interval.numerator_ != 0 && count > ~Wide{0} / interval.numerator_) return std::nullopt;
-  const Wide repeated = count * interval.numerator_;
+  // whole picoseconds and what is left are repeated apart, so that no product is too wide
+  const Wide fractions = count * (interval.numerator_ % interval.denominator_);
+  const Wide rest = fractions % interval.denominator_;
   const Wide shift_rest = shift.numerator_ % shift.denominator_;
-  const Wide rest = repeated % interval.denominator_;
   // two fractions below 1, so that their rounded sum is 0, 1 or 2
   const Wide denominator = Wide{shift.denominator_} * interval.denominator_;
   const Wide sum = shift_rest * interval.denominator_ + rest * shift.denominator_;
   const Wide rounded = (2 * sum + denominator) / 2 / denominator;
+
+  const Wide whole = interval.numerator_ / interval.denominator_;
   const Wide shift_whole = shift.numerator_ / shift.denominator_;
-  const Wide whole = repeated / interval.denominator_;
-  if (shift_whole > kMax || whole > kMax) return std::nullopt;
-  const Wide duration = shift_whole + whole + rounded;
-  const auto start = base.time_since_epoch().count();
-  const Wide left = start < 0 ? kMax : kMax - static_cast<Wide>(start);
-  if (duration > left) return std::nullopt;
-  return base + Duration(static_cast<std::int64_t>(duration));
+  if (shift_whole > kMost || (whole != 0 && count > kMost / whole)) return std::nullopt;
+  const Wide duration = shift_whole + count * whole + fractions / interval.denominator_ + rounded;
+  const Time time = base + Duration(static_cast<Picoseconds>(duration));
+  return time <= kLatest ? std::optional(time) : std::nullopt;
 }
 
 }  // namespace stride::core

@@ -73,7 +73,7 @@ class EventHandler : private OrderedEvaluation::Participants,
   /// pass_quietly(); the least time where a unit may have an event at any of them.
   Time quiet_until() const;
   /// Instead of begin_instant() and handle_events(), at a communication point before that.
-  void pass_quietly(Time time) {
+  void pass_quietly(const Time& time) {
     index_ = 0;
     time_ = time;
     exchange_.route(time);

@@ -101,6 +101,7 @@ Exchange::Exchange(const System& system, std::span<const VariableId> observed,
   }
   for (Transfers* const transfers : {&outputs_, &sampled_outputs_}) add_item_checks(*transfers);
   has_other_types_ |= !items_.is_empty();
+  has_further_ = has_other_types_;
   make_ports();
 }
 
@@ -391,7 +392,7 @@ void Exchange::add_changes(const Transfer& transfer, const ValueBlock& before,
 }
 
 template <class Real, class Other>
-bool Exchange::RealLists<Real, Other>::route() const {
+[[gnu::always_inline]] inline bool Exchange::RealLists<Real, Other>::route() const {
   bool is_odd = false;
   for (const auto& [to, from] : plain) {
     const Real value = *from;
@@ -412,9 +413,13 @@ bool Exchange::RealLists<Real, Other>::route() const {
   return is_odd;
 }
 
-void Exchange::route(Time time) {
+void Exchange::route(const Time& time) {
   ++route_;
-  bool is_odd = doubles_.route();
+  const bool is_odd = doubles_.route();
+  if (is_odd | has_further_) route_further(is_odd, time);
+}
+
+void Exchange::route_further(bool is_odd, const Time& time) {
   if (has_other_types_) {
     route_other_types(time);
     is_odd |= floats_.route();
@@ -427,10 +432,12 @@ void Exchange::route(Time time) {
 void Exchange::force(VariableId input, const ValueBlock& value) {
   release(input);
   keep(forced_.emplace_back(Forced{input, slice(input), value}));
+  has_further_ = true;
 }
 
 void Exchange::release(VariableId input) {
   std::erase_if(forced_, [&](const Forced& forced) { return forced.input == input; });
+  has_further_ = has_other_types_ || !forced_.empty();
 }
 
 ValueBlock Exchange::value(VariableId id) {

@@ -56,7 +56,7 @@ class Exchange {
   void read_outputs(std::size_t component, Unit& unit);
   /// Copies the outputs of all units to the inputs of all units. Throws Error (Run) where a
   /// connected output is NaN, or an Enumeration has a value that is not an item.
-  void route(Time time);
+  void route(const Time& time);
   /// Throws as route() does, which has nothing to copy.
   void check_values(Time time) const;
   /// Of connected outputs only; throws for what is beyond the range of their inputs, too.
@@ -277,6 +277,7 @@ class Exchange {
   bool any_discrete_change(std::size_t component) const;
   void write_discrete_inputs(std::size_t component, Unit& unit);
   void make_ports();
+  void route_further(bool is_odd, const Time& time);
   void route_other_types(Time time);
   void add_changes(const Transfer& transfer, const ValueBlock& before,
                    std::vector<VariableId>& changes) const;
@@ -321,6 +322,7 @@ class Exchange {
   RealLists<double, float> doubles_;
   RealLists<float, double> floats_;
   bool has_other_types_ = false;  ///< than Float64, to be copied or checked
+  bool has_further_ = false;      ///< other types, or what is forced
 };
 
 }  // namespace stride::core

@@ -16,7 +16,7 @@ constexpr double kGrow = 5;
 constexpr double kLeastRatio = 1e-4;  // smaller errors are as good as none
 
 Duration scaled(Duration duration, double factor) {
-  return Duration(static_cast<std::int64_t>(static_cast<double>(duration.count()) * factor));
+  return Duration(static_cast<Picoseconds>(static_cast<double>(duration.count()) * factor));
 }
 
 }  // namespace

@@ -130,21 +130,6 @@ Time Stepper::advance(Time from, Time target) {
   return reached;
 }
 
-Time Stepper::advance_regularly(const StepInterval& interval) {
-  ++communication_step_;
-  early_stop_.by = nullptr;
-  has_requests_ = was_parallel_ = is_short_end_ = false;
-  step_clock_.measure(false);
-  UnitStep* last = nullptr;
-  const bool are_in_rows = are_all_in_rows_ && exchange_.has_all_to_write();
-  if (are_in_rows && step_rows(rows_, last, interval)) [[likely]]
-    return interval.to;
-  const Time reached = step_one_by_one(interval, true, last);
-  if (reached == interval.to && !has_requests_) [[likely]]
-    return reached;
-  return make_further_passes(interval, reached);
-}
-
 Time Stepper::make_timed_passes(Time from, Time target) {
   const auto began = WallClock::Source::now();
   const Time reached = make_passes(from, target);

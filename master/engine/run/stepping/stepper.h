@@ -61,8 +61,9 @@ class Stepper {
     return !has_concurrent_ && !balancer_.is_deciding() && balancer_.threads() == 1;
   }
   /// As advance() to the end of an interval, of a step of the regular size that does not end at the
-  /// stop time, and in which the clock does not measure.
-  Time advance_regularly(const StepInterval& interval);
+  /// stop time, and in which the clock does not measure. Returns whether all units have reached the
+  /// end and request nothing; `reached` is set where not.
+  bool advance_regularly(const StepInterval& interval, Time& reached);
 
   /// Takes all units back to `from`, where the last advance() began. Their states must have been
   /// saved, as they are with an error-controlled step.
@@ -169,6 +170,8 @@ class Stepper {
                                                std::span<const UnitStep> steps,
                                                std::span<const StepsInARow::Member> members);
   bool step_rows(std::span<Row> rows, UnitStep*& last, const StepInterval& interval);
+  Row* step_whole_rows(std::span<Row> rows, const StepInterval& interval);
+  UnitStep& note_stop_in(Row& row, const StepInterval& interval);
   void note_plain_ones(Row& row, const StepInterval& interval);
   void note_step(UnitStep& unit_step, const StepResult& result);
   void note_whole_rows(Time reached);

@@ -55,16 +55,17 @@ std::unique_ptr<UnitRow> Stepper::coasting_row(std::unique_ptr<UnitRow> units,
   return std::make_unique<CoastingRow>(std::move(units), coasting);
 }
 
-/// As step_plainly(), of the units of successive rows, up to the first one of which there is
-/// something to record: returns whether there is none. `last` is the last one that has stepped.
-bool Stepper::step_rows(std::span<Row> rows, UnitStep*& last, const StepInterval& interval) {
+/// Returns the first row with a unit of which there is something to record; nullptr if there is
+/// none.
+[[gnu::always_inline]] inline Stepper::Row* Stepper::step_whole_rows(std::span<Row> rows,
+                                                                     const StepInterval& interval) {
   Row* row = rows.data();
   Row* const end = row + rows.size();
   try {
     for (; row != end; ++row) {
       row->progress.plain = 0;
       if (!row->units->step(interval, row->progress)) [[unlikely]]
-        break;
+        return row;
       ++row->whole_steps;
       row->last = communication_step_;
     }
@@ -72,16 +73,44 @@ bool Stepper::step_rows(std::span<Row> rows, UnitStep*& last, const StepInterval
     note_plain_ones(*row, interval);
     throw;
   }
-  if (row == end) [[likely]] {
-    last = &rows.back().steps.back();
-    return true;
+  return nullptr;
+}
+
+bool Stepper::advance_regularly(const StepInterval& interval, Time& reached) {
+  ++communication_step_;
+  early_stop_.by = nullptr;
+  has_requests_ = was_parallel_ = is_short_end_ = false;
+  step_clock_.measure(false);
+  UnitStep* last = nullptr;
+  if (are_all_in_rows_ && exchange_.has_all_to_write()) [[likely]] {
+    Row* const stopped = step_whole_rows(rows_, interval);
+    if (stopped == nullptr) [[likely]]
+      return true;
+    last = &note_stop_in(*stopped, interval);
   }
-  note_plain_ones(*row, interval);
-  last = &row->steps[row->progress.plain];
-  note_step(*last, row->progress.result);
-  ++last->steps;
-  note_outcome(*last, interval);
-  return false;
+  reached = step_one_by_one(interval, true, last);
+  if (reached == interval.to && !has_requests_) [[likely]]
+    return true;
+  reached = make_further_passes(interval, reached);
+  return reached == interval.to && !has_requests_;
+}
+
+/// As step_plainly(), of the units of successive rows, up to the first one of which there is
+/// something to record: returns whether there is none. `last` is the last one that has stepped.
+bool Stepper::step_rows(std::span<Row> rows, UnitStep*& last, const StepInterval& interval) {
+  Row* const stopped = step_whole_rows(rows, interval);
+  last = stopped == nullptr ? &rows.back().steps.back() : &note_stop_in(*stopped, interval);
+  return stopped == nullptr;
+}
+
+/// Returns the unit of which there is something to record.
+Stepper::UnitStep& Stepper::note_stop_in(Row& row, const StepInterval& interval) {
+  note_plain_ones(row, interval);
+  UnitStep& stopped = row.steps[row.progress.plain];
+  note_step(stopped, row.progress.result);
+  ++stopped.steps;
+  note_outcome(stopped, interval);
+  return stopped;
 }
 
 void Stepper::note_plain_ones(Row& row, const StepInterval& interval) {

@@ -47,8 +47,7 @@ compare::Settings settings_of(const CompareArguments& arguments) {
       core::parse_option("--relative", arguments.relative, core::parse_at_least_zero)};
   if (arguments.time_tolerance) {
     settings.time_tolerance =
-        core::parse_option("--time-tolerance", *arguments.time_tolerance, core::parse_seconds)
-            .count();
+        core::parse_option("--time-tolerance", *arguments.time_tolerance, core::parse_seconds);
   }
   for (const std::string& text : arguments.tolerances) {
     settings.tolerances.push_back(compare::parse_tolerance(text));

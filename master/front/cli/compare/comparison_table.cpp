@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::size_t kMostRows = 20;
 
-std::string seconds(std::int64_t time) { return core::to_text(Duration(time)); }
+std::string seconds(Time time) { return core::to_text(time); }
 
 std::string verdict(const compare::Comparison& comparison) {
   if (comparison.differences.empty()) {

@@ -36,13 +36,13 @@ class Experiment {
   }
 
   std::optional<Duration> seconds(const char* attribute) {
-    const auto value = number(attribute, "a number of seconds within 9.2e6",
+    const auto value = number(attribute, "a number of seconds within 1e15",
                               [](double v) { return std::abs(v) <= kMaxSeconds; });
     return value ? std::optional(duration_from_seconds(*value)) : std::nullopt;
   }
 
   std::optional<core::Interval> step_size() {
-    const auto value = number("stepSize", "a positive number of seconds within 9.2e6", &is_step);
+    const auto value = number("stepSize", "a positive number of seconds within 1e15", &is_step);
     return value ? std::optional(core::Interval::from_seconds(*value)) : std::nullopt;
   }
 
@@ -114,7 +114,7 @@ std::optional<core::Interval> read_step_size(const xml::Element& element, const 
   if (!seconds) return std::nullopt;
   if (is_step(*seconds)) return core::Interval::from_seconds(*seconds);
   element.fail(fmt::format(
-      "{}=\"{}\" of {}: expected a positive number of seconds within 9.2e6, at least the "
+      "{}=\"{}\" of {}: expected a positive number of seconds within 1e15, at least the "
       "picosecond that times are counted in",
       attribute, *element.attribute(attribute), element.tag()));
 }

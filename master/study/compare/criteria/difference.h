@@ -3,10 +3,11 @@
 #define STRIDE_MASTER_STUDY_COMPARE_CRITERIA_DIFFERENCE_H
 
 #include <cstddef>
-#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
+
+#include <stride/time.h>
 
 namespace stride::compare {
 
@@ -19,7 +20,7 @@ const char* name(Kind kind);
 /// The greatest difference of the finite values of a signal, and where it is.
 struct Extreme {
   double value = 0;
-  std::int64_t time = 0;  ///< [ps]
+  Time time;
   std::string a;
   std::string b;
 };
@@ -28,8 +29,8 @@ struct Extreme {
 struct Difference {
   Kind kind = Kind::Signal;
   std::string name;
-  /// Of the first one [ps]; nothing for what is of the run as a whole.
-  std::optional<std::int64_t> time{};
+  /// Of the first one; nothing for what is of the run as a whole.
+  std::optional<Time> time{};
   std::string a{};        ///< what each run has there
   std::string b{};        ///< likewise
   std::size_t count = 1;  ///< of places that differ: values, messages, bins

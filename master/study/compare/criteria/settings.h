@@ -1,10 +1,11 @@
 #ifndef STRIDE_MASTER_STUDY_COMPARE_CRITERIA_SETTINGS_H
 #define STRIDE_MASTER_STUDY_COMPARE_CRITERIA_SETTINGS_H
 
-#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
+
+#include <stride/time.h>
 
 #include "master/study/compare/criteria/tolerances.h"
 
@@ -14,8 +15,8 @@ namespace stride::compare {
 struct Settings {
   Tolerance tolerance{};                      ///< of reals
   std::vector<SignalTolerance> tolerances{};  ///< of some signals
-  /// Of instants [ps]; if there is one, signals are compared as curves, at the instants of both.
-  std::optional<std::int64_t> time_tolerance{};
+  /// Of instants; if there is one, signals are compared as curves, at the instants of both.
+  std::optional<Duration> time_tolerance{};
   std::vector<std::string> only{};     ///< patterns of signals and messages
   std::vector<std::string> ignored{};  ///< likewise
   /// B is kept as a reference: what it has is compared, at its instants, within its tolerances.csv.

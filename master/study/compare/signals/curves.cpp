@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <map>
 #include <string>
 
@@ -13,56 +12,48 @@
 namespace stride::compare {
 namespace {
 
-std::int64_t later(std::int64_t time, std::int64_t by) {
-  return time > std::numeric_limits<std::int64_t>::max() - by
-             ? std::numeric_limits<std::int64_t>::max()
-             : time + by;
-}
-
 /// The last row at this instant or before it; there is one.
-std::size_t row_before(const Curve& curve, std::int64_t time) {
+std::size_t row_before(const Curve& curve, Time time) {
   const auto after = std::ranges::upper_bound(curve.times, time);
   return static_cast<std::size_t>(after - curve.times.begin()) - 1;
 }
 
-double held(const Curve& curve, std::int64_t time) {
-  return number(curve.column, row_before(curve, time));
-}
+double held(const Curve& curve, Time time) { return number(curve.column, row_before(curve, time)); }
 
 /// Between two values of which one is not finite there is no straight line.
-double interpolated(const Curve& curve, std::int64_t time) {
+double interpolated(const Curve& curve, Time time) {
   const std::size_t row = row_before(curve, time);
   const double from = number(curve.column, row);
   if (curve.times[row] == time || row + 1 == curve.times.size()) return from;
   const double to = number(curve.column, row + 1);
   if (!std::isfinite(from) || !std::isfinite(to)) return from;
-  const auto whole = static_cast<double>(curve.times[row + 1] - curve.times[row]);
-  return std::lerp(from, to, static_cast<double>(time - curve.times[row]) / whole);
+  const double whole = to_seconds(curve.times[row + 1] - curve.times[row]);
+  return std::lerp(from, to, to_seconds(time - curve.times[row]) / whole);
 }
 
 /// The rows of a curve within an interval that moves on.
 class MovingInterval {
  public:
-  MovingInterval(const Curve& curve, std::int64_t tolerance)
+  MovingInterval(const Curve& curve, Duration tolerance)
       : times_(curve.times), tolerance_(tolerance) {}
 
   /// Times do not descend. Calls enter(row) and leave(row). Returns whether it reaches the curve.
   template <class Enter, class Leave>
-  bool move_to(std::int64_t time, Enter&& enter, Leave&& leave) {
+  bool move_to(Time time, Enter&& enter, Leave&& leave) {
     if (times_.empty()) return false;
     begin_ = std::max(time - tolerance_, times_.front());
-    end_ = std::min(later(time, tolerance_), times_.back());
+    end_ = std::min(time + tolerance_, times_.back());
     while (next_ < times_.size() && times_[next_] <= end_) enter(next_++);
     while (first_ < next_ && times_[first_] < begin_) leave(first_++);
     return begin_ <= end_;
   }
-  std::int64_t begin() const { return begin_; }
-  std::int64_t end() const { return end_; }
+  Time begin() const { return begin_; }
+  Time end() const { return end_; }
 
  private:
-  std::span<const std::int64_t> times_;
-  std::int64_t tolerance_;
-  std::int64_t begin_ = 0, end_ = 0;
+  std::span<const Time> times_;
+  Duration tolerance_;
+  Time begin_, end_;
   std::size_t first_ = 0, next_ = 0;
 };
 
@@ -114,10 +105,10 @@ void compare_texts(const Curve& rows, const Curve& curve, const CurveTolerances&
 
 void compare_curves(const Curve& a, const Curve& b, const CurveTolerances& tolerances,
                     SignalTally& tally) {
-  const auto add = [&](std::int64_t time, const auto& mine, const auto& other) {
+  const auto add = [&](Time time, const auto& mine, const auto& other) {
     tally.add(time, mine, other);
   };
-  const auto add_swapped = [&](std::int64_t time, const auto& mine, const auto& other) {
+  const auto add_swapped = [&](Time time, const auto& mine, const auto& other) {
     tally.add(time, other, mine);
   };
   if (!are_numbers(a.column, b.column)) {

@@ -2,8 +2,9 @@
 #ifndef STRIDE_MASTER_STUDY_COMPARE_SIGNALS_CURVES_H
 #define STRIDE_MASTER_STUDY_COMPARE_SIGNALS_CURVES_H
 
-#include <cstdint>
 #include <span>
+
+#include <stride/time.h>
 
 #include "master/report/column.h"
 #include "master/study/compare/criteria/tolerances.h"
@@ -14,12 +15,12 @@ namespace stride::compare {
 /// A signal over time: between two rows it goes straight from one value to the next, or holds the
 /// first one. Of several rows at one instant it has all values.
 struct Curve {
-  std::span<const std::int64_t> times;  ///< [ps], not descending, as many as the column has rows
+  std::span<const Time> times;  ///< not descending, as many as the column has rows
   const report::Column& column;
 };
 
 struct CurveTolerances {
-  std::int64_t time = 0;  ///< [ps]
+  Duration time{};
   Tolerance value{};
   bool is_held = false;  ///< rather than straight
   bool only_rows_of_b = false;

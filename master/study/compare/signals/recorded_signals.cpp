@@ -23,7 +23,7 @@ void require_distinct(const std::filesystem::path& file, std::span<const report:
 }
 
 void append_row(const report::Table& table, RecordedSignals& signals) {
-  const std::int64_t time = table.time(0);
+  const Time time = table.time(0);
   if (!signals.times.empty() && time < signals.times.back()) table.fail(0, "the time goes back");
   report::append_fields(signals.columns, table);
   signals.times.push_back(time);

@@ -3,11 +3,12 @@
 #define STRIDE_MASTER_STUDY_COMPARE_SIGNALS_RECORDED_SIGNALS_H
 
 #include <cstddef>
-#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <span>
 #include <vector>
+
+#include <stride/time.h>
 
 #include "master/report/column.h"
 
@@ -15,7 +16,7 @@ namespace stride::compare {
 
 /// Of several rows at one instant none is dropped, unlike in report::Signals.
 struct RecordedSignals {
-  std::vector<std::int64_t> times;  ///< [ps], not descending
+  std::vector<Time> times;  ///< not descending
   std::vector<report::Column> columns;
   std::optional<std::size_t> cut;  ///< the line that was cut off
 };

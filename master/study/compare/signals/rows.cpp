@@ -6,7 +6,7 @@
 
 namespace stride::compare {
 
-RowPairs pair_rows(std::span<const std::int64_t> a, std::span<const std::int64_t> b) {
+RowPairs pair_rows(std::span<const Time> a, std::span<const Time> b) {
   RowPairs pairs;
   std::size_t i = 0;
   std::size_t j = 0;
@@ -22,8 +22,7 @@ RowPairs pair_rows(std::span<const std::int64_t> a, std::span<const std::int64_t
   return pairs;
 }
 
-void compare_rows(std::span<const std::int64_t> times, const report::Column& a,
-                  const report::Column& b,
+void compare_rows(std::span<const Time> times, const report::Column& a, const report::Column& b,
                   std::span<const std::pair<std::size_t, std::size_t>> rows, Tolerance tolerance,
                   SignalTally& tally) {
   if (are_numbers(a, b)) {

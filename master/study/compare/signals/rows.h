@@ -3,10 +3,11 @@
 #define STRIDE_MASTER_STUDY_COMPARE_SIGNALS_ROWS_H
 
 #include <cstddef>
-#include <cstdint>
 #include <span>
 #include <utility>
 #include <vector>
+
+#include <stride/time.h>
 
 #include "master/report/column.h"
 #include "master/study/compare/criteria/tolerances.h"
@@ -22,11 +23,10 @@ struct RowPairs {
 };
 
 /// Times do not descend. Takes linear time.
-RowPairs pair_rows(std::span<const std::int64_t> a, std::span<const std::int64_t> b);
+RowPairs pair_rows(std::span<const Time> a, std::span<const Time> b);
 
 /// `times`: of A.
-void compare_rows(std::span<const std::int64_t> times, const report::Column& a,
-                  const report::Column& b,
+void compare_rows(std::span<const Time> times, const report::Column& a, const report::Column& b,
                   std::span<const std::pair<std::size_t, std::size_t>> rows, Tolerance tolerance,
                   SignalTally& tally);
 

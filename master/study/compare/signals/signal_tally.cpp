@@ -7,7 +7,7 @@
 namespace stride::compare {
 
 /// Whether it is the first one so far.
-bool SignalTally::count(std::int64_t time) {
+bool SignalTally::count(Time time) {
   ++difference_.count;
   if (difference_.time && *difference_.time <= time) return false;
   difference_.time = time;
@@ -21,13 +21,13 @@ std::string SignalTally::text(double value) const {
   return text;
 }
 
-void SignalTally::widen(std::optional<Extreme>& extreme, double value, std::int64_t time, double a,
+void SignalTally::widen(std::optional<Extreme>& extreme, double value, Time time, double a,
                         double b) {
   if (!std::isfinite(value) || (extreme && extreme->value >= value)) return;
   extreme = {value, time, text(a), text(b)};
 }
 
-void SignalTally::add(std::int64_t time, double a, double b) {
+void SignalTally::add(Time time, double a, double b) {
   if (count(time)) {
     difference_.a = text(a);
     difference_.b = text(b);
@@ -38,7 +38,7 @@ void SignalTally::add(std::int64_t time, double a, double b) {
   if (b != 0) widen(difference_.relative, distance / std::abs(b), time, a, b);
 }
 
-void SignalTally::add(std::int64_t time, const std::string& a, const std::string& b) {
+void SignalTally::add(Time time, const std::string& a, const std::string& b) {
   if (!count(time)) return;
   difference_.a = a;
   difference_.b = b;

@@ -20,7 +20,7 @@ using report::Column;
 
 constexpr const char* kNone = "none";
 
-std::string seconds(std::int64_t time) { return core::to_text(Duration(time)); }
+std::string seconds(Time time) { return core::to_text(time); }
 
 /// Columns of the same name, in the order of A.
 struct ColumnPairs {
@@ -88,7 +88,7 @@ std::optional<Difference> unpaired_rows(const RecordedSignals& a, const Recorded
   }
   if (!is_golden) {
     difference.count += rows.only_a.size();
-    const std::optional<std::int64_t> time =
+    const std::optional<Time> time =
         rows.only_a.empty() ? std::nullopt : std::optional(a.times[rows.only_a.front()]);
     if (time && (!difference.time || *time < *difference.time)) {
       difference.time = time;
@@ -102,26 +102,25 @@ std::optional<Difference> unpaired_rows(const RecordedSignals& a, const Recorded
 
 /// One run begins or ends where the other, by more than the tolerance, does not.
 std::optional<Difference> other_span(const RecordedSignals& a, const RecordedSignals& b,
-                                     std::int64_t tolerance, const std::string& file,
-                                     bool is_golden) {
+                                     Duration tolerance, const std::string& file, bool is_golden) {
   if (a.times.empty() || b.times.empty()) {
     if (a.times.empty() == b.times.empty()) return std::nullopt;
     const auto rows = [](const RecordedSignals& signals) {
       return signals.times.empty() ? std::string("no rows") : std::string("rows");
     };
-    const std::int64_t first = a.times.empty() ? b.times.front() : a.times.front();
+    const Time first = a.times.empty() ? b.times.front() : a.times.front();
     return Difference{Kind::File, file, first, rows(a), rows(b)};
   }
-  const auto differs = [&](std::int64_t mine, std::int64_t other, bool is_longer) {
-    return (!is_golden || is_longer) && (mine > other ? mine - other : other - mine) > tolerance;
+  const auto differs = [&](Time mine, Time other, bool is_longer) {
+    return (!is_golden || is_longer) && std::chrono::abs(mine - other) > tolerance;
   };
-  const std::int64_t begin_a = a.times.front(), begin_b = b.times.front();
+  const Time begin_a = a.times.front(), begin_b = b.times.front();
   if (differs(begin_a, begin_b, begin_b < begin_a)) {
     return Difference{Kind::File, file, std::min(begin_a, begin_b),
                       fmt::format("rows from {} s on", seconds(begin_a)),
                       fmt::format("rows from {} s on", seconds(begin_b))};
   }
-  const std::int64_t end_a = a.times.back(), end_b = b.times.back();
+  const Time end_a = a.times.back(), end_b = b.times.back();
   if (!differs(end_a, end_b, end_b > end_a)) return std::nullopt;
   return Difference{Kind::File, file, std::min(end_a, end_b),
                     fmt::format("rows until {} s", seconds(end_a)),

@@ -14,7 +14,7 @@ Finding check_events(const Trial& trial) {
     return failed(
         fmt::format("at {} s it returns early, which it does not declare "
                     "(mightReturnEarlyFromDoStep)",
-                    core::to_text(Duration(run.first_early_return))));
+                    core::to_text(run.first_early_return)));
   }
   const Recording obedient = trial.record({.early_return_allowed = false});
   std::string text = fmt::format("{} super-dense instants", run.events);

@@ -62,8 +62,8 @@ VerifyRequest over(const TestedUnit& tested, Duration promise) {
   const auto steps = static_cast<std::int64_t>(tested.steps());
   VerifyRequest request = tested.request();
   request.step = tested.step();
-  request.stop =
-      tested.step() * (steps + std::min(promise / tested.step(), (kMostLengths - 1) * steps));
+  request.stop = tested.step() * (steps + std::min<Picoseconds>(promise / tested.step(),
+                                                                (kMostLengths - 1) * steps));
   return request;
 }
 
@@ -103,8 +103,7 @@ Promises compare(const Trial& trial, Inputs inputs) {
   const Recording skipping = record(trial, inputs, true);
   const auto difference = idle_difference(trial.tested, full, skipping, inputs.wander);
   if (difference) throw Failure("with skipping of idle time " + *difference, false);
-  return {promises_in(skipping), Duration(skipping.longest_promise),
-          Duration(skipping.longest_suspension)};
+  return {promises_in(skipping), skipping.longest_promise, skipping.longest_suspension};
 }
 
 /// What of the promises was not tested, in runs of this length.

@@ -23,7 +23,7 @@ struct Fingerprint {
 };
 
 Fingerprint fingerprint(const Trial& trial, TestInstance& instance) {
-  Fingerprint print{{instance.now().time_since_epoch().count(), instance.observe(), false}, {}};
+  Fingerprint print{{instance.now(), instance.observe(), false}, {}};
   if (!trial.tested.description().can_serialize_state) return print;
   instance.capability<core::StateSaving>().save_state();
   print.bytes = instance.capability<core::StateSerialization>().serialize_state();
@@ -112,8 +112,7 @@ std::vector<std::string> values_without_rejections(const Trial& trial, std::size
                         core::to_text(to)));
       }
     }
-    return to_text(
-        Recording{{{instance.now().time_since_epoch().count(), instance.observe(), false}}});
+    return to_text(Recording{{{instance.now(), instance.observe(), false}}});
   }));
   return twin.rows.front().values;
 }
@@ -122,7 +121,7 @@ std::vector<std::string> values_without_rejections(const Trial& trial, std::size
 void require_no_effect(const Trial& trial, std::size_t from, const RejectionProbe& probe,
                        TestInstance& instance) {
   const auto twin = values_without_rejections(trial, from, probe.reached());
-  const std::int64_t now = instance.now().time_since_epoch().count();
+  const Time now = instance.now();
   const auto differs =
       difference(trial.tested, {{now, twin, false}}, {{now, instance.observe(), false}},
                  "without rejected steps", "with them");

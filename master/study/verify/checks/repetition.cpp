@@ -63,7 +63,7 @@ class Repeater {
     return recorded();
   }
 
-  Row present() { return {instance_.now().time_since_epoch().count(), instance_.observe(), false}; }
+  Row present() { return {instance_.now(), instance_.observe(), false}; }
 
   void keep(const Pass& pass) {
     all_.steps.insert(all_.steps.end(), pass.steps.begin(), pass.steps.end());

@@ -23,7 +23,7 @@ class Restorer {
   void restore(std::size_t slot, const std::string& when) {
     const Expected& expected = expected_[slot];
     instance_.restore(slot);
-    const std::int64_t now = instance_.now().time_since_epoch().count();
+    const Time now = instance_.now();
     compare({{now, expected.values, false}}, {{now, instance_.observe(), false}},
             "when it was saved", "when it is restored" + when);
     instance_.clear_recorded();

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "master/base/text/hex.h"
+#include "master/base/time_text.h"
 #include "master/engine/port/capabilities/state_saving.h"
 #include "master/engine/port/capabilities/state_serialization.h"
 
@@ -137,9 +138,9 @@ std::string to_text(const SerializedRun& run) {
     const auto& [now, point, next] = state.position;
     states.push_back({{"bytes", core::to_hex(state.bytes)},
                       {"cut", {state.cut.point, state.cut.is_after_inputs, state.cut.place}},
-                      {"now", now.time_since_epoch().count()},
+                      {"now", core::to_text(now)},
                       {"point", point},
-                      {"next", next.value_or(Time::min()).time_since_epoch().count()},
+                      {"next", next ? Json(core::to_text(*next)) : Json()},
                       {"rows", state.rows}});
   }
   return Json{{"states", states}, {"to", run.to}, {"recording", to_text(Recording{run.rows})}}
@@ -151,14 +152,14 @@ SerializedRun serialized_run_from_text(const std::string& text) {
   SerializedRun run{{}, recording_from_text(json["recording"]).rows, json["to"]};
   for (const Json& from : json["states"]) {
     const auto time = [&](const char* key) {
-      return Time(Duration(from[key].get<std::int64_t>()));
+      return from[key].is_null() ? std::nullopt
+                                 : std::optional(core::parse_time(from[key].get<std::string>()));
     };
     const Json& cut = from["cut"];
     SerializedState state{{cut[0], cut[1], cut[2]},
                           core::from_hex(from["bytes"].get<std::string>()).value(),
-                          {time("now"), from["point"], time("next")},
+                          {*time("now"), from["point"], time("next")},
                           from["rows"]};
-    if (state.position.next_event == Time::min()) state.position.next_event.reset();
     run.states.push_back(std::move(state));
   }
   return run;

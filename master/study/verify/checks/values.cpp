@@ -82,7 +82,7 @@ void examine_row(const std::vector<Range>& ranges, const Row& row) {
     for (std::string word; words >> word;) {
       const double number = std::strtod(word.c_str(), nullptr);
       const std::string at =
-          fmt::format("at {} s '{}' is {}", instant_text(row.picoseconds), variable->name, word);
+          fmt::format("at {} s '{}' is {}", core::to_text(row.time), variable->name, word);
       if (std::isnan(number)) throw Failure(at);
       if (number < low) throw Failure(at + ", which is below its min " + variable->min);
       if (number > high) throw Failure(at + ", which is above its max " + variable->max);

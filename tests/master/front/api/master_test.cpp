@@ -73,6 +73,10 @@ std::string open_failure(const std::string& scenario, const Settings& settings =
   return text;
 }
 
+double at(stride_time time) {
+  return static_cast<double>(time.seconds) + 1e-12 * static_cast<double>(time.picoseconds);
+}
+
 std::size_t find(const Simulation& simulation, const std::string& name) {
   std::size_t index = 0;
   REQUIRE(stride_find(simulation.get(), name.c_str(), &index) == STRIDE_OK);
@@ -137,12 +141,12 @@ const Settings kRising{{"set", "first.u=1"}, {"set", "judge.limit=0.3"}};
 TEST_CASE("a scenario is opened, advanced, looked at and ended") {
   const Folder folder;
   const Simulation simulation = open(folder.scenario(), kRising);
-  CHECK(stride_now(simulation.get()) == 0);
-  CHECK(stride_stop_time(simulation.get()) == STRIDE_SECOND);
+  CHECK(at(stride_now(simulation.get())) == 0);
+  CHECK(at(stride_stop_time(simulation.get())) == 1);
   CHECK_FALSE(stride_is_over(simulation.get()));
   CHECK(stride_end_reason(simulation.get()) == std::string());
   step_to(simulation, 0.5);
-  CHECK(stride_now(simulation.get()) == STRIDE_SECOND / 2);
+  CHECK(at(stride_now(simulation.get())) == 0.5);
   CHECK(get(simulation, "second.u") == get(simulation, "first.y"));
   CHECK(get(simulation, "first.y") == Approx(1 - std::exp(-0.5)));
   step_to(simulation, 3);
@@ -155,7 +159,7 @@ TEST_CASE("a scenario is opened, advanced, looked at and ended") {
   REQUIRE(stride_get_verdict(simulation.get(), 0, &verdict) == STRIDE_OK);
   CHECK(verdict.name == std::string("judge"));
   CHECK(verdict.passed == 1);
-  CHECK(verdict.time == INT64_MIN);
+  CHECK(verdict.time.seconds == STRIDE_NO_TIME);
   CHECK(std::isnan(verdict.margin));
 }
 
@@ -213,7 +217,7 @@ TEST_CASE("an end before the stop time is said, and judges nothing that is not d
   REQUIRE(stride_end(simulation.get()) == STRIDE_OK);
   CHECK(stride_end_reason(simulation.get()) == std::string("ended early"));
   CHECK_THAT(text_of(folder / "results" / "run.json"), Contains("\"outcome\": \"ended early\""));
-  CHECK_THAT(failure(STRIDE_MISUSE, stride_advance(simulation.get(), STRIDE_SECOND)),
+  CHECK_THAT(failure(STRIDE_MISUSE, stride_advance(simulation.get(), stride_seconds(1))),
              Contains("the run has ended"));
 }
 
@@ -322,7 +326,7 @@ TEST_CASE("messages are sent and received, and the oldest are dropped where ther
   std::vector<std::string> seen;
   std::size_t dropped = 0;
   while (stride_next_message(simulation.get(), &message) == 1) {
-    CHECK(message.time == STRIDE_SECOND / 4);
+    CHECK(at(message.time) == 0.25);
     REQUIRE(message.count == 1);
     const auto& content = *static_cast<const stride_bytes*>(message.elements);
     CHECK(std::vector(content.data, content.data + content.size) == bytes);
@@ -388,7 +392,7 @@ TEST_CASE("a simulation that goes on from a checkpoint is the same as one that h
   stride_options going_on{};
   going_on.checkpoint = file.c_str();
   const Simulation rest = open(folder.scenario(), kRising, going_on);
-  CHECK(stride_now(rest.get()) == STRIDE_SECOND / 2);
+  CHECK(at(stride_now(rest.get())) == 0.5);
   step_to(rest, 1);
   CHECK(get(rest, "second.y") == get(whole, "second.y"));
 }
@@ -450,7 +454,7 @@ TEST_CASE("the folder of a simulation that has ended is free, though it is still
   step_to(first, 1);
   REQUIRE(stride_end(first.get()) == STRIDE_OK);
   const Simulation second = open(folder.scenario(), kRising, writing);
-  CHECK(stride_now(second.get()) == 0);
+  CHECK(at(stride_now(second.get())) == 0);
 }
 
 TEST_CASE("mistakes in the input are told with what would be right") {
@@ -481,7 +485,7 @@ TEST_CASE("what makes no sense is misuse, and changes nothing") {
   double value = 0;
   CHECK_THAT(failure(STRIDE_MISUSE, stride_open(nullptr, nullptr, &none)), Contains("NULL"));
   CHECK_THAT(failure(STRIDE_MISUSE, stride_open("x", nullptr, nullptr)), Contains("no place"));
-  CHECK_THAT(failure(STRIDE_MISUSE, stride_advance(nullptr, 1)), Contains("NULL"));
+  CHECK_THAT(failure(STRIDE_MISUSE, stride_advance(nullptr, stride_seconds(1))), Contains("NULL"));
   CHECK_THAT(failure(STRIDE_MISUSE, stride_get(simulation.get(), 12345, &value, 1)),
              Contains("no variable with this index"));
   CHECK_THAT(
@@ -489,7 +493,7 @@ TEST_CASE("what makes no sense is misuse, and changes nothing") {
       Contains("'first.y' has 1 elements, not 2"));
   stride_options sizeless{};
   CHECK_THAT(failure(STRIDE_MISUSE, stride_open("x", &sizeless, &none)), Contains("sizeof"));
-  CHECK_THAT(failure(STRIDE_INVALID_INPUT, stride_advance(simulation.get(), -1)),
+  CHECK_THAT(failure(STRIDE_INVALID_INPUT, stride_advance(simulation.get(), stride_seconds(-1))),
              Contains("later than"));
   step_to(simulation, 1);
   CHECK_THAT(failure(STRIDE_INVALID_INPUT, set(simulation, "first.u", 1.0)),
@@ -504,7 +508,7 @@ TEST_CASE("a unit that fails ends its simulation, whose results contain why") {
   const Simulation simulation = open(
       unit("thrower"), {{"stop", "1"}, {"step", "0.1"}, {"set", "thrower.throw_at=0.5"}}, options);
   const std::string text =
-      failure(STRIDE_RUN_FAILED, stride_advance(simulation.get(), STRIDE_SECOND));
+      failure(STRIDE_RUN_FAILED, stride_advance(simulation.get(), stride_seconds(1)));
   CHECK_THAT(text, Contains("unit 'thrower'") && Contains("the fuse has blown"));
   CHECK(stride_last_error()->component == std::string("thrower"));
   CHECK(stride_is_over(simulation.get()));
@@ -515,9 +519,9 @@ TEST_CASE("a unit that fails ends its simulation, whose results contain why") {
 
 TEST_CASE("a run can be interrupted while it is simulated") {
   stride_options options{};
-  options.progress = [](void*, std::int64_t time) { return time > 0 ? 1 : 0; };
+  options.progress = [](void*, stride_time time) { return at(time) > 0 ? 1 : 0; };
   const Simulation simulation = open(unit("minimal"), {{"stop", "9e6"}, {"step", "1e-3"}}, options);
-  CHECK_THAT(failure(STRIDE_RUN_FAILED, stride_advance(simulation.get(), INT64_MAX)),
+  CHECK_THAT(failure(STRIDE_RUN_FAILED, stride_advance(simulation.get(), stride_end_of_time())),
              Contains("interrupted"));
   CHECK(stride_is_over(simulation.get()));
   CHECK(stride_end(simulation.get()) == STRIDE_OK);
@@ -527,7 +531,7 @@ TEST_CASE("a run can be interrupted while it is simulated") {
 TEST_CASE("another thread can interrupt a run") {
   const Simulation simulation = open(unit("minimal"), {{"stop", "9e6"}, {"step", "1e-3"}});
   std::thread other([&] { stride_interrupt(simulation.get()); });
-  CHECK_THAT(failure(STRIDE_RUN_FAILED, stride_advance(simulation.get(), INT64_MAX)),
+  CHECK_THAT(failure(STRIDE_RUN_FAILED, stride_advance(simulation.get(), stride_end_of_time())),
              Contains("interrupted"));
   other.join();
 }
@@ -539,7 +543,7 @@ TEST_CASE("what is called during a call is misuse, and the run goes on") {
   } during;
   stride_options options{};
   options.user = &during;
-  options.progress = [](void* user, std::int64_t) {
+  options.progress = [](void* user, stride_time) {
     auto& seen = *static_cast<During*>(user);
     double value = 0;
     seen.closed = stride_close(seen.simulation);
@@ -548,7 +552,7 @@ TEST_CASE("what is called during a call is misuse, and the run goes on") {
   };
   const Simulation simulation = open(unit("minimal"), {{"stop", "9e6"}, {"step", "1e-3"}}, options);
   during.simulation = simulation.get();
-  CHECK(stride_advance(simulation.get(), INT64_MAX) == STRIDE_RUN_FAILED);
+  CHECK(stride_advance(simulation.get(), stride_end_of_time()) == STRIDE_RUN_FAILED);
   CHECK(during.closed == STRIDE_MISUSE);
   CHECK(during.read == STRIDE_MISUSE);
   CHECK(stride_end_reason(simulation.get()) == std::string("interrupted"));
@@ -558,7 +562,7 @@ TEST_CASE("what is called during a call is misuse, and the run goes on") {
 TEST_CASE("units get processes of their own when no other thread is in the library") {
   const Folder folder;
   const Simulation busy = open(folder.scenario(), {{"stop", "1000"}, {"step", "1e-4"}});
-  std::thread other([&] { stride_advance(busy.get(), INT64_MAX); });
+  std::thread other([&] { stride_advance(busy.get(), stride_end_of_time()); });
   const Simulation isolated = open(folder.scenario(), {{"isolate", nullptr}});
   step_to(isolated, 1);
   other.join();
@@ -574,7 +578,7 @@ TEST_CASE("two simulations are advanced in turns, and in threads") {
   }
   double results[2]{};
   const auto finish = [&](const Simulation& simulation, double& result) {
-    stride_advance(simulation.get(), STRIDE_SECOND);
+    stride_advance(simulation.get(), stride_seconds(1));
     std::size_t index = 0;
     stride_find(simulation.get(), "second.y", &index);
     stride_get(simulation.get(), index, &result, 1);
@@ -592,7 +596,7 @@ TEST_CASE("a fork of the process cannot use the simulation, and leaves it alone"
   const pid_t child = ::fork();
   REQUIRE(child >= 0);
   if (child == 0) {
-    const bool is_refused = stride_advance(simulation.get(), STRIDE_SECOND) == STRIDE_MISUSE;
+    const bool is_refused = stride_advance(simulation.get(), stride_seconds(1)) == STRIDE_MISUSE;
     stride_close(simulation.get());
     ::_exit(is_refused ? 0 : 1);
   }
@@ -608,7 +612,7 @@ TEST_CASE("a unit in a process of its own that crashes leaves the caller alive")
                                                       {"isolate", nullptr},
                                                       {"set", "faulty.fault=segfault"},
                                                       {"set", "faulty.call=step"}});
-  CHECK_THAT(failure(STRIDE_RUN_FAILED, stride_advance(simulation.get(), STRIDE_SECOND)),
+  CHECK_THAT(failure(STRIDE_RUN_FAILED, stride_advance(simulation.get(), stride_seconds(1))),
              Contains("SIGSEGV"));
 }
 
@@ -633,9 +637,23 @@ TEST_CASE("messages go to a function") {
 }
 
 TEST_CASE("seconds become the nearest picosecond") {
-  CHECK(stride_seconds(0.1) == STRIDE_SECOND / 10);
-  CHECK(stride_seconds(-1.5) == -3 * STRIDE_SECOND / 2);
-  CHECK(stride_seconds(1e300) == INT64_MAX);
-  CHECK(stride_seconds(-1e300) == INT64_MIN);
-  CHECK(stride_seconds(std::nan("")) == INT64_MIN);
+  const auto is = [](stride_time time, std::int64_t seconds, std::int64_t picoseconds) {
+    return time.seconds == seconds && time.picoseconds == picoseconds;
+  };
+  CHECK(is(stride_seconds(0.1), 0, 100'000'000'000));
+  CHECK(is(stride_seconds(-1.5), -2, 500'000'000'000));
+  CHECK(is(stride_seconds(3.2e9), 3'200'000'000, 0));
+  CHECK(is(stride_seconds(1e300), 1'000'000'000'000'000, 0));
+  CHECK(is(stride_seconds(-1e300), -1'000'000'000'000'000, 0));
+  CHECK(stride_seconds(std::nan("")).seconds == STRIDE_NO_TIME);
+}
+
+TEST_CASE("sums of times are exact") {
+  const stride_time sum = stride_sum({3'200'000'000, 999'999'999'999}, {0, 1});
+  CHECK(sum.seconds == 3'200'000'001);
+  CHECK(sum.picoseconds == 0);
+  const stride_time negative = stride_sum(stride_seconds(-1.5), stride_seconds(0.25));
+  CHECK(negative.seconds == -2);
+  CHECK(negative.picoseconds == 750'000'000'000);
+  CHECK(stride_sum({STRIDE_NO_TIME, 0}, stride_seconds(1)).seconds == STRIDE_NO_TIME);
 }

@@ -51,7 +51,7 @@ TEST_CASE("each side looks for the other's greeting only") {
 }
 
 TEST_CASE("the protocol is raised with the table of calls, whose places are their numbers") {
-  CHECK(kProtocol == 2);
+  CHECK(kProtocol == 3);
   CHECK(isolation::kCallCount == 28);
   CHECK(isolation::code_of<&core::Unit::get>() == isolation::RequestCode{9});
   CHECK(isolation::code_of<&core::HostDiagnostics::host_statistics>() ==

@@ -78,7 +78,7 @@ TEST_CASE("what is no checkpoint is refused, by its name") {
   contents["checkpoint.json"].text = "{\"stride checkpoint\": 99}";
   archive::write_zip(scratch / "new.zip", contents);
   CHECK_THROWS_WITH(read_checkpoint(scratch / "new.zip"), Contains("has the format 99"));
-  contents["checkpoint.json"].text = "{\"stride checkpoint\": 1";
+  contents["checkpoint.json"].text = "{\"stride checkpoint\": 2";
   archive::write_zip(scratch / "cut.zip", contents);
   CHECK_THROWS_WITH(read_checkpoint(scratch / "cut.zip"), Contains("or a damaged one"));
   contents["checkpoint.json"].text = "[\"stride checkpoint\", 1]";
@@ -90,7 +90,7 @@ TEST_CASE("a state that is not what was written is found") {
   const Scratch scratch;
   archive::Contents contents;
   contents["checkpoint.json"].text =
-      R"({"stride checkpoint": 1, "picoseconds": 1, "results": "r", "interventions": 0,
+      R"({"stride checkpoint": 2, "time": "0.5", "results": "r", "interventions": 0,
           "provenance": {"version": "1", "date": "", "host": "", "commands": [], "sources": []}, "units": [],
           "states": [{"name": "simulation",
                       "sha256": "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad"}]})";

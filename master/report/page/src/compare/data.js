@@ -5,11 +5,12 @@ import { readReport } from "../data/report.js";
 
 /**
  * The instants of both, each once.
- * @param {BigInt64Array} a ascending
- * @param {BigInt64Array} b ascending
+ * @param {BigInt64Array|bigint[]} a ascending
+ * @param {BigInt64Array|bigint[]} b ascending
  */
 export function unitedTimes(a, b) {
-  const times = new BigInt64Array(a.length + b.length);
+  const isWide = Array.isArray(a) || Array.isArray(b);
+  const times = isWide ? new Array(a.length + b.length) : new BigInt64Array(a.length + b.length);
   let count = 0;
   for (let i = 0, k = 0; i < a.length || k < b.length;) {
     const isOfA = k === b.length || (i < a.length && a[i] <= b[k]);

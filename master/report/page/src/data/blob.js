@@ -2,7 +2,7 @@
 
 /**
  * @typedef {object} Packed
- * @property {"float64"|"int64"|"int32"|"uint8"|"strings"} type
+ * @property {"float64"|"int128"|"int64"|"int32"|"uint8"|"strings"} type
  * @property {number} [count]
  * @property {string} [data] base64
  * @property {string[]} [values] of type "strings": the distinct ones
@@ -59,12 +59,23 @@ export function untransposed(bytes, count, width) {
   return elements;
 }
 
+/** @param {BigInt64Array} halves of each number the low one, then the high one */
+function joined(halves) {
+  const numbers = [];
+  for (let i = 0; i < halves.length; i += 2) numbers.push((halves[i + 1] << 64n) | BigInt.asUintN(64, halves[i]));
+  return numbers;
+}
+
 /**
- * The typed array of a packed one that does not contain strings.
+ * The array of a packed one that does not contain strings.
  * @param {Packed} packed
- * @returns {Promise<Float64Array|BigInt64Array|Int32Array|Uint8Array>}
+ * @returns {Promise<Float64Array|BigInt64Array|bigint[]|Int32Array|Uint8Array>}
  */
 export async function unpack(packed) {
+  if (packed.type === "int128") {
+    const bytes = await inflate(packed.data, packed.count * 16);
+    return joined(new BigInt64Array(untransposed(bytes, packed.count, 16).buffer));
+  }
   const type = kArrays[packed.type];
   if (!type) throw new Error(`an array is of the unknown type "${packed.type}"`);
   const width = type.BYTES_PER_ELEMENT;

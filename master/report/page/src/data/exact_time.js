@@ -16,9 +16,10 @@ export function timeText(picoseconds) {
 
 /**
  * Seconds of all instants, each rounded once or twice, in the order of the instants.
- * @param {BigInt64Array} picoseconds
+ * @param {BigInt64Array|bigint[]} picoseconds
  */
 export function secondsOf(picoseconds) {
+  if (Array.isArray(picoseconds)) return Float64Array.from(picoseconds, toSeconds);
   const words = new Int32Array(picoseconds.buffer, picoseconds.byteOffset, picoseconds.length * 2);
   const seconds = new Float64Array(picoseconds.length);
   for (let i = 0; i < seconds.length; ++i) {

@@ -4,7 +4,7 @@ import { h } from "../dom.js";
 import { kGutter } from "../plot/layout.js";
 
 export class FilmStrip {
-  /** @param {{component: string, times: BigInt64Array, seconds: Float64Array, frames: string[]}} film */
+  /** @param {{component: string, times: BigInt64Array|bigint[], seconds: Float64Array, frames: string[]}} film */
   constructor({ report, view }, film) {
     this.report = report;
     this.view = view;

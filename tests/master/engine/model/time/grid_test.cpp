@@ -67,12 +67,14 @@ TEST_CASE("a walk meets the points of its grid") {
   }
 }
 
-TEST_CASE("a walk over a grid of whole picoseconds is that of any grid") {
+TEST_CASE("a walk over picoseconds that 64 bits can count is that of any grid") {
   const Grid grid(Time(-2s), Interval(100ms));
-  REQUIRE(grid.is_whole());
-  CHECK_FALSE(Grid(Time(), fraction(1, 3)).is_whole());
+  REQUIRE(grid.is_narrow(100, grid.point(7)));
+  CHECK_FALSE(Grid(Time(), fraction(1, 3)).is_narrow(1, Time()));
+  CHECK(grid.is_narrow(92'233'740, grid.start()));
+  CHECK_FALSE(grid.is_narrow(92'233'741, grid.start()));
   Grid::Walk walk(grid, grid.point(7));
-  Grid::WholeWalk whole(grid, grid.point(7));
+  Grid::NarrowWalk whole(grid, grid.point(7));
   for (int k = 0; k < 100; ++k, walk.advance(), whole.advance()) {
     REQUIRE(whole.time() == walk.time());
     REQUIRE(whole.seconds() == walk.seconds());
@@ -107,8 +109,28 @@ TEST_CASE("regular steps may differ by what is negligible") {
   CHECK_FALSE(Grid(Time(), 1ns).ends_at(Time(Duration(1'000'001))));
 }
 
-TEST_CASE("points beyond what can be counted are at its end") {
-  CHECK(Grid(Time(1s), 1s).point(UINT64_MAX) == Time::max());
-  CHECK(Grid(Time(1s), fraction(1, 3)).point(UINT64_MAX) == Time::max());
-  CHECK(Grid(Time(1s), Interval::from_seconds(INFINITY)).point(1) == Time::max());
+TEST_CASE("points of years are exact, and found again") {
+  constexpr auto kCentury = 3155760000s;
+  const Grid days(Time(), Interval(24h));
+  CHECK(days.point(36525) == Time(kCentury));
+  CHECK(days.index_at(Time(kCentury) - Duration(1)) == 36524);
+  const Grid thirds(Time(kCentury), fraction(1, 3));
+  CHECK(thirds.point(2) == Time(kCentury + Duration(666'666'666'667)));
+  CHECK(thirds.point(9467280000) == Time(2 * kCentury));
+  for (const std::uint64_t k : {0ULL, 1ULL, 2ULL, 9467279999ULL, 9467280000ULL}) {
+    CHECK(thirds.index_at(thirds.point(k)) == k);
+    CHECK(thirds.has(thirds.point(k)));
+    CHECK_FALSE(thirds.has(thirds.point(k) + Duration(1)));
+  }
+  Grid::Walk walk(thirds, thirds.point(9467279000));
+  for (std::uint64_t k = 9467279000; k < 9467281000; ++k, walk.advance()) {
+    REQUIRE(walk.time() == thirds.point(k));
+  }
+}
+
+TEST_CASE("points beyond all times are later than any stop time") {
+  const Time latest = stride::time_from_seconds(stride::kMaxSeconds);
+  CHECK(Grid(Time(1s), 1s).point(UINT64_MAX) > latest);
+  CHECK(Grid(Time(1s), fraction(1, 3)).point(UINT64_MAX) > latest);
+  CHECK(Grid(Time(1s), Interval::from_seconds(INFINITY)).point(1) > latest);
 }

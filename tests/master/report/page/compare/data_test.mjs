@@ -8,6 +8,7 @@ test("instants of both are there once, in their order", () => {
   assert.deepEqual(united([0n, 2n, 5n], [1n, 2n, 7n, 8n]), [0n, 1n, 2n, 5n, 7n, 8n]);
   assert.deepEqual(united([], [3n]), [3n]);
   assert.deepEqual(united([3n, 3n], []), [3n]);
+  assert.deepEqual(unitedTimes([2n ** 70n, 2n ** 71n], BigInt64Array.of(1n)), [1n, 2n ** 70n, 2n ** 71n]);
 });
 
 const column = (type, texts) => new Column({ name: "x.y", unit: "V", type, stepped: false }, [0, 1], texts, [0, 1]);

@@ -5,12 +5,13 @@ import "../deflate_raw.mjs";
 import { unpack, untransposed } from "../../../../../master/report/page/src/data/blob.js";
 
 /** What the program does, element by element. */
-function pack(type, array) {
-  const width = array.BYTES_PER_ELEMENT;
+function pack(type, array, perElement = 1) {
+  const width = array.BYTES_PER_ELEMENT * perElement;
+  const count = array.length / perElement;
   const plain = new Uint8Array(array.buffer);
   const bytes = [];
-  for (let k = 0; k < width; ++k) for (let i = 0; i < array.length; ++i) bytes.push(plain[i * width + k]);
-  return { type, count: array.length, data: deflateRawSync(Uint8Array.from(bytes)).toString("base64") };
+  for (let k = 0; k < width; ++k) for (let i = 0; i < count; ++i) bytes.push(plain[i * width + k]);
+  return { type, count, data: deflateRawSync(Uint8Array.from(bytes)).toString("base64") };
 }
 
 test("doubles come back bit by bit", async () => {
@@ -25,6 +26,12 @@ test("integers come back at their limits", async () => {
   assert.deepEqual(await unpack(pack("int32", short)), short);
   const bytes = Uint8Array.of(0, 1, 255);
   assert.deepEqual(await unpack(pack("uint8", bytes)), bytes);
+});
+
+test("times that need more than 64 bits come back", async () => {
+  const times = [3_155_760_000_000_000_000_001n, -3_155_760_000_000_000_000_001n, 0n, -1n, 2n ** 64n, 2n ** 63n - 1n];
+  const halves = times.flatMap((time) => [BigInt.asIntN(64, time), time >> 64n]);
+  assert.deepEqual(await unpack(pack("int128", BigInt64Array.from(halves), 2)), times);
 });
 
 test("no elements are no trouble", async () => {

@@ -14,6 +14,7 @@ test("no digit of a time is lost", () => {
   assert.equal(timeText(1n), "0.000000000001");
   assert.equal(timeText(500_000_000_000n), "0.5");
   assert.equal(timeText(9223372036854775807n), "9223372.036854775807");
+  assert.equal(timeText(3_155_760_000_000_000_000_001n), "3155760000.000000000001");
   assert.equal(timeText(-1_500_000_000_000n), "-1.5");
 });
 
@@ -21,6 +22,7 @@ test("seconds are those of each instant", () => {
   const times = BigInt64Array.of(0n, 1n, 4294967295n, 4294967296n, 14200358702064n, 9223372036854775807n, -1n);
   const seconds = secondsOf(times);
   times.forEach((time, i) => assert.equal(seconds[i], toSeconds(time)));
+  assert.deepEqual([...secondsOf([3_155_760_000_250_000_000_000n])], [3155760000.25]);
 });
 
 test("the last instant at or before a time", () => {

@@ -50,8 +50,8 @@ stride::Duration air_time(const Frame& frame);
 Frame cut_off(Frame frame, stride::Time time);
 
 /// The value of a Binary variable that holds a frame, little-endian: start [ps] (8 bytes), bit rate
-/// [kbit/s] (4), number of bits (4), then the bits, eight to a byte, the first in the least
-/// significant place.
+/// [kbit/s] (2), how often 2^64 ps come on top of the start (2, signed; 0 for some 100 days),
+/// number of bits (4), then the bits, eight to a byte, the first in the least significant place.
 Bytes encode(const Frame& frame);
 
 /// The inverse. Throws std::invalid_argument if the bytes are not a frame.

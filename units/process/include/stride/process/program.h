@@ -177,16 +177,17 @@ class Program {
   void answer(bool all);
   void write_answer();
 
-  Time time_of(std::string_view attribute) const {
-    const std::int64_t most = Duration::max().count() / unit_;
-    return Time(duration_of(attribute, -most));
+  Time time_of(std::string_view attribute) const { return Time(picoseconds_of(attribute)); }
+  Duration duration_of(std::string_view attribute) const {
+    const Duration duration = picoseconds_of(attribute);
+    if (duration >= Duration()) return duration;
+    throw std::invalid_argument(std::string(attribute) + ": expected at least 0");
   }
-  Duration duration_of(std::string_view attribute, std::int64_t least = 0) const {
-    const auto number = tag_.value<std::int64_t>(attribute);
-    const std::int64_t most = Duration::max().count() / unit_;
-    if (number >= least && number <= most) return Duration(number * unit_);
-    throw std::invalid_argument(std::string(attribute) + ": expected from " +
-                                std::to_string(least) + " to " + std::to_string(most));
+  Duration picoseconds_of(std::string_view attribute) const {
+    const auto number = tag_.value<Picoseconds>(attribute);
+    constexpr auto kMost = static_cast<Picoseconds>(kMaxSeconds * 1e12);
+    if (number >= -kMost / unit_ && number <= kMost / unit_) return Duration(number * unit_);
+    throw std::invalid_argument(std::string(attribute) + ": expected a time within 1e15 s");
   }
   /// Makes the unit of time a picosecond if the instant is not a multiple of it.
   void fit_unit_to(Time time) {
@@ -194,7 +195,7 @@ class Program {
     unit_ = 1;
     TagWriter(answer_, "time-unit").value("picoseconds", unit_).end();
   }
-  std::int64_t count(Time time) {
+  Picoseconds count(Time time) {
     fit_unit_to(time);
     return time.time_since_epoch().count() / unit_;
   }
@@ -213,7 +214,7 @@ class Program {
   std::vector<std::unique_ptr<Row>> outputs_;
   std::string instance_name_;
   std::string resources_;
-  std::int64_t unit_ = 1;  ///< [ps]
+  Picoseconds unit_ = 1;  ///< [ps]
   Time now_{};
   bool wants_end_ = false;
 };
@@ -272,7 +273,7 @@ inline bool Program::obey(std::string_view line) {
     now_ = time_of("time");
     read(messages_, "message input");
   } else if (command == "time-unit") {
-    unit_ = tag_.value<std::int64_t>("picoseconds");
+    unit_ = tag_.value<Picoseconds>("picoseconds");
     if (unit_ < 1) throw std::invalid_argument("expected at least one picosecond");
   } else if (command == "parameter") {
     read(parameters_, "parameter");
@@ -327,7 +328,7 @@ inline void Program::answer(bool all) {
   for (const auto& row : outputs_) row->tell(answer_, all);
   const std::optional<Time> next = next_event();
   if (next) fit_unit_to(*next);
-  const std::int64_t time = count(now_);
+  const Picoseconds time = count(now_);
   TagWriter sync(answer_, "sync");
   sync.value("time", time);
   if (next) sync.value("next", count(*next));

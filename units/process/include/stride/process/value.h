@@ -8,12 +8,14 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <iterator>
 #include <stdexcept>
 #include <string>
 #include <string_view>
 #include <type_traits>
 #include <valarray>
 
+#include <stride/time.h>
 #include <stride/value_text.h>
 
 namespace stride::process {
@@ -22,6 +24,32 @@ using stride::append_value;
 using stride::Binary;
 using stride::parse_value;
 using stride::type_name;
+
+/// A whole number that may have more than 64 bits.
+inline void append_value(std::string& text, Picoseconds value) {
+  char digits[40];
+  char* first = std::end(digits);
+  const bool is_negative = value < 0;
+  do {
+    *--first = static_cast<char>('0' + (is_negative ? -(value % 10) : value % 10));
+    value /= 10;
+  } while (value != 0);
+  if (is_negative) *--first = '-';
+  text.append(first, std::end(digits));
+}
+
+inline void parse_value(std::string_view text, Picoseconds& value) {
+  constexpr std::size_t kMostDigits = 28;  // of kMaxSeconds
+  const bool is_negative = !text.empty() && text.front() == '-';
+  const std::string_view digits = text.substr(is_negative ? 1 : 0);
+  const bool are_digits = digits.find_first_not_of("0123456789") == std::string_view::npos;
+  if (digits.empty() || digits.size() > kMostDigits || !are_digits) {
+    stride::detail::refuse_value(text, "Int64", "a whole number of at most 28 digits");
+  }
+  value = 0;
+  for (const char digit : digits) value = 10 * value + (digit - '0');
+  if (is_negative) value = -value;
+}
 
 /// Whether two values are the same, so that only one of them has to be sent: a zero has its sign,
 /// and two NaNs are the same where their bits are.

@@ -110,9 +110,10 @@ class Kernel {
   /// rest; throws std::logic_error otherwise, or if a timer is due up to the instant reached.
   void skip(Duration duration);
   /// All that has been skipped.
-  Duration skipped() const { return to_picoseconds(advance_time_); }
-  /// The same in units of the device's time resolution, to be traced.
-  const sc_dt::uint64& advance_time() const { return advance_time_; }
+  Duration skipped() const { return skipped_; }
+  /// Adds the same to a trace, in units of the device's time resolution. Skips throw
+  /// std::out_of_range then where it is beyond SystemC's time.
+  void trace_skipped(sc_core::sc_trace_file* file, const char* name);
   /// How many units of the device's time resolution make one picosecond.
   std::uint64_t ticks_per_picosecond() const { return ticks_; }
 
@@ -163,9 +164,6 @@ class Kernel {
   void set_alarm();
   void withdraw_alarm();
 
-  Duration to_picoseconds(sc_dt::uint64 ticks) const {
-    return Duration(static_cast<std::int64_t>(ticks / ticks_));
-  }
   sc_core::sc_time to_kernel_time(Time time) const;
 
   static Kernel* active_;  ///< the one in whose Entry the kernel is; guarded by the kernel's lock
@@ -179,7 +177,9 @@ class Kernel {
   std::optional<Time> stopped_;
   sc_core::sc_time quantum_;                            ///< while nothing is in its context
   std::vector<const sc_core::sc_event*> clock_events_;  ///< of all clocks, sorted
-  sc_dt::uint64 advance_time_ = 0;
+  Duration skipped_{};
+  bool is_traced_ = false;
+  sc_dt::uint64 advance_time_ = 0;            ///< skipped_, as it is traced
   std::vector<Timer*> timers_;                ///< in the order of their construction
   std::unique_ptr<sc_core::sc_event> alarm_;  ///< wakes the timers that are due
   Time horizon_{};                            ///< the alarm is set for timers up to here

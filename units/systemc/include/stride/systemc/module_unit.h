@@ -350,12 +350,14 @@ class ModuleUnit : public DeviceUnit<Module> {
   /// Of the unit's clocks, and of repeats_every(). A module with a clock of its own inside
   /// overrides it.
   Duration clock_period(const Module& /*module*/) const override {
-    std::int64_t period = repetition_.count();
+    Duration period = repetition_;
     for (const detail::ClockRow* clock : clocks_) {
-      const std::int64_t other = clock->period().count();
-      period = period == 0 ? other : std::lcm(period, other);
+      const Duration other = clock->period();
+      period = period == Duration{}
+                   ? other
+                   : other / common_divisor(period, other).count() * period.count();
     }
-    return Duration(period);
+    return period;
   }
   void on_skip(Module& module, Duration skipped) override {
     if (!catch_up_) return;
