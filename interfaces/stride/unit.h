@@ -61,6 +61,9 @@ struct UnitInfo {
   bool early_return = false;     ///< it may return early from a step
   bool may_reject = false;       ///< it may reject a step
   bool single_instance = false;  ///< no second instance in the same process
+  /// A copy of its process (fork) has all of its state; false for a unit that talks to another
+  /// process, or has threads.
+  bool allows_snapshots = true;
   /// While its inputs are held, steps of any sizes between two instants lead to the same values,
   /// but for rounding.
   bool split_invariant = false;

@@ -281,6 +281,7 @@ class Writer {
         .attribute("xmlns:stride", "urn:org.stride:unit:1")
         .attribute("mayReject", unit_.info().may_reject);
     if (unit_.info().split_invariant) xml_.attribute("splitInvariant", true);
+    if (!unit_.info().allows_snapshots) xml_.attribute("allowsSnapshots", false);
     const auto& longest = unit_.info().maximum_step;
     if (longest && to_seconds(*longest) <= kMaxSeconds) {
       xml_.attribute("maximumStep", to_seconds(*longest));

@@ -110,16 +110,40 @@ TEST_CASE("a program that lost its permission to be executed in an archive runs 
   CHECK(outcome.exit_code == 0);
 }
 
-TEST_CASE("a unit whose program would be left behind is not rolled back by a snapshot") {
+TEST_CASE("check and run know that a snapshot would leave a unit's program behind") {
   const Parts two = {component("one", "cistern.fmu") + component("two", "cistern.fmu"), "",
                      "<stride:Step size=\"0.3\"/>\n", "<ssd:DefaultExperiment stopTime=\"2\"/>\n"};
   const Workspace workspace(two);
-  const Outcome refused = workspace.run({"--quiet"});
-  CHECK(refused.exit_code != 0);
-  CHECK_THAT(refused.err, Contains("the unit has started another process") && Contains("'two'"));
+  const std::string refused = input_error_of(workspace.run({"--quiet"}));
+  CHECK_THAT(refused, Contains("'one' and 'two' may both return early") &&
+                          Contains("<stride:EarlyReturn components=\"two\" allowed=\"false\"/>") &&
+                          !Contains("snapshots"));
+  CHECK(input_error_of(workspace.stride({"check", "test.ssd"})) == refused);
   Parts one_stops = two;
   one_stops.annotation += "<stride:EarlyReturn components=\"two\" allowed=\"false\"/>\n";
   CHECK(Workspace(one_stops).run({"--quiet"}).exit_code == 0);
+}
+
+TEST_CASE("error control refuses a unit with a program, and names what makes it run") {
+  const Workspace workspace(cistern("cistern.fmu"));
+  const std::string refused = input_error_of(workspace.run({"--policy", "error-controlled"}));
+  CHECK_THAT(refused, Contains("cannot be rolled back: 'cistern'") &&
+                          Contains("use the policy 'fixed' or 'event-driven'") &&
+                          !Contains("process=\"true\""));
+  const Arguments check{"check", "test.ssd", "--policy", "error-controlled"};
+  CHECK(input_error_of(workspace.stride(check)) == refused);
+  CHECK(workspace.run({"--quiet", "--policy", "fixed"}).exit_code == 0);
+}
+
+TEST_CASE("snapshots of a unit with a program are not taken, which is said") {
+  Parts parts = cistern("cistern.fmu");
+  parts.annotation += "<stride:Host components=\"*\" snapshots=\"true\"/>\n";
+  const Workspace workspace(parts);
+  const Outcome outcome = workspace.run({"--quiet"});
+  CHECK(outcome.exit_code == 0);
+  CHECK_THAT(outcome.err, Contains("unit 'cistern': it gets no snapshots, which test.ssd:"));
+  CHECK_THAT(workspace.stride({"check", "test.ssd"}).out,
+             Contains("no: they would not hold what it has outside of its process"));
 }
 
 TEST_CASE("a file outside is not packed, and found where it is") {

@@ -47,6 +47,7 @@ class ProcessUnit : public stride::Unit {
     auto& info = describe(declaration_.description);
     info.early_return = declaration_.may_stop;
     info.split_invariant = declaration_.split_invariant;
+    info.allows_snapshots = false;  // which would not hold the program
     info.maximum_step = declaration_.maximum_step;
     for (const auto& [name, factor, in, offset] : declaration_.units_of_measure) {
       unit_of_measure(name, factor, in, offset);

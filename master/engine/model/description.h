@@ -181,6 +181,8 @@ struct UnitDescription {
   /// Steps of any sizes between two instants lead to the same values, but for rounding, while the
   /// inputs are held; false unless the unit declares it.
   bool split_invariant = false;
+  /// Whether a copy of its process has all of its state; true unless the unit declares otherwise.
+  bool allows_snapshots = true;
   /// The index of the Boolean output that is the unit's verdict on a run, if it gives one, and of
   /// the String output that explains it.
   std::optional<std::size_t> verdict;

@@ -142,9 +142,10 @@ void Snapshots::check(std::size_t slot) const {
 /// What a fork would leave behind.
 void Snapshots::refuse_company() const {
   const std::string hint =
-      "use a unit that can save its state (canGetAndSetFMUState), or avoid the need for "
-      "rollback; `stride check` prints the reason, and <stride:Host components=\"…\" "
-      "snapshots=\"false\"/> leaves it without snapshots, if none of its steps has to be repeated";
+      "use a unit that can save its state (canGetAndSetFMUState); with the policy "
+      "'error-controlled', use 'fixed' or 'event-driven'; with others, <stride:Host "
+      "components=\"…\" snapshots=\"false\"/> leaves it without snapshots, if no step of it has "
+      "to be repeated";
   if (const std::size_t threads = thread_count(); threads > 1) {
     fail(fmt::format("the unit runs {} threads, and a snapshot of its process holds one only",
                      threads),

@@ -63,8 +63,11 @@ void add_rules(const HostRequest& request, std::span<const std::string> componen
   if (request.no_sandbox) rules.push_back({{"*", {"--no-sandbox", 0}}, {.sandbox = false}});
 }
 
-core::SnapshotProcess snapshot_process(const HostSettings& settings) {
-  if (!settings.snapshots.value_or(true)) return core::SnapshotProcess::None;
+core::SnapshotProcess snapshot_process(const core::UnitDescription& unit,
+                                       const HostSettings& settings) {
+  if (!unit.allows_snapshots || !settings.snapshots.value_or(true)) {
+    return core::SnapshotProcess::None;
+  }
   if (!settings.process) return core::SnapshotProcess::New;
   return *settings.process ? core::SnapshotProcess::Own : core::SnapshotProcess::None;
 }
@@ -73,8 +76,19 @@ std::string text(const core::Location& where) {
   return where.line == 0 ? where.file : fmt::format("{}:{}", where.file, where.line);
 }
 
+void warn_of_impossible_snapshots(const core::ComponentDeclaration& component,
+                                  const HostSettings& settings) {
+  const core::UnitDescription& unit = *component.description;
+  if (unit.allows_snapshots || unit.can_save_state || !settings.snapshots.value_or(false)) return;
+  spdlog::warn(
+      "{}it gets no snapshots, which {} asks for: they would not hold what it has outside of its "
+      "process, such as a program",
+      core::to_text({component.where, component.name, {}, {}}), text(settings.where));
+}
+
 std::string snapshots_text(const core::UnitDescription& unit, const HostSettings& settings) {
   if (unit.can_save_state) return "no: it saves its own state";
+  if (!unit.allows_snapshots) return "no: they would not hold what it has outside of its process";
   if (!settings.snapshots)
     return "no: it steps after the others; snapshots=\"true\" rolls it back from rejected steps";
   return fmt::format("{0}: snapshots=\"{1}\"", *settings.snapshots ? "yes" : "no",
@@ -87,7 +101,8 @@ Hosting make_hosting(std::string reason, const core::UnitDescription& unit,
   hosting.options.call_limit = settings.call_limit;
   hosting.options.memory_limit = settings.memory_limit;
   hosting.options.is_sandboxed = settings.sandbox.value_or(true);
-  hosting.options.takes_snapshots = !unit.can_save_state && settings.snapshots.value_or(false);
+  hosting.options.takes_snapshots =
+      !unit.can_save_state && unit.allows_snapshots && settings.snapshots.value_or(false);
   return hosting;
 }
 
@@ -110,7 +125,8 @@ std::vector<std::optional<Hosting>> choose_hostings(
   std::vector<std::optional<Hosting>> hostings(declared.size());
   std::vector<core::SnapshotProcess> processes;
   for (std::size_t i = 0; i < declared.size(); ++i) {
-    processes.push_back(snapshot_process(settings[i]));
+    warn_of_impossible_snapshots(declared[i], settings[i]);
+    processes.push_back(snapshot_process(*declared[i].description, settings[i]));
     if (!settings[i].process.value_or(false)) continue;
     hostings[i] = make_hosting(text(settings[i].where), *declared[i].description, settings[i]);
     declared[i].has_snapshots = hostings[i]->options.takes_snapshots;

@@ -92,6 +92,16 @@ TEST_CASE("that steps may be split is annotated where it is so") {
              Contains(R"(mayReject="false" splitInvariant="true"/>)"));
 }
 
+TEST_CASE("that a unit allows no snapshots is annotated where it is so") {
+  class Outside : public Unit {
+   public:
+    Outside() { describe("Talks to a program").allows_snapshots = false; }
+    void step(Step&) override {}
+  };
+  CHECK_THAT(describe(Sample()), !Contains("allowsSnapshots"));
+  CHECK_THAT(describe(Outside()), Contains(R"( allowsSnapshots="false"/>)"));
+}
+
 TEST_CASE("the step that a unit prefers is in its default experiment") {
   class Clocked : public Unit {
    public:

@@ -1,5 +1,6 @@
 #include "master/engine/run/step_policies/step_policy.h"
 
+#include <algorithm>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -27,6 +28,20 @@ void check_own_step(const Component& component) {
              fmt::format("its own step of {} s is longer than its unit's maximum of {} s",
                          to_text(*component.own_step), to_text(*maximum)),
              "give it a shorter one");
+}
+
+/// A unit without a state has snapshots with error control, unless something forbids them.
+std::string rollback_hint(const System& system) {
+  const std::string others =
+      "use the policy 'fixed' or 'event-driven', or units that can save their state "
+      "(canGetAndSetFMUState)";
+  const bool can_all = std::ranges::all_of(system.components(), [](const Component& component) {
+    return component.can_save_state() || component.description->allows_snapshots;
+  });
+  if (!can_all) return others;
+  return "let snapshots of their processes roll them back: leave process=\"false\" and "
+         "snapshots=\"false\" of their <stride:Host> out; or " +
+         others;
 }
 
 }  // namespace
@@ -57,9 +72,7 @@ void check_step_policy(const System& system, const RunOptions& options) {
                fmt::format("these units cannot be rolled back: {}; the policy '{}' has to undo "
                            "steps that were too long",
                            quoted(final), policy.name),
-               "run them in processes of their own, whose snapshots roll them back, <stride:Host "
-               "components=\"…\" process=\"true\"/>, or use units that can save their state "
-               "(canGetAndSetFMUState), or another policy");
+               rollback_hint(system));
   }
 }
 

@@ -74,24 +74,34 @@ std::string reason(const Component& component, StepRole role, bool saves_state) 
          (unit.may_reject ? "does not return early, but might reject a step" : "never stops");
 }
 
+std::string early_return_hint(const Component& first, const Component& second) {
+  const bool is_second = second.description->allows_snapshots;
+  const bool can_any = is_second || first.description->allows_snapshots;
+  const std::string& name = is_second || !can_any ? second.name : first.name;
+  const std::string snapshots = fmt::format(
+      "run one of them in a process of its own, whose snapshots roll it back, <stride:Host "
+      "components=\"{}\" snapshots=\"true\"/>, or ",
+      name);
+  return (can_any ? snapshots : "let one of them ") +
+         fmt::format(
+             "make its steps to the end, <stride:EarlyReturn components=\"{}\" "
+             "allowed=\"false\"/>, or replace it by a unit that can save its state "
+             "(canGetAndSetFMUState)",
+             name);
+}
+
 void check_single(const System& system, const std::vector<StepOrderEntry>& order) {
-  std::vector<std::string> names;
+  std::vector<const Component*> stopping;
   for (const StepOrderEntry& entry : order) {
-    if (entry.role == StepRole::MayReturnEarly) {
-      names.push_back(system.components()[entry.component].name);
-    }
+    if (entry.role != StepRole::MayReturnEarly) continue;
+    stopping.push_back(&system.components()[entry.component]);
   }
-  if (names.size() < 2) return;
-  fail_input(
-      {},
-      fmt::format("'{}' and '{}' may both return early from a step, and neither can be "
-                  "rolled back: when one stops, the other may already be too far",
-                  names[0], names[1]),
-      fmt::format("run one of them in a process of its own, whose snapshots roll it back, "
-                  "<stride:Host components=\"{0}\" snapshots=\"true\"/>, or make its steps to the "
-                  "end, <stride:EarlyReturn components=\"{0}\" allowed=\"false\"/>, or replace it "
-                  "by a unit that can save its state (canGetAndSetFMUState)",
-                  names[1]));
+  if (stopping.size() < 2) return;
+  fail_input({},
+             fmt::format("'{}' and '{}' may both return early from a step, and neither can be "
+                         "rolled back: when one stops, the other may already be too far",
+                         stopping[0]->name, stopping[1]->name),
+             early_return_hint(*stopping[0], *stopping[1]));
 }
 
 /// The components that each component feeds with values that exist between events, too.

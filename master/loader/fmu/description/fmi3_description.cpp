@@ -276,6 +276,7 @@ void read_annotation(const xml::Element& root, core::UnitDescription& unit) {
       if (!element.is("urn:org.stride:unit:1", "Unit")) continue;
       unit.may_reject = element.flag("mayReject", unit.may_reject);
       unit.split_invariant = element.flag("splitInvariant");
+      unit.allows_snapshots = element.flag("allowsSnapshots", unit.allows_snapshots);
       unit.maximum_step = read_step_size(element, "maximumStep");
       unit.verdict = read_output(element, "verdict", core::ValueType::Boolean, unit);
       unit.verdict_text = read_output(element, "verdictText", core::ValueType::String, unit);

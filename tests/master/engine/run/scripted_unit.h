@@ -129,6 +129,7 @@ class Describe {
     description_->variables.back().tolerance = value;
     return *this;
   }
+  Describe& allows_no_snapshots() { return description_->allows_snapshots = false, *this; }
   Describe& never_rejects() { return description_->may_reject = false, *this; }
 
   std::shared_ptr<const UnitDescription> done() const { return description_; }

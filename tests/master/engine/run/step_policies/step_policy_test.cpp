@@ -213,7 +213,17 @@ TEST_CASE("an error-controlled step refuses units that cannot be rolled back") {
   f.add("c", Describe("c").done());
   f.options.step.policy = &kErrorControlledSteps;
   CHECK_THAT(refusal(f), Contains("cannot be rolled back: 'a', 'c'") &&
-                             Contains("canGetAndSetFMUState") && Contains("process=\"true\""));
+                             Contains("canGetAndSetFMUState") &&
+                             Contains("leave process=\"false\" and snapshots=\"false\" of their") &&
+                             Contains("the policy 'fixed'"));
+}
+
+TEST_CASE("an error-controlled step asks for no snapshots of units that allow none") {
+  ScriptedSystem f;
+  f.add("a", Describe("a").allows_no_snapshots().done());
+  f.options.step.policy = &kErrorControlledSteps;
+  CHECK_THAT(refusal(f),
+             Contains("'a'") && Contains("use the policy 'fixed'") && !Contains("snapshots"));
 }
 
 TEST_CASE("the error-controlled step follows the tolerance") {

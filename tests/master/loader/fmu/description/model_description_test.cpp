@@ -347,6 +347,12 @@ TEST_CASE("whether the unit's steps may be split") {
   CHECK_FALSE(annotated("org.another", unit + " splitInvariant=\"true\"/>").split_invariant);
 }
 
+TEST_CASE("whether the unit allows snapshots") {
+  const std::string unit = "<stride:Unit xmlns:stride=\"urn:org.stride:unit:1\" mayReject=\"0\"";
+  CHECK(annotated("org.stride.unit", unit + "/>").allows_snapshots);
+  CHECK_FALSE(annotated("org.stride.unit", unit + " allowsSnapshots=\"false\"/>").allows_snapshots);
+}
+
 TEST_CASE("which outputs are the unit's verdict and its text") {
   const auto judge = [](const std::string& attributes) {
     const std::string outputs =
