@@ -23,6 +23,7 @@ class Curve {
   void add(stride::Time time, double value) { times_.push_back(time), values_.push_back(value); }
   bool is_empty() const { return times_.empty(); }
   double first() const { return values_.front(); }
+  double last() const { return values_.back(); }
   /// The greatest distance from 0.
   double magnitude() const;
   /// At a jump: where it leads.

@@ -1,5 +1,6 @@
 #include "units/player/heading.h"
 
+#include <algorithm>
 #include <map>
 #include <sstream>
 #include <stdexcept>
@@ -141,6 +142,55 @@ Heading parse_heading(const std::string& text) {
   return heading;
 }
 
+namespace {
+
+/// The unit of time that is meant by another name; empty if none is.
+std::string meant_time_unit(const std::string& name) {
+  static const std::map<std::string, const char*> kOthers = {
+      {"s", "s"},        {"sec", "s"},
+      {"secs", "s"},     {"second", "s"},
+      {"seconds", "s"},  {"ms", "ms"},
+      {"msec", "ms"},    {"millisecond", "ms"},
+      {"us", "us"},      {"milliseconds", "ms"},
+      {"usec", "us"},    {"\u00b5s", "us"},
+      {"\u03bcs", "us"}, {"microseconds", "us"},
+      {"ns", "ns"},      {"nsec", "ns"},
+      {"min", "min"},    {"nanoseconds", "ns"},
+      {"minute", "min"}, {"minutes", "min"},
+      {"h", "h"},        {"hr", "h"},
+      {"hour", "h"},     {"hours", "h"}};
+  const auto found = kOthers.find(lower_case(name));
+  return found == kOthers.end() ? "" : found->second;
+}
+
+/// "time [s]" for "time (s)", "TIME_s", "t" and the like; empty for what is no time.
+std::string meant_time_heading(const std::string& text) {
+  const std::string name = trimmed(text);
+  const std::size_t end = std::min(name.find_first_of(" ([_/"), name.size());
+  const std::string word = lower_case(name.substr(0, end));
+  if (word != "time" && word != "t" && word != "times" && word != "timestamp") {
+    const std::string unit = meant_time_unit(word);
+    return unit.size() > 0 && word.size() > 2 ? "time [" + unit + "]" : "";
+  }
+  constexpr std::string_view kMarks = " ([_/])";
+  const std::size_t first = name.find_first_not_of(kMarks, end);
+  if (first == std::string::npos) return kTimeName;
+  const std::string unit =
+      meant_time_unit(name.substr(first, name.find_last_not_of(kMarks) - first + 1));
+  return unit.empty() ? "" : "time [" + unit + "]";
+}
+
+}  // namespace
+
+bool is_time_heading(const std::string& text) {
+  try {
+    parse_time_heading(text);
+    return true;
+  } catch (const std::invalid_argument&) {
+    return false;
+  }
+}
+
 std::int64_t parse_time_heading(const std::string& text) {
   static const std::map<std::string, std::int64_t> kUnits = {{"", 1'000'000'000'000},
                                                              {"s", 1'000'000'000'000},
@@ -154,9 +204,11 @@ std::int64_t parse_time_heading(const std::string& text) {
   take_unit(name, unit);
   const auto found = kUnits.find(unit);
   if ((name == kTimeName || name == "Time") && found != kUnits.end()) return found->second;
+  const std::string meant = meant_time_heading(text);
   throw std::invalid_argument("the first column is '" + text +
                               "'; expected 'time', in seconds, or 'time [UNIT]' with s, ms, us, "
-                              "ns, min or h");
+                              "ns, min or h" +
+                              (meant.empty() ? "" : "; did you mean '" + meant + "'?"));
 }
 
 }  // namespace player

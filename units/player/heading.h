@@ -29,6 +29,8 @@ struct Heading {
 /// what was meant.
 Heading parse_heading(const std::string& text);
 
+/// Whether parse_time_heading() takes it.
+bool is_time_heading(const std::string& text);
 /// That of the first column, "time" or "time [UNIT]": how many picoseconds its unit has. Throws
 /// std::invalid_argument that contains what was expected.
 std::int64_t parse_time_heading(const std::string& text);

@@ -23,6 +23,8 @@ struct Column {
   Heading heading;
   std::size_t input = 0;
   bool has_value = false;  ///< in a row so far
+  stride::Time latest{};   ///< of the latest value
+  int values_at_once = 0;  ///< different ones at that time
 
   Course course() const { return *heading.course; }
   bool is_event() const { return course() == Course::Event; }
@@ -42,12 +44,22 @@ bool is_truth(const std::string& text) {
   return (plain == "true" || plain == "false") && !is_number(text);
 }
 
+/// "0,5", as one half is written in many languages.
+bool has_decimal_comma(const std::string& text) {
+  std::string number = trimmed(text);
+  const std::size_t comma = number.find(',');
+  if (comma == std::string::npos) return false;
+  number[comma] = '.';
+  return is_number(number);
+}
+
 /// What the values of a column look like that does not name its type.
 class Looks {
  public:
   void add(const std::string& text, int line, bool is_quoted) {
     Kind& kind = is_number(text) ? number_ : is_truth(text) ? truth_ : other_;
-    if (kind.line == 0) kind = {line, text};
+    if (kind.count++ == 0) kind.line = line, kind.text = text;
+    are_decimal_commas_ &= has_decimal_comma(text);
     has_bare_value_ |= !is_quoted && &kind != &other_;
   }
 
@@ -60,6 +72,11 @@ class Looks {
       if (kind->line != 0) seen.push_back(kind);
     }
     if (seen.size() > 1 && has_bare_value_) refuse(seen);
+    if (seen.size() == 1 && are_decimal_commas_) {
+      throw Mixture(other_.line, "'" + other_.text +
+                                     "' looks like a number with a decimal comma; expected a "
+                                     "decimal point, or ': String' behind the heading for text");
+    }
     if (seen.size() > 1 || other_.line != 0) return Type::String;
     return truth_.line != 0 ? Type::Boolean : Type::Float64;
   }
@@ -71,27 +88,34 @@ class Looks {
 
  private:
   struct Kind {
-    int line = 0;  ///< of the first one; 0: there is none
-    std::string text{};
+    int line = 0;        ///< of the first one; 0: there is none
+    std::string text{};  ///< likewise
+    int count = 0;
   };
 
+  /// What is rarest is the mistake, or the later one of two kinds that are as rare.
   [[noreturn]] void refuse(std::vector<const Kind*> seen) const {
-    std::sort(seen.begin(), seen.end(),
-              [](const Kind* a, const Kind* b) { return a->line < b->line; });
-    const Kind &first = *seen.front(), &odd = *seen[1];
-    const char* const name = &first == &number_  ? "a number"
-                             : &first == &truth_ ? "true or false"
-                                                 : "text";
-    const bool has_comma = &odd == &other_ && odd.text.find(',') != std::string::npos;
-    throw Mixture(odd.line, "'" + odd.text + "' is not " + name + " as '" + first.text +
-                                "' in line " + std::to_string(first.line) + " is; " +
-                                (has_comma ? "expected a decimal point; " : "") +
+    std::sort(seen.begin(), seen.end(), [](const Kind* a, const Kind* b) {
+      return a->count != b->count ? a->count > b->count : a->line < b->line;
+    });
+    const Kind &common = *seen.front(), &odd = *seen.back();
+    const char* const name = &common == &number_  ? "a number"
+                             : &common == &truth_ ? "true or false"
+                                                  : "text";
+    const auto has = [&](char sign) {
+      return &odd == &other_ && odd.text.find(sign) != std::string::npos;
+    };
+    throw Mixture(odd.line, "'" + odd.text + "' is not " + name + " as '" + common.text +
+                                "' in line " + std::to_string(common.line) + " is; " +
+                                (has(';') ? "expected commas between fields; " : "") +
+                                (has(',') ? "expected a decimal point; " : "") +
                                 "leave the field empty if there is no value, or write ': " +
                                 (other_.line == 0 ? "Boolean" : "String") +
                                 "' behind the heading if all of them are meant so");
   }
 
   Kind number_, truth_, other_;
+  bool are_decimal_commas_ = true;
   bool has_bare_value_ = false;  ///< without quotation marks, and not text anyhow
 };
 
@@ -153,6 +177,7 @@ class TableReader {
     if (!rows_.next()) rows_.fail("the table is empty; expected a line of headings");
     const auto& fields = rows_.fields();
     refuse_other_separators(fields);
+    refuse_other_order(fields);
     checked([&] { ticks_ = parse_time_heading(fields[0]); });
     if (fields.size() == 1) {
       rows_.fail("the table has no column behind 'time'; expected others, separated by commas");
@@ -189,13 +214,27 @@ class TableReader {
   }
 
   void refuse_other_separators(const std::vector<std::string>& fields) const {
-    if (fields.size() > 1) return;
+    const std::string first = trimmed(fields[0]);
     for (const auto& [separator, name] : {std::pair{';', "';'"}, {'\t', "tabs"}, {'|', "'|'"}}) {
-      if (fields[0].find(separator) == std::string::npos) continue;
+      if (first.find(separator) == std::string::npos) continue;
       rows_.fail(std::string("the fields are separated by ") + name +
                  "; expected commas, and numbers with a decimal point: save it with the separator "
                  "',', or convert it, as by pandas.read_csv(FILE, sep=…, decimal=…).to_csv(…)");
     }
+  }
+
+  /// Of lines, and of columns.
+  void refuse_other_order(const std::vector<std::string>& fields) const {
+    if (fields[0].compare(0, 1, "#") == 0) {
+      rows_.fail(
+          "the line begins with '#'; a table has no comments, and its headings are in the "
+          "first line");
+    }
+    if (is_time_heading(fields[0])) return;
+    const auto time = std::find_if(fields.begin(), fields.end(), &is_time_heading);
+    if (time == fields.end()) return;
+    rows_.fail("'" + *time + "' is the heading of column " +
+               std::to_string(time - fields.begin() + 1) + "; expected it as the first one");
   }
 
   void complete_types() {
@@ -270,11 +309,25 @@ class TableReader {
 
   bool next_row() {
     if (!rows_.next()) return false;
-    if (rows_.fields().size() != columns_.size() + 1) {
-      rows_.fail("the line has " + std::to_string(rows_.fields().size()) +
-                 " fields, the headings " + std::to_string(columns_.size() + 1));
+    const std::size_t count = rows_.fields().size();
+    if (count == columns_.size() + 1) return true;
+    const bool is_blank = count == 1 && trimmed(rows_.fields()[0]).empty();
+    if (is_blank) rows_.fail("the line is empty; expected a row, or nothing behind the last one");
+    rows_.fail("the line has " + std::to_string(count) + (count == 1 ? " field" : " fields") +
+               ", the headings " + std::to_string(columns_.size() + 1) + count_hint());
+  }
+
+  /// Of a line that has another number of fields.
+  std::string count_hint() const {
+    const auto& fields = rows_.fields();
+    const bool has_semicolon =
+        std::any_of(fields.begin(), fields.end(),
+                    [](const std::string& field) { return field.find(';') != std::string::npos; });
+    if (has_semicolon) {
+      return "; fields are separated by commas, not by ';', and numbers have a decimal point";
     }
-    return true;
+    if (fields.size() < columns_.size() + 1) return "; a field without a value is empty: ',,'";
+    return "; numbers have a decimal point, and a text with a comma stands in quotation marks";
   }
 
   /// At an instant the values come first, then the messages, then where lines jump.
@@ -324,10 +377,24 @@ class TableReader {
     Input& input = result_.inputs[column.input];
     if (column.course() == Course::Linear) return add_point(i, input);
     append_parsed(input.values, input.type, field(i));
+    const bool is_changed = ends_with_change(input.values);
+    require_time_for_value(column, is_changed);
     const bool is_first = !std::exchange(column.has_value, true);
     if (is_first) return;  // it is the start value
-    if (!ends_with_change(input.values)) return drop_last(input.values);
+    if (!is_changed) return drop_last(input.values);
     result_.entries.push_back(value_of(column.input));
+  }
+
+  /// A value between two others of one time would never be seen.
+  void require_time_for_value(Column& column, bool is_changed) const {
+    const bool is_later = !column.has_value || column.latest != time_;
+    column.latest = time_;
+    if (is_later) column.values_at_once = 0;
+    if (is_later || is_changed) ++column.values_at_once;
+    if (column.values_at_once < 3) return;
+    throw std::invalid_argument("a third value at the time " + rows_.fields()[0] +
+                                "; two are a jump, from the first one to the second, so expected "
+                                "two, and another time for the third");
   }
 
   void add_point(std::size_t i, Input& input) {
@@ -339,6 +406,8 @@ class TableReader {
     if (!std::isfinite(value)) {
       throw std::invalid_argument("'" + field(i) + "' is not finite, so no line leads to it");
     }
+    const bool is_changed = input.curve->is_empty() || input.curve->last() != value;
+    require_time_for_value(columns_[i], is_changed);
     input.curve->add(time_, value);
     columns_[i].has_value = true;
     if (input.curve->ends_with_jump()) jumps_.push_back(columns_[i].input);
@@ -424,11 +493,19 @@ class TableReader {
   bool is_first_ = true;
 };
 
+/// Without the lines at the end that have no value, which spreadsheets write, and the last line
+/// feed. A time is a value, so no such line is a row.
+std::size_t size_without_blank_end(const std::string& text) {
+  const std::size_t last = text.find_last_not_of(" \t,\r\n");
+  return last == std::string::npos ? 0 : std::min(text.find('\n', last), text.size());
+}
+
 }  // namespace
 
 Stimuli parse_table(const std::string& text, const std::string& file) {
-  const bool is_whole = text.empty() || text.back() == '\n';
-  const std::string whole = is_whole ? "" : text + '\n';
+  const std::size_t size = size_without_blank_end(text);
+  const bool is_whole = size == 0 ? text.empty() : size + 1 == text.size() && text.back() == '\n';
+  const std::string whole = is_whole || size == 0 ? "" : text.substr(0, size) + '\n';
   return TableReader(is_whole ? text : whole, file).read();
 }
 

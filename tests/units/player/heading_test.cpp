@@ -70,6 +70,18 @@ TEST_CASE("a heading without a name is refused") {
   CHECK_THROWS_WITH(parse_heading(": Int32"), Contains("no name"));
 }
 
+TEST_CASE("a heading for the time in another form is told in this one") {
+  const std::pair<const char*, const char*> kForms[] = {
+      {"time (s)", "'time [s]'"},  {"TIME", "'time'"},         {"t", "'time'"},
+      {"Time[ms]", "'time [ms]'"}, {"time_sec", "'time [s]'"}, {"time [hours]", "'time [h]'"},
+      {"seconds", "'time [s]'"}};
+  for (const auto& [text, meant] : kForms) {
+    INFO(text);
+    CHECK_THROWS_WITH(parse_time_heading(text), Contains(std::string("did you mean ") + meant));
+  }
+  CHECK_THROWS_WITH(parse_time_heading("time [m]"), !Contains("did you mean"));
+}
+
 TEST_CASE("the first column is the time, in a unit of time") {
   CHECK(parse_time_heading("time") == 1'000'000'000'000);
   CHECK(parse_time_heading("Time [ms]") == 1'000'000'000);

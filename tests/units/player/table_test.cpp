@@ -111,6 +111,23 @@ TEST_CASE("a second row of the same time is a jump of a held value") {
         std::vector<std::int32_t>{0, 2, 5});
 }
 
+TEST_CASE("rows of one time may repeat a value") {
+  const Stimuli stimuli = table("time,u,k:Int32\n0,0,0\n1,0,0\n1,2,2\n1,2,2\n1,,\n2,5,5\n");
+  CHECK(stimuli.inputs[0].curve->before(time_from_seconds(1)) == 0);
+  CHECK(stimuli.inputs[0].curve->at(time_from_seconds(1)).value == 2);
+  CHECK(std::get<std::vector<std::int32_t>>(stimuli.inputs[1].values) ==
+        std::vector<std::int32_t>{0, 2, 5});
+}
+
+TEST_CASE("lines without a value at the end are none") {
+  for (const char* end : {"", "\n", "\n\n", "\n , \n\r\n,,\n", "\r\n\r\n"}) {
+    INFO(end);
+    const Stimuli stimuli = table(std::string("time,u,s\n0,1,a\n1,2,\"\"") + end);
+    CHECK(stimuli.end() == time_from_seconds(1));
+    CHECK(std::get<std::vector<std::string>>(stimuli.inputs[1].values).back().empty());
+  }
+}
+
 TEST_CASE("times are exact to the picosecond, and may be before the start") {
   const Stimuli stimuli = table("time,k:Int32\n-1.5,0\n0.1,1\n1e-1,2\n14.200358702064,3\n");
   CHECK(stimuli.entries[0].time == stride::Time(stride::Duration(100'000'000'000)));
@@ -135,7 +152,26 @@ TEST_CASE("mistakes in a table have the line and the column") {
       {"time,k [m]: Int32\n0,1\n", "x.csv:1: column 'k': a value with a unit of measure, [m], is"},
       {"time,k: Int32 event\n0,1\n", "x.csv:1: column 'k': expected a name such as 'k.value'"},
       {"time,u,v\n0,1\n", "x.csv:2: the line has 2 fields, the headings 3"},
-      {"time,u\n0,1\n\n", "x.csv:3: the line has 1 fields"},
+      {"time,u\n0\n", "x.csv:2: the line has 1 field, the headings 2; a field without a value is"},
+      {"time,u\n0,1\n\n1,2\n", "x.csv:3: the line is empty"},
+      {"\n\n", "x.csv:1: the table is empty"},
+      {"# made by hand\ntime,u\n0,1\n",
+       "x.csv:1: the line begins with '#'; a table has no comments"},
+      {"u,time [s]\n1,0\n",
+       "x.csv:1: 'time [s]' is the heading of column 2; expected it as the first"},
+      {"time (s),u\n0,1\n", "did you mean 'time [s]'?"},
+      {"time;u [m],v\n0;1\n", "x.csv:1: the fields are separated by ';'"},
+      {"time,u\n0,5;1,2\n",
+       "x.csv:2: the line has 3 fields, the headings 2; fields are separated "
+       "by commas, not by ';', and numbers have a decimal point"},
+      {"time,u,v\n0,1,2\n0,5;1,2\n",
+       "'5;1' is not a number as '1' in line 2 is; expected commas between"},
+      {"time,u\n0,5,1\n", "the headings 2; numbers have a decimal point"},
+      {"time,u\n0,\"0,5\"\n1,\"1,5\"\n",
+       "x.csv:2: column 'u': '0,5' looks like a number with a "
+       "decimal comma; expected a decimal point"},
+      {"time,u\n1,0\n1,1\n1,2\n", "x.csv:4: column 'u': a third value at the time 1; two are"},
+      {"time,k:Int32\n1,0\n1,1\n1,0\n", "x.csv:4: column 'k': a third value at the time 1"},
       {"time,u\n1,1\n0,1\n", "x.csv:3: column 'time': 0 is before"},
       {"time,u\nx,1\n", "x.csv:2: column 'time': 'x' is not a time"},
       {"time,u\n,1\n", "x.csv:2: column 'time': '' is not a time"},
@@ -150,6 +186,7 @@ TEST_CASE("mistakes in a table have the line and the column") {
        "there is no value, or write ': String' behind the heading"},
       {"time,u\n0,1\n1,\"1,5\"\n", "x.csv:3: column 'u': '1,5' is not a number"},
       {"time,u\n0,x\n1,2\n", "x.csv:3: column 'u': '2' is not text as 'x' in line 2 is"},
+      {"time,u\n0,n/a\n1,2\n2,3\n", "x.csv:2: column 'u': 'n/a' is not a number as '2' in line 3"},
       {"time,b\n0,1\n1,true\n", "or write ': Boolean' behind the heading"},
       {"time,k:Int32\n0,1.5\n", "x.csv:2: column 'k': '1.5' is not a valid Int32"},
       {"time,f.a:Int8 event,f.b:Int8 event\n0,1,\n", "x.csv:2: column 'f.b': the message has"},
