@@ -157,3 +157,66 @@ TEST_CASE("two rows of one time are a jump at that time, whatever the step is") 
   CHECK(column(workspace, "cycle.wanted") == Words{"1", "1", "3", "3"});
   CHECK(column(workspace, "cycle.gear") == Words{"1", "1", "4", "4"});
 }
+
+TEST_CASE("a column of whole numbers is told how to be one of integers") {
+  Parts parts{component("cycle", "cycle.csv") + component("types", "types.fmu"),
+              connection("cycle.k", "types.int16"), "",
+              "<ssd:DefaultExperiment stopTime=\"1\"/>\n"};
+  const auto error = [&](const std::string& target) {
+    parts.connections = connection("cycle.k", target);
+    const Workspace workspace(parts);
+    workspace.scratch().write("cycle.csv", "time,k\n0,1\n1,2\n");
+    return input_error_of(workspace.run({"--quiet"}));
+  };
+  CHECK_THAT(error("types.int16"), Contains("cannot connect 'cycle.k' to 'types.int16'") &&
+                                       Contains("declare its type in its heading in the table: 'k: "
+                                                "Int16'"));
+  CHECK_THAT(error("types.colour"), Contains("an Enumeration") && Contains("'k: Int64'"));
+  const Workspace mended(parts);
+  mended.scratch().write("cycle.csv", "time,k: Int64\n0,1\n1,2\n");
+  CHECK(mended.run({"--quiet"}).err == "");
+}
+
+TEST_CASE("a unit of measure of a table that nothing defines is warned of") {
+  const Driven workspace("time,wanted,far [furlong/s]\n0,0,1\n6,5,2\n");
+  const std::string warning =
+      "cycle.csv: column 'far': nothing defines 'furlong/s', its unit of measure";
+  for (const char* command : {"run", "check"}) {
+    const Outcome outcome = workspace.stride({command, "test.ssd"});
+    CHECK(outcome.exit_code == 0);
+    CHECK_THAT(outcome.err, Contains(warning) && Contains("in the <ssd:Units> of test.ssd") &&
+                                Contains("<ssc:Unit name=\"furlong/s\">"));
+  }
+  CHECK_THAT(workspace.stride({"check", "cycle.csv"}).err,
+             Contains(warning) && Contains("a system (.ssd) with the table as a component"));
+  std::string defined = read(workspace / "test.ssd");
+  const std::string end = "</ssd:SystemStructureDescription>";
+  defined.insert(defined.find("<ssd:DefaultExperiment"),
+                 "<ssd:Units><ssc:Unit name=\"furlong\"><ssc:BaseUnit m=\"1\" factor=\"201.168\"/>"
+                 "</ssc:Unit></ssd:Units>\n");
+  workspace.scratch().write("defined.ssd", defined);
+  const Outcome outcome = workspace.stride({"run", "defined.ssd", "--quiet"});
+  CHECK(outcome.exit_code == 0);
+  CHECK(outcome.err == "");
+}
+
+TEST_CASE("a check of a time behind the last row is told why the run ends there") {
+  Parts parts{component("cycle", "cycle.csv"), "",
+              "<stride:Checks><stride:Always name=\"end\" signal=\"cycle.wanted\" max=\"9\" "
+              "from=\"20\"/></stride:Checks>\n",
+              ""};
+  const Workspace workspace(parts);
+  workspace.scratch().write("cycle.csv", kCycle);
+  CHECK_THAT(input_error_of(workspace.run({"--quiet"})),
+             Contains("20 s is behind the end of the run, at 10 s") &&
+                 Contains("the run ends with the last row of the table 'cycle', cycle.csv") &&
+                 Contains("--stop SECONDS"));
+}
+
+TEST_CASE("a table alone takes the names of its columns") {
+  const Driven workspace(kCycle);
+  REQUIRE(workspace.stride({"run", "cycle.csv", "--quiet", "--signals", "gear", "--signals", "w*"})
+              .exit_code == 0);
+  CHECK_THAT(read(workspace / "results/cycle/signals.csv"),
+             StartsWith("time,cycle.gear,cycle.wanted\n"));
+}

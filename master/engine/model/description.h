@@ -159,7 +159,7 @@ struct UnitDescription {
   /// Names that the description has more than once, for variables that are not the same; the first
   /// of them has the name.
   std::set<std::string> ambiguous_names;
-  std::map<std::string, BaseUnitOfMeasure> units_of_measure;  ///< those whose meaning is given
+  UnitsOfMeasure units_of_measure;  ///< those whose meaning is given
   std::vector<Unknown> outputs;
   std::vector<Unknown> initial_unknowns;
 

@@ -43,6 +43,7 @@ struct ComponentDeclaration {
   /// For names that the description does not define; may be null.
   std::shared_ptr<const UnitsOfMeasure> units_of_measure{};
   std::optional<Interval> own_step{};
+  bool is_table = false;  ///< its unit plays a table, whose headings decide the types
 
   bool may_return_early() const { return early_return_allowed && description->may_return_early; }
 };

@@ -23,17 +23,14 @@ long double finite_number(const xml::Element& element, const char* attribute, do
                            *element.attribute(attribute), element.tag()));
 }
 
-/// Without those of prefixes that are rarely meant.
-std::vector<std::string> known_names() {
-  std::vector<std::string> names{"km/h", "m/s", "rad/s", "deg/s", "N.m", "kg/m3", "1"};
-  for (const UnitOfMeasureSymbol& known : kUnitOfMeasureSymbols) names.emplace_back(known.symbol);
-  for (const UnitOfMeasureSymbol& known : kUnitOfMeasureSymbols) {
-    if (!known.takes_prefix) continue;
-    for (const char* const prefix : {"k", "M", "m", "u", "c"}) {
-      names.push_back(prefix + std::string(known.symbol));
-    }
-  }
-  return names;
+/// "0.5" for "0,5"; empty for other texts.
+std::string with_decimal_point(std::string text) {
+  const std::size_t comma = text.find(',');
+  if (comma == std::string::npos) return "";
+  text[comma] = '.';
+  char* end = nullptr;
+  std::strtod(text.c_str(), &end);
+  return end == text.c_str() + text.size() ? text : "";
 }
 
 bool begins_as_symbol(const std::string& name) {
@@ -70,6 +67,13 @@ BaseUnitOfMeasure read_base_unit(const xml::Element& element) {
   return unit;
 }
 
+std::optional<BaseUnitOfMeasure> find_defined(const UnitsOfMeasure& units,
+                                              const std::string& name) {
+  if (const auto found = units.find(name); found != units.end()) return found->second;
+  if (units.empty() || find_unit_of_measure(name)) return std::nullopt;
+  return find_unit_of_measure(name, units);
+}
+
 std::optional<BaseUnitOfMeasure> meaning_of(const UnitOfMeasure& unit) {
   return unit.meaning ? unit.meaning : find_unit_of_measure(unit.name);
 }
@@ -85,12 +89,24 @@ std::optional<LinearConversion> convert(const UnitOfMeasure& from, const UnitOfM
                           static_cast<double>((a->offset - b->offset) / b->factor)};
 }
 
+std::vector<std::string> known_unit_names() {
+  std::vector<std::string> names{"km/h", "m/s", "rad/s", "deg/s", "N.m", "kg/m3", "1"};
+  for (const UnitOfMeasureSymbol& known : kUnitOfMeasureSymbols) names.emplace_back(known.symbol);
+  for (const UnitOfMeasureSymbol& known : kUnitOfMeasureSymbols) {
+    if (!known.takes_prefix) continue;
+    for (const char* const prefix : {"k", "M", "m", "u", "c"}) {
+      names.push_back(prefix + std::string(known.symbol));
+    }
+  }
+  return names;
+}
+
 std::vector<std::string> convertible_names(const UnitOfMeasure& unit) {
   if (unit.name.empty()) return {};
   std::vector<std::string> names{unit.name};
   const auto meaning = meaning_of(unit);
   if (!meaning) return names;
-  for (std::string& name : known_names()) {
+  for (std::string& name : known_unit_names()) {
     const auto known = find_unit_of_measure(name);
     const bool is_other = known && known->exponents == meaning->exponents && name != unit.name;
     if (is_other) names.push_back(std::move(name));
@@ -106,6 +122,9 @@ std::string undefined_text(const UnitOfMeasure& unit) {
 
 std::string number_with_unit_hint(const std::string& text, const UnitOfMeasure& unit,
                                   bool is_difference) {
+  if (const std::string meant = with_decimal_point(text); !meant.empty()) {
+    return fmt::format("numbers have a decimal point: {}", meant);
+  }
   char* end = nullptr;
   const double number = std::strtod(text.c_str(), &end);
   const std::string name = words_of(end).size() == 1 ? words_of(end).front() : "";

@@ -19,7 +19,7 @@ class Element;
 namespace stride::core {
 
 using stride::BaseUnitOfMeasure;
-using UnitsOfMeasure = std::map<std::string, BaseUnitOfMeasure>;
+using UnitsOfMeasure = stride::OwnUnitsOfMeasure;
 
 /// Whether both mean the same, as far as doubles tell.
 bool is_same(const BaseUnitOfMeasure& a, const BaseUnitOfMeasure& b);
@@ -44,6 +44,10 @@ struct UnitOfMeasure {
   std::optional<BaseUnitOfMeasure> meaning{};
 };
 
+/// What these definitions make of a name: that of its own, or where it is not known without them
+/// either, that of its factors, such as "furlong/s" where there is a "furlong".
+std::optional<BaseUnitOfMeasure> find_defined(const UnitsOfMeasure& units, const std::string& name);
+
 /// target = factor * source + offset
 struct LinearConversion {
   double factor = 1;
@@ -63,6 +67,9 @@ std::optional<LinearConversion> convert(const UnitOfMeasure& from, const UnitOfM
 /// Known names of units of measure into which this one can be converted, itself first; only itself
 /// where its meaning is unknown, and none where it has no name.
 std::vector<std::string> convertible_names(const UnitOfMeasure& unit);
+
+/// Names that are known without a definition, without those of prefixes that are rarely meant.
+std::vector<std::string> known_unit_names();
 
 /// "; nothing defines 'foo'" of a unit of measure without a meaning; else empty.
 std::string undefined_text(const UnitOfMeasure& unit);

@@ -69,6 +69,7 @@ void flatten(const ssp::SystemNode& system, std::vector<std::string>& warnings,
   ssp::FlatSystem flat = ssp::flatten(system, warnings);
   scenario.system = std::move(flat.declaration);
   scenario.sources = std::move(flat.sources);
+  if (!scenario.alone.empty()) scenario.system.components.front().where.line = 0;
 }
 
 /// As it is without the parameters that are still unknown.
@@ -82,6 +83,14 @@ std::vector<ssp::ParameterValue> late_parameters(const ReadOptions& options,
 }
 
 }  // namespace
+void add_parameters(std::vector<ssp::ParameterValue> values, const std::string& alone,
+                    ssp::SystemNode& system) {
+  for (ssp::ParameterValue& value : values) {
+    value.name = core::with_component(alone, value.name);
+    system.parameters.push_back(std::move(value));
+  }
+}
+
 
 std::string stem(const std::filesystem::path& path) {
   if (std::error_code error; !std::filesystem::is_directory(path, error)) return path.stem();
@@ -102,11 +111,10 @@ Scenario read_scenario(const std::filesystem::path& path, const ReadOptions& opt
   scenario.name = root.required("name");
   scenario.ssp_version = root.required("version");
   ssp::SystemNode system = ssp::read_system(root, file, *scenario.files, scenario.warnings);
-  system.parameters.insert(system.parameters.end(), options.parameters.begin(),
-                           options.parameters.end());
+  if (scenario.files->is_alone(file)) scenario.alone = system.elements.front().name;
+  add_parameters(options.parameters, scenario.alone, system);
   scenario.annotation = read_annotation(root);
-  const std::vector<ssp::ParameterValue> late = late_parameters(options, system, scenario);
-  system.parameters.insert(system.parameters.end(), late.begin(), late.end());
+  add_parameters(late_parameters(options, system, scenario), scenario.alone, system);
   flatten(system, scenario.warnings, scenario);
   const std::vector<std::string>& of_files = scenario.files->warnings();
   scenario.warnings.insert(scenario.warnings.begin(), of_files.begin(), of_files.end());

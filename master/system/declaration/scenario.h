@@ -23,6 +23,7 @@ struct Scenario {
   std::filesystem::path path;  ///< as it was given
   std::string name;            ///< of the system structure description
   std::string ssp_version;     ///< "1.0" or "2.0"
+  std::string alone;           ///< the component of a unit without a system; empty: it is a system
   /// Made of components alone, see flatten.h, which have no description yet.
   core::SystemDeclaration system;
   /// The FMU of each of system.components: relative to the working directory or absolute.

@@ -5,12 +5,17 @@
 #include <set>
 #include <utility>
 
+#include <fmt/format.h>
+
+#include "master/base/text/suggest.h"
+#include "master/engine/model/unit_of_measure.h"
 #include "master/system/declaration/component_selection.h"
 #include "master/system/declaration/terminal_connections.h"
 #include "master/system/plan/declared.h"
 #include "master/system/plan/load_units.h"
 #include "master/system/scenario/recordings.h"
 #include "master/system/scenario/remote_units.h"
+#include "master/system/scenario/units/file_units.h"
 
 namespace stride::scenario {
 namespace {
@@ -24,8 +29,40 @@ void describe_units(ResolvedSystem& resolved, const ScenarioRequest& request) {
   for (std::size_t i = 0; i < resolved.fmus.size(); ++i) {
     const auto& description = resolved.fmus[i]->description();
     scenario.system.components[i].description = description;
+    scenario.system.components[i].is_table = is_table(scenario.sources[i]);
     for (const std::string& warning : description->warnings) {
       if (known.insert(warning).second) scenario.warnings.push_back(warning);
+    }
+  }
+}
+
+std::string unit_hint(const Scenario& scenario, const std::string& unit) {
+  const std::string near = core::nearest(unit, core::known_unit_names());
+  const std::string meant = near.empty() ? "" : fmt::format("did you mean '{}'? Or ", near);
+  return meant + fmt::format(
+                     "define it in the <ssd:Units> of {}: <ssc:Unit name=\"{}\"><ssc:BaseUnit "
+                     "m=\"1\" factor=\"…\"/></ssc:Unit>, with the powers of its base units",
+                     scenario.alone.empty() ? scenario.files->shown(scenario.path)
+                                            : "a system (.ssd) with the table as a component",
+                     unit);
+}
+
+/// An FMU defines its units of measure itself, a table cannot.
+void warn_of_unknown_units(ResolvedSystem& resolved) {
+  Scenario& scenario = resolved.scenario;
+  for (std::size_t i = 0; i < resolved.fmus.size(); ++i) {
+    const core::ComponentDeclaration& component = scenario.system.components[i];
+    if (!component.is_table) continue;
+    const core::UnitsOfMeasure none;
+    const auto& defined = component.units_of_measure ? *component.units_of_measure : none;
+    for (const core::Variable& column : component.description->variables) {
+      const core::UnitOfMeasure unit{column.unit, core::find_defined(defined, column.unit)};
+      if (core::undefined_text(unit).empty()) continue;
+      scenario.warnings.push_back(fmt::format(
+          "{}: column '{}': nothing defines '{}', its unit of measure, and it is not known by "
+          "name, so its values are converted into no other\n  hint: {}",
+          scenario.files->shown(scenario.sources[i]), column.name, column.unit,
+          unit_hint(scenario, column.unit)));
     }
   }
 }
@@ -86,6 +123,7 @@ ResolvedSystem resolve(Scenario declared, const ScenarioRequest& request) {
   describe_units(resolved, request);
   switch_on(kFilm, resolved.scenario.system, request.film);
   switch_on(kScene, resolved.scenario.system, request.scene);
+  warn_of_unknown_units(resolved);
   add_terminal_connections(resolved);
   if (request.idle_twins) add_twins(resolved);
   allow_early_returns(resolved);

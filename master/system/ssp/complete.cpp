@@ -375,7 +375,7 @@ class Completion {
   std::string ssc_;
   bool needs_common_prefix_ = false;
   xml::Editor editor_;
-  std::map<std::string, core::BaseUnitOfMeasure> units_;
+  core::UnitsOfMeasure units_;
   std::set<std::string> enumerations_;
   std::map<std::string, xml::Element> own_systems_;  ///< by id
   /// The descriptions of the components that one place of the file stands for, by its index.

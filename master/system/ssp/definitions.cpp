@@ -80,12 +80,11 @@ void read_enumeration(const xml::Element& enumeration, UniqueNames& names, Defin
 }  // namespace
 
 core::UnitOfMeasure Definitions::unit(const std::string& name) const {
-  const auto found = units_of_measure.find(name);
-  return {name, found == units_of_measure.end() ? std::nullopt : std::optional(found->second)};
+  return {name, core::find_defined(units_of_measure, name)};
 }
 
 core::UnitOfMeasure Definitions::unit(const std::string& name, const Definitions& otherwise) const {
-  return units_of_measure.contains(name) ? unit(name) : otherwise.unit(name);
+  return core::find_defined(units_of_measure, name) ? unit(name) : otherwise.unit(name);
 }
 
 Definitions read_definitions(const xml::Element& root, const char* name_space,

@@ -37,6 +37,8 @@ class Files {
   /// folder that one unpacks to, or a library, .so) is one itself, and so is a table (.csv,
   /// .parquet, .mcap): document() gives a system of it alone, with a component of its name.
   std::filesystem::path scenario_file(const std::filesystem::path& path);
+  /// Whether scenario_file() has given this one for a unit.
+  bool is_alone(const std::filesystem::path& file) const { return units_.contains(file); }
   /// The .ssd files at the top of a package, or of the folder that one unpacks to, in the order of
   /// their names; none for what is no package. The file is one that scenario_file() has found for
   /// this path.

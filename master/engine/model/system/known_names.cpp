@@ -22,13 +22,18 @@ Assignment split_at(const std::string& text, std::size_t end) {
 
 }  // namespace
 
+std::string with_component(const std::string& alone, const std::string& name) {
+  return alone.empty() || name.starts_with(alone + ".") ? name : alone + "." + name;
+}
+
 KnownNames::KnownNames(std::span<const std::string> components) {
   for (const std::string& component : components) add(component, true);
 }
 
-KnownNames::KnownNames(const System& system) {
+KnownNames::KnownNames(const System& system, const std::string& alone) {
   for (const Component& component : system.components()) {
     add(component.name + ".", *component.description);
+    if (component.name == alone) stand_alone(alone, *component.description);
   }
 }
 
@@ -43,6 +48,11 @@ void KnownNames::add(const std::string& prefix, const UnitDescription& descripti
     add(prefix + variable.name, is_free);
     for (const std::string& alias : variable.aliases) add(prefix + alias, is_free);
   }
+}
+
+void KnownNames::stand_alone(const std::string& component, const UnitDescription& description) {
+  alone_ = component;
+  add("", description);
 }
 
 std::optional<bool> KnownNames::find(const std::string& name) const {
@@ -70,8 +80,15 @@ bool KnownNames::is_plausible(const std::string& text, std::size_t end) const {
 
 Assignment KnownNames::split(const std::string& option, const std::string& text,
                              bool may_lack_value) const {
+  Assignment assignment = split_at(text, end_of_name(option, text, may_lack_value));
+  if (!assignment.name.empty()) assignment.name = with_component(alone_, assignment.name);
+  return assignment;
+}
+
+std::size_t KnownNames::end_of_name(const std::string& option, const std::string& text,
+                                    bool may_lack_value) const {
   const std::vector<std::size_t> ends = known_ends(text, may_lack_value);
-  if (ends.empty()) return split_at(text, text.find('='));
+  if (ends.empty()) return text.find('=');
   for (const std::size_t end : ends) {
     if (end == ends.back() || !is_plausible(text, end)) continue;
     fail_input({},
@@ -79,7 +96,7 @@ Assignment KnownNames::split(const std::string& option, const std::string& text,
                            text.substr(0, end), text.substr(0, ends.back())),
                "write it into a file: a parameter set for --parameters, or the scenario");
   }
-  return split_at(text, ends.back());
+  return ends.back();
 }
 
 }  // namespace stride::core

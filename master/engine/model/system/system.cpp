@@ -135,8 +135,8 @@ void System::add_components(const SystemDeclaration& declaration) {
     }
     check_clocks(component);
     components_.push_back({component.name, component.description, component.early_return_allowed,
-                           component.has_snapshots, component.units_of_measure,
-                           component.own_step});
+                           component.has_snapshots, component.units_of_measure, component.own_step,
+                           component.is_table});
   }
 }
 
@@ -169,15 +169,11 @@ void System::adopt_units() {
 
 /// With the meaning that the unit's description gives to its name, or else the scenario.
 UnitOfMeasure System::known_unit(UnitOfMeasure unit, std::size_t component) const {
-  if (unit.meaning) return unit;
-  const auto find_in = [&](const UnitsOfMeasure& units) {
-    const auto found = units.find(unit.name);
-    if (found != units.end()) unit.meaning = found->second;
-    return found != units.end();
-  };
+  if (unit.meaning || unit.name.empty()) return unit;
   const Component& owner = components_[component];
-  if (!find_in(owner.description->units_of_measure) && owner.units_of_measure) {
-    find_in(*owner.units_of_measure);
+  unit.meaning = find_defined(owner.description->units_of_measure, unit.name);
+  if (!unit.meaning && owner.units_of_measure) {
+    unit.meaning = find_defined(*owner.units_of_measure, unit.name);
   }
   return unit;
 }

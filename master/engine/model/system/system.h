@@ -36,6 +36,7 @@ struct Component {
   std::shared_ptr<const UnitsOfMeasure> units_of_measure{};
   /// The step that it is called with, whatever the other components' steps are.
   std::optional<Interval> own_step{};
+  bool is_table = false;  ///< see ComponentDeclaration
 
   /// Whether it is called at the ends of its own steps only. What may return early is called at
   /// each communication point, so that its events are exact; its own step is its longest one.
@@ -135,6 +136,9 @@ class System {
   bool is_signal(VariableId id) const;
   /// Whether it is a time-based clock that is connected to a triggered one.
   bool ticks_triggered(VariableId id) const { return message_clocks_.contains(id); }
+  /// The unit of measure of a component's variable, or of its connector; with its meaning, if that is
+  /// defined.
+  UnitOfMeasure unit_of_measure(VariableId id) const { return path_connector(whole(id)).unit; }
   /// "component.variable"; of an output of the system its name.
   std::string full_name(VariableId id) const { return prefix(id) + variable(id).name; }
   /// Likewise, with its indices if it is an element of an array: "component.variable[2]".
@@ -229,6 +233,8 @@ class System {
   void note_difference(const std::vector<PathConnector>& path,
                        const std::vector<PathSegment>& segments, const LinearConversion& linear,
                        const Location& where);
+  void check_table_type(const Context& context, const ElementRange& from,
+                        const ElementRange& to) const;
   void check_ends(const ConnectionDeclaration& declaration, const ElementRange& from,
                   const ElementRange& to) const;
   void adopt_units();

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "master/engine/model/array_element.h"
+#include "master/engine/model/number_range.h"
 #include "master/engine/model/system/system.h"
 #include "master/engine/model/system/unknown_variable.h"
 
@@ -368,6 +369,23 @@ void System::check_event_mode(const ConnectionDeclaration& wanted, VariableId id
              "use a unit that has Event Mode");
 }
 
+/// A column of whole numbers without a type in its heading is one of Float64.
+void System::check_table_type(const Context& context, const ElementRange& from,
+                              const ElementRange& to) const {
+  const Variable& column = variable(from.id);
+  const ValueType wanted = variable(to.id).type;
+  const bool is_column = components_[from.id.component].is_table;
+  if (!is_column || !is_real(column.type) || !is_integer(wanted)) return;
+  const ValueType type = wanted == ValueType::Enumeration ? ValueType::Int64 : wanted;
+  fail_input(context,
+             fmt::format("cannot connect '{}' to '{}': the column is read as {}, and the input is "
+                         "{}",
+                         range_name(from), range_name(to), name_with_article(column.type),
+                         name_with_article(wanted)),
+             fmt::format("declare its type in its heading in the table: '{}: {}'", column.name,
+                         core::name(type)));
+}
+
 void System::check_ends(const ConnectionDeclaration& wanted, const ElementRange& from,
                         const ElementRange& to) const {
   const Variable& source = variable(from.id);
@@ -392,6 +410,7 @@ void System::check_ends(const ConnectionDeclaration& wanted, const ElementRange&
                is_parameter ? "give the parameter its value in a <ssd:ParameterBinding>"
                             : direction_hint(source, target));
   }
+  check_table_type(context, from, to);
   check_clocked(wanted, from, to);
   for (const ElementRange& end : {from, to}) check_event_mode(wanted, end.id);
 }

@@ -118,6 +118,11 @@ ProgramFiles program_files(const fs::path& declaration) {
 
 bool is_stimuli(const fs::path& path) { return core::is_table_name(path) || is_captured(path); }
 
+bool is_table(const fs::path& path) {
+  return core::is_table_name(path) && !core::is_folder(path) &&
+         !(core::is_file(path) && is_captured(path));
+}
+
 std::vector<std::string> pack_stimuli(const importer::PackRequest& request) {
   require_no_resources(request, "stimuli are", "player");
   return pack_stimuli_as(request.library, request);

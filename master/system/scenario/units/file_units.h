@@ -16,6 +16,8 @@ namespace stride::scenario {
 /// Whether the file holds stimuli written by --capture, or a table of values over time (.csv,
 /// .parquet, .mcap).
 bool is_stimuli(const std::filesystem::path& path);
+/// Whether it is such a table.
+bool is_table(const std::filesystem::path& path);
 /// The unit player with this file in its resources. Returns warnings. Throws core::Error.
 std::vector<std::string> pack_stimuli(const importer::PackRequest& request);
 

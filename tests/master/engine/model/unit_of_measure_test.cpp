@@ -52,3 +52,16 @@ TEST_CASE("a definition goes before what is known, and one name is one unit if i
   CHECK(convert({"rpm", own}, {"rpm"})->is_identity());
   CHECK(convert({"\u00B5m"}, {"um"})->is_identity());
 }
+
+TEST_CASE("a definition is also one of its powers and quotients") {
+  using stride::core::find_defined;
+  const stride::core::UnitsOfMeasure units{{"furlong", {{0, 1, 0, 0, 0, 0, 0, 0}, 200, 0}},
+                                           {"km/h", {{0, 1, -1, 0, 0, 0, 0, 0}, 1, 0}}};
+  CHECK(find_defined(units, "furlong")->factor == 200);
+  CHECK(find_defined(units, "furlong/s")->factor == 200);
+  CHECK(find_defined(units, "furlong2")->factor == 40'000);
+  CHECK(find_defined(units, "km/h")->factor == 1);
+  CHECK_FALSE(find_defined(units, "m/s"));
+  CHECK_FALSE(find_defined(units, "league/s"));
+  CHECK_FALSE(find_defined({}, "furlong"));
+}
