@@ -186,9 +186,9 @@ TEST_CASE("the later --set wins, also over the scenario's own parameters") {
       "</ssd:ParameterValues></ssd:ParameterBinding></ssd:ParameterBindings>");
   const Workspace workspace(parts);
   CHECK(signals_of(workspace, {"--stop", "1"}).numbers("filter.y").front() == 5);
-  CHECK(signals_of(workspace, {"--stop", "1", "--set", "filter.y=6", "--set", "filter.y=7"})
-            .numbers("filter.y")
-            .front() == 7);
+  CHECK(workspace.run({"--stop", "1", "--set", "filter.y=6", "--set", "filter.y=7"}).exit_code ==
+        0);
+  CHECK(workspace.signals().numbers("filter.y").front() == 7);
 }
 
 TEST_CASE("--swap puts another unit in a component's place") {
@@ -243,4 +243,31 @@ TEST_CASE("--verbose shows what units log") {
   const Outcome outcome = workspace.run({"--quiet", "--stop", "0.001"});
   CHECK(outcome.exit_code == 0);
   CHECK_THAT(outcome.err, Contains("warning: unit 'warning': ") && Contains("it gets hot"));
+}
+
+TEST_CASE("an FMU alone takes the names of its variables") {
+  const Workspace workspace(two_filters());
+  const auto run = [&](const Arguments& further) {
+    Arguments arguments{"run", "minimal.fmu", "--quiet", "--stop", "1", "--out", "out"};
+    arguments.insert(arguments.end(), further.begin(), further.end());
+    return workspace.stride(arguments);
+  };
+  const auto signals = [&](const Arguments& further) {
+    const Outcome outcome = run(further);
+    INFO(outcome.err);
+    CHECK(outcome.exit_code == 0);
+    return workspace.result("signals.csv");
+  };
+  const std::string named =
+      signals({"--set", "minimal.u=1", "--set-at", "minimal.u=2@0.5", "--signals", "minimal.[uy]"});
+  CHECK(signals({"--set", "u=1", "--set-at", "u=2@0.5", "--signals", "[uy]"}) == named);
+  CHECK_THAT(run({"--set", "u=1", "--set", "minimal.u=2"}).err,
+             Contains("--set minimal.u=2 replaces --set u=1"));
+  CHECK_THAT(input_error_of(run({"--set", "time_constnat=1"})),
+             Contains("did you mean 'time_constant'?"));
+  CHECK_THAT(input_error_of(run({"--set", "minimla.u=1"})), Contains("did you mean 'minimal.u'?"));
+  CHECK_THAT(input_error_of(run({"--set-at", "tim_constant=1@0.5"})),
+             Contains("did you mean 'minimal.time_constant'?"));
+  CHECK_THAT(input_error_of(run({"--force", "u=1@0.5.."})), Contains("it cannot be forced"));
+  CHECK_THAT(input_error_of(run({"--signals", "x"})), Contains("'minimal.x' matches no variable"));
 }

@@ -194,11 +194,14 @@ std::size_t Session::index(core::VariableId id) const {
 }
 
 std::size_t Session::find(const std::string& name) const {
-  if (const auto found = indices_.find(name); found != indices_.end()) return found->second;
+  const std::string full = core::with_component(loaded_.scenario().alone, name);
+  for (const std::string& meant : {name, full}) {
+    if (const auto found = indices_.find(meant); found != indices_.end()) return found->second;
+  }
   std::vector<std::string> names;
   for (const auto& [known, index] : indices_) names.push_back(known);
   core::fail_input({}, fmt::format("there is no variable '{}'", name),
-                   core::suggestion(name, names));
+                   core::suggestion(full, names));
 }
 
 bool Session::is_over() const {
@@ -310,7 +313,7 @@ void Session::require_value(core::VariableId id, const core::ValueBlock& value) 
 }
 
 const core::KnownNames& Session::names() {
-  if (!names_) names_.emplace(system());
+  if (!names_) names_.emplace(system(), loaded_.scenario().alone);
   return *names_;
 }
 

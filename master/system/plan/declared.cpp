@@ -1,6 +1,7 @@
 #include "master/system/plan/declared.h"
 
 #include <algorithm>
+#include <map>
 
 #include <fmt/format.h>
 
@@ -15,7 +16,8 @@
 namespace stride::scenario {
 namespace {
 
-void swap(const std::string& text, Scenario& scenario) {
+/// Returns the component.
+std::string swap(const std::string& text, Scenario& scenario) {
   auto& components = scenario.system.components;
   const std::vector<std::string> names = component_names(scenario.system);
   const auto [name, file] =
@@ -28,6 +30,7 @@ void swap(const std::string& text, Scenario& scenario) {
   const auto i = static_cast<std::size_t>(found - names.begin());
   scenario.sources[i] = file;
   components[i].where = {fmt::format("--swap {}", text), 0};
+  return name;
 }
 
 ssp::ParameterValue set_value(const std::string& text, const core::KnownNames& names) {
@@ -57,36 +60,74 @@ core::KnownNames names_of_start_values(const ScenarioRequest& request, Scenario 
   const auto fmus = load_fmus(scenario, request.units ? *request.units : own,
                               hosts_for_loading(scenario, request.hosts));
   for (std::size_t i = 0; i < fmus.size(); ++i) {
-    names.add(scenario.system.components[i].name + ".", *fmus[i]->description());
+    const std::string& component = scenario.system.components[i].name;
+    names.add(component + ".", *fmus[i]->description());
+    if (component == scenario.alone) names.stand_alone(component, *fmus[i]->description());
   }
   return names;
 }
 
-/// The parameters, and the values of --set, which have precedence.
-std::vector<ssp::ParameterValue> set_values(const ScenarioRequest& request,
-                                            const core::KnownNames& names) {
-  std::vector<ssp::ParameterValue> values = request.parameters;
+using Values = std::vector<ssp::ParameterValue>;
+
+Values set_values(const ScenarioRequest& request, const core::KnownNames& names) {
+  Values values;
   for (const std::string& text : request.sets) values.push_back(set_value(text, names));
   return values;
 }
 
-ReadOptions read_options(const ScenarioRequest& request) {
+/// The parameters, and the values of --set, which have precedence.
+Values with_parameters(const ScenarioRequest& request, const Values& sets) {
+  Values values = request.parameters;
+  values.insert(values.end(), sets.begin(), sets.end());
+  return values;
+}
+
+/// `sets` becomes the values of --set, at the latest when the scenario is read.
+ReadOptions read_options(const ScenarioRequest& request, Values& sets) {
   ReadOptions options{find_unit, {}, request.files, nullptr};
   if (std::ranges::any_of(request.sets, is_unclear)) {
     options.late_parameters = [&](const Scenario& scenario) {
-      return set_values(request, names_of_start_values(request, scenario));
+      sets = set_values(request, names_of_start_values(request, scenario));
+      return with_parameters(request, sets);
     };
   } else {
-    options.parameters = set_values(request, {});
+    sets = set_values(request, {});
+    options.parameters = with_parameters(request, sets);
   }
   return options;
+}
+
+/// Of an option of two values for one thing, of which the later one counts.
+void note_replaced(const std::string& later, const std::string& earlier, Scenario& scenario) {
+  if (later == earlier) return;
+  scenario.warnings.push_back(fmt::format("{} replaces {}; leave one of them out", later, earlier));
+}
+
+void note_replaced_values(const Values& sets, Scenario& scenario) {
+  std::map<std::string, std::string> latest;  // by name
+  for (const ssp::ParameterValue& value : sets) {
+    std::string& earlier = latest[core::with_component(scenario.alone, value.name)];
+    if (!earlier.empty()) note_replaced(value.where.file, earlier, scenario);
+    earlier = value.where.file;
+  }
+}
+
+void swap_all(const ScenarioRequest& request, Scenario& scenario) {
+  std::map<std::string, std::string> latest;  // by component
+  for (const std::string& text : request.swaps) {
+    std::string& earlier = latest[swap(text, scenario)];
+    if (!earlier.empty()) note_replaced("--swap " + text, "--swap " + earlier, scenario);
+    earlier = text;
+  }
 }
 
 }  // namespace
 
 Scenario declare(const ScenarioRequest& request) {
-  Scenario scenario = read_scenario(request.scenario, read_options(request));
-  for (const std::string& text : request.swaps) swap(text, scenario);
+  Values sets;
+  Scenario scenario = read_scenario(request.scenario, read_options(request, sets));
+  note_replaced_values(sets, scenario);
+  swap_all(request, scenario);
   if (scenario.system.components.empty()) {
     core::fail_input({.where = {scenario.path.string(), 0}},
                      "the system has no component, so there is nothing to simulate");

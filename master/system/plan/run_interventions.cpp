@@ -49,11 +49,12 @@ void check_instants(const InterventionScope& scope,
 }  // namespace
 
 std::vector<InterventionDeclaration> requested_interventions(const core::System& system,
+                                                             const std::string& alone,
                                                              const ScenarioRequest& request) {
   std::vector<InterventionDeclaration> declared = request.interventions;
   const auto parse_all = [&](std::span<const std::string> texts, auto& parse) {
     if (texts.empty()) return;
-    const core::KnownNames names(system);
+    const core::KnownNames names(system, alone);
     for (const std::string& text : texts) declared.push_back(parse(text, names));
   };
   parse_all(request.set_at, parse_set_at);

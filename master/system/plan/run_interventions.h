@@ -24,9 +24,10 @@ struct InterventionScope {
   Time latest{};                    ///< at which one may begin
 };
 
-/// Those of the command line and its branches, beside the scenario's.
+/// Those of the command line and its branches, beside the scenario's. `alone`: see Scenario.
 std::vector<InterventionDeclaration> requested_interventions(const core::System& system,
                                                              const ScenarioRequest& request);
+                                                             const std::string& alone,
 
 /// Those of the scenario and these, in the order of their instants. Throws core::Error (Input) as
 /// resolve_interventions() does, and where one is within a step of a unit that takes steps of one

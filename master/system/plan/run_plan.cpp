@@ -12,6 +12,7 @@
 #include "master/base/message_text.h"
 #include "master/base/parse_option.h"
 #include "master/base/time_text.h"
+#include "master/engine/model/system/known_names.h"
 #include "master/observe/checks/checks.h"
 #include "master/observe/coverage/coverage.h"
 #include "master/system/declaration/component_selection.h"
@@ -19,6 +20,7 @@
 #include "master/system/plan/run_times.h"
 #include "master/system/scenario/check_selection.h"
 #include "master/system/scenario/remote_units.h"
+#include "master/system/scenario/signal_selection.h"
 
 namespace stride::scenario {
 namespace {
@@ -37,6 +39,16 @@ void check_column_count(const core::System& system, std::span<const core::Variab
 }
 
 void warn(const std::string& text) { spdlog::warn("{}", core::message_text(text)); }
+
+/// A pattern of a unit alone may leave its name out, see core::with_component().
+std::string full_pattern(const core::System& system, const std::string& alone,
+                         const std::string& pattern) {
+  const auto is_full = [&](const NamedVariable& variable) {
+    return is_meant(system, variable.id, pattern);
+  };
+  if (alone.empty() || std::ranges::any_of(named_variables(system), is_full)) return pattern;
+  return core::with_component(alone, pattern);
+}
 
 std::vector<std::size_t> repeated_each_step(const ResolvedSystem& resolved) {
   std::vector<std::size_t> components;
@@ -141,7 +153,7 @@ void RunPlan::choose_interventions(const ScenarioRequest& request) {
   const std::optional<Time>& stop = resolved_.scenario.stop;
   latest_intervention_ =
       request.stop.empty() ? options_.stop : std::max(options_.stop, stop.value_or(options_.stop));
-  further_interventions_ = requested_interventions(system_, request);
+  further_interventions_ = requested_interventions(system_, resolved_.scenario.alone, request);
   options_.interventions = resolve(further_interventions_);
   add_interventions_of_twins(resolved_.idle_twins, options_.interventions);
 }
@@ -163,7 +175,9 @@ std::vector<core::Intervention> RunPlan::interventions_of_branch(
 void RunPlan::choose_signals(const ScenarioRequest& request) {
   const ScenarioAnnotation& chosen = resolved_.scenario.annotation;
   std::vector<SignalPattern> patterns;
-  for (const std::string& text : request.signals) patterns.push_back({text, {"--signals", 0}});
+  for (const std::string& text : request.signals) {
+    patterns.push_back({full_pattern(system_, resolved_.scenario.alone, text), {"--signals", 0}});
+  }
   options_.recorded = select_signals(system_, patterns.empty() ? chosen.record : patterns);
   check_column_count(system_, options_.recorded);
   plots_ = patterns.empty() ? select_plots(system_, options_.recorded, chosen.plots)

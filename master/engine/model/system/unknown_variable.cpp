@@ -86,19 +86,34 @@ std::vector<std::string> alike(const std::string& unknown, const std::vector<std
   return found.empty() ? names : found;
 }
 
-/// Where a connector is expected, connectors are shown if no name is near.
-std::string hint(const std::string& unknown, const UnitDescription& description,
+bool is_connector(const Variable& variable) {
+  return variable.causality == Causality::Input || variable.causality == Causality::Output;
+}
+
+bool is_settable(const Variable& variable) {
+  return variable.causality == Causality::Input || variable.causality == Causality::Parameter ||
+         variable.causality == Causality::StructuralParameter;
+}
+
+/// If no name is near, those are shown that may be meant: connectors where one is expected, else
+/// what can be set. The unknown name may be a full one whose component is misspelt.
+std::string hint(const Context& context, const UnitDescription& description,
                  bool is_connector_expected) {
-  std::vector<std::string> names, connectors;
+  const std::string& unknown = context.variable;
+  std::vector<std::string> names, expected;
   for (const Variable& variable : description.variables) {
     names.push_back(variable.name);
-    const bool is_connector =
-        variable.causality == Causality::Input || variable.causality == Causality::Output;
-    if (is_connector) connectors.push_back(variable.name);
+    if (is_connector_expected ? is_connector(variable) : is_settable(variable)) {
+      expected.push_back(variable.name);
+    }
   }
   const bool is_near = !nearest(unknown, names).empty();
   if (is_near) return suggestion(unknown, names);
-  return suggestion(unknown, alike(unknown, is_connector_expected ? connectors : names));
+  std::vector<std::string> full_names;
+  for (const std::string& name : names) full_names.push_back(context.unit + "." + name);
+  const bool is_full = !nearest(unknown, full_names).empty();
+  if (is_full) return suggestion(unknown, full_names);
+  return suggestion(unknown, alike(unknown, expected.empty() ? names : expected));
 }
 
 }  // namespace
@@ -110,8 +125,7 @@ void fail_unknown_variable(const Context& context, const UnitDescription& descri
   if (system != nullptr) {
     message += "; expected " + Wanted(*system, context.unit, context.variable).text();
   }
-  fail_input(context, message,
-             has_hint ? hint(context.variable, description, system != nullptr) : "");
+  fail_input(context, message, has_hint ? hint(context, description, system != nullptr) : "");
 }
 
 void check_unambiguous(const Context& context, const UnitDescription& description) {

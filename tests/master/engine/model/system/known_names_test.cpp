@@ -58,3 +58,16 @@ TEST_CASE("the names of a system are those of its variables, and their aliases")
   const KnownNames names{System(declaration)};
   CHECK(split(names, "a=b.k=1=2") == "a=b.k=1|2");
 }
+
+TEST_CASE("a component that stands alone need not be named") {
+  SystemDeclaration declaration;
+  declaration.components = {
+      {"m", Describe("m").add("k=1", ValueType::Float64, Causality::Parameter).done(), {}, {}}};
+  const KnownNames names(System(declaration), "m");
+  CHECK(split(names, "k=1=2") == "m.k=1|2");
+  CHECK(split(names, "m.k=1=2") == "m.k=1|2");
+  CHECK(split(names, "other=2") == "m.other|2");
+  CHECK(stride::core::with_component("m", "m.x") == "m.x");
+  CHECK(stride::core::with_component("m", "mx") == "m.mx");
+  CHECK(stride::core::with_component("", "x") == "x");
+}

@@ -1,8 +1,11 @@
 #include "master/engine/model/system/unknown_variable.h"
 
 #include <string>
+#include <utility>
 
 #include <catch2/catch.hpp>
+
+#include "tests/error_of.h"
 
 namespace {
 
@@ -49,4 +52,23 @@ TEST_CASE("where there are none, by all") {
   CHECK_THAT(hint_for("gripper.finger.width"),
              Contains("known are: time, joint.base.start, joint.base.position"));
   CHECK_THAT(hint_for("something"), Contains("known are: time, joint.base.start"));
+}
+
+TEST_CASE("a full name with a misspelt component is followed by the one that was meant") {
+  CHECK_THAT(hint_for("wrold.time"), EndsWith("did you mean 'world.time'?"));
+}
+
+TEST_CASE("where no connector is expected, what can be set is listed") {
+  UnitDescription unit;
+  for (const auto& [name, causality] : {std::pair{"level", Causality::Output},
+                                        {"rate", Causality::Local},
+                                        {"inflow", Causality::Input},
+                                        {"area", Causality::Parameter}}) {
+    unit.variables.emplace_back().name = name;
+    unit.variables.back().causality = causality;
+  }
+  Context context;
+  context.variable = "something_else";
+  CHECK_THAT(stride::tests::error_of([&] { stride::core::fail_unknown_variable(context, unit); }),
+             EndsWith("known are: inflow, area"));
 }
