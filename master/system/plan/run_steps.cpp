@@ -68,6 +68,51 @@ ComponentSteps own_steps(const ResolvedSystem& resolved, const ComponentSteps& s
   return steps;
 }
 
+bool takes_run_step(const core::ComponentDeclaration& component) {
+  return !component.description->can_vary_step;
+}
+
+/// Of the command line, whose options have a purpose; a scenario may limit steps that are longer.
+void check_requested_sizes(const StepSettings& request, const core::StepOptions& step) {
+  const bool is_requested = request.size || request.maximum;
+  if (!is_requested || !step.maximum || *step.maximum >= step.size) return;
+  const std::string size = core::to_text(step.size), maximum = core::to_text(*step.maximum);
+  if (request.size && request.maximum) {
+    core::fail_input({}, fmt::format("--step {} is longer than --max-step {}", size, maximum),
+                     "leave one of them out");
+  }
+  spdlog::warn(
+      "no step is as long as the step size of {} s: --max-step, or <stride:Step "
+      "maximum=\"…\"/>, ends it after {} s",
+      size, maximum);
+}
+
+/// Options of the command line that the policy of the run has no use for.
+void check_requested(const ResolvedSystem& resolved, const StepSettings& request,
+                     const core::StepOptions& step) {
+  const core::StepPolicyType& policy = *step.policy;
+  check_requested_sizes(request, step);
+  const bool has_size = policy.has_grid || policy.controls_error ||
+                        std::ranges::any_of(resolved.components(), takes_run_step);
+  if (request.size && !has_size) {
+    const std::string size = core::to_text(*request.size);
+    core::fail_input({},
+                     fmt::format("--step {}: with the policy '{}' steps end at events, so none "
+                                 "has this size",
+                                 size, policy.name),
+                     fmt::format("limit the steps by --max-step {}, or use --policy {}", size,
+                                 core::kFixedSteps.name));
+  }
+  const bool has_tolerance = request.relative_tolerance || request.absolute_tolerance;
+  if (!has_tolerance || policy.controls_error) return;
+  core::fail_input(
+      {},
+      fmt::format("{}: the policy '{}' does not control the error",
+                  request.relative_tolerance ? "--relative-tolerance" : "--absolute-tolerance",
+                  policy.name),
+      fmt::format("leave it out, or use --policy {}", core::kErrorControlledSteps.name));
+}
+
 class StepCheck {
  public:
   StepCheck(const core::System& system, const ResolvedSystem& resolved, bool has_stop,
@@ -218,6 +263,7 @@ ComponentSteps choose_steps(const ResolvedSystem& resolved, const StepSettings& 
   }
   resolved.scenario.annotation.step.apply(options);
   request.apply(options);
+  check_requested(resolved, request, options.step);
   if (options.step.maximum && *options.step.maximum < options.step.minimum) {
     core::fail_input(
         resolved.of_file(),

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
 #include "master/base/files/input_file.h"
 #include "master/base/files/output_file.h"
@@ -132,6 +133,12 @@ core::RunOptions run_options(const RunArguments& arguments, const scenario::RunP
                            summary.signals().end());
   }
   options.threads.count = arguments.threads;
+  if (options.threads.count > 1 && options.coupling == core::Coupling::GaussSeidel) {
+    spdlog::warn(
+        "--threads {}: with the coupling 'gauss-seidel' the units step one after another, on one "
+        "thread",
+        options.threads.count);
+  }
   options.interrupted = &Interruption::flag();
   return options;
 }
