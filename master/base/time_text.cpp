@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <optional>
 #include <stdexcept>
+#include <system_error>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -29,9 +32,30 @@ struct Decimal {
   std::int64_t point = 0;
 };
 
+/// "; write 0.002" for "2 ms", and "; write 0.5" for "0,5"; empty for other texts.
+std::string meant_seconds(std::string_view text) {
+  constexpr std::pair<std::string_view, double> kUnits[] = {
+      {"", 1},      {"s", 1},      {"sec", 1},  {"ms", 1e-3}, {"us", 1e-6},
+      {"ns", 1e-9}, {"ps", 1e-12}, {"min", 60}, {"h", 3600}};
+  std::string plain(text);
+  std::ranges::replace(plain, ',', '.');
+  const char* const last = plain.data() + plain.size();
+  double number = 0;
+  const auto [end, error] = std::from_chars(plain.data(), last, number);
+  const bool is_number_alone = end == last && plain == text;
+  if (error != std::errc() || !std::isfinite(number) || is_number_alone) return "";
+  std::string_view unit(end, static_cast<std::size_t>(last - end));
+  unit.remove_prefix(std::min(unit.find_first_not_of(kBlanks), unit.size()));
+  for (const auto& [name, factor] : kUnits) {
+    if (unit == name) return fmt::format("; write {:.12g}", number * factor);
+  }
+  return "";
+}
+
 [[noreturn]] void reject(std::string_view text, const char* reason) {
-  throw std::invalid_argument(fmt::format(
-      "'{}' {}; expected a number of seconds such as 0.001 or 1e-3", name_text(text), reason));
+  throw std::invalid_argument(
+      fmt::format("'{}' {}; expected a number of seconds such as 0.001 or 1e-3{}", name_text(text),
+                  reason, meant_seconds(text)));
 }
 
 std::string_view trim(std::string_view text) {

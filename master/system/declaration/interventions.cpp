@@ -30,8 +30,9 @@ constexpr const char* kDropForm = "COMPONENT.VARIABLE@FROM..[UNTIL]";
 constexpr const char* kDelayForm = "COMPONENT.VARIABLE=SECONDS@FROM..[UNTIL]";
 constexpr const char* kCorruptForm = "COMPONENT.VARIABLE[=BITS[,HEADER[,SEED]]]@FROM..[UNTIL]";
 
-[[noreturn]] void fail_form(const char* option, const std::string& text, const char* form) {
-  core::fail_input({}, fmt::format("{} {}: expected {}", option, text, form));
+[[noreturn]] void fail_form(const char* option, const std::string& text, const char* form,
+                            const std::string& hint = "") {
+  core::fail_input({}, fmt::format("{} {}: expected {}", option, text, form), hint);
 }
 
 Time parse_time(const char* option, const std::string& text, const std::string& seconds) {
@@ -51,7 +52,11 @@ InterventionDeclaration parse_from_until(const char* option, const std::string& 
                                          const char* form, const core::KnownNames& names) {
   const auto [assignment, times] = split_time(option, text, form);
   const std::size_t dots = times.find("..");
-  if (dots == std::string::npos) fail_form(option, text, form);
+  if (dots == std::string::npos) {
+    fail_form(
+        option, text, form,
+        fmt::format("write {} {}.. for a time without an end, or {}..UNTIL", option, text, text));
+  }
   auto [variable, value] = names.split(option, assignment, true);
   if (variable.empty()) fail_form(option, text, form);
   InterventionDeclaration declared{.variable = std::move(variable),
@@ -250,19 +255,54 @@ void read_value(const core::System& system, const InterventionDeclaration& decla
   intervention.clock = clocks_of(system, intervention.id).front();
 }
 
+/// What begins before the run may go on in it.
+std::string early_hint(const InterventionDeclaration& declared, const RunTimes& times) {
+  const std::string start = core::to_text(declared.from);
+  const bool has_rest =
+      declared.kind != InterventionKind::Set && (!declared.until || *declared.until > times.start);
+  if (has_rest) {
+    return fmt::format(
+        "let it begin at {} s, where the run does, or start the run (--start) at "
+        "{} s or earlier",
+        core::to_text(times.start), start);
+  }
+  return fmt::format("leave it out, or start the run (--start) at {} s or earlier", start);
+}
+
+std::string late_hint(const InterventionDeclaration& declared, const RunTimes& times) {
+  if (declared.from > times.stop || !declared.until) return times.stop_hint;
+  const std::string hint =
+      fmt::format("leave the end out for one that lasts: {} s..", core::to_text(declared.from));
+  return times.stop_hint.empty() ? hint : hint + "; " + times.stop_hint;
+}
+
 void check_times(const InterventionDeclaration& declared, const core::Context& context,
                  const RunTimes& times) {
   for (const std::optional<Time> time : {std::optional(declared.from), declared.until}) {
     if (!time || (times.start <= *time && *time <= times.stop)) continue;
     core::fail_input(
-        context, fmt::format("{} s is outside of the run, from {} s to {} s", core::to_text(*time),
-                             core::to_text(times.start), core::to_text(times.stop)));
+        context,
+        fmt::format("{} s is outside of the run, from {} s to {} s", core::to_text(*time),
+                    core::to_text(times.start), core::to_text(times.stop)),
+        *time < times.start ? early_hint(declared, times) : late_hint(declared, times));
   }
   if (declared.until && *declared.until <= declared.from) {
     core::fail_input(context,
                      fmt::format("it would end at {} s, and begins at {} s",
                                  core::to_text(*declared.until), core::to_text(declared.from)));
   }
+}
+
+/// Of a value that cannot be read.
+std::string value_hint(const core::System& system, const InterventionDeclaration& declared,
+                       core::VariableId id) {
+  const std::string text = declared.value.value_or("");
+  if (declared.kind == InterventionKind::Delay) {
+    return core::number_with_unit_hint(text, {"s", std::nullopt}, true);
+  }
+  if (declared.kind != InterventionKind::Set && declared.kind != InterventionKind::Force) return "";
+  const core::Variable& variable = system.variable(id);
+  return core::number_with_unit_hint(text, system.unit_of_measure(id), variable.is_relative);
 }
 
 Intervention resolve(const core::System& system, const InterventionDeclaration& declared,
@@ -277,7 +317,7 @@ Intervention resolve(const core::System& system, const InterventionDeclaration& 
   try {
     read_value(system, declared, intervention);
   } catch (const std::invalid_argument& mistake) {
-    core::fail_input(context, mistake.what());
+    core::fail_input(context, mistake.what(), value_hint(system, declared, id));
   }
   return intervention;
 }

@@ -46,6 +46,7 @@ InterventionDeclaration parse_corrupt(const std::string& text, const core::Known
 struct RunTimes {
   Time start{};
   Time stop{};
+  std::string stop_hint{};  ///< for times behind its stop; empty: none
 };
 
 /// Throws core::Error (Input) if it cannot be set in the middle of a run.

@@ -73,7 +73,8 @@ std::vector<core::Intervention> resolve_interventions(
     const InterventionScope& scope, std::vector<InterventionDeclaration> further) {
   const auto& own = scope.resolved.scenario.annotation.interventions;
   further.insert(further.begin(), own.begin(), own.end());
-  auto resolved = resolve_interventions(scope.system, further, {scope.options.start, scope.latest});
+  auto resolved = resolve_interventions(scope.system, further,
+                                        {scope.options.start, scope.latest, scope.stop_hint});
   check_instants(scope, resolved);
   return resolved;
 }

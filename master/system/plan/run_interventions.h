@@ -22,12 +22,13 @@ struct InterventionScope {
   const core::System& system;
   const core::RunOptions& options;  ///< with start and steps
   Time latest{};                    ///< at which one may begin
+  std::string stop_hint{};          ///< see PlannedTimes
 };
 
 /// Those of the command line and its branches, beside the scenario's. `alone`: see Scenario.
 std::vector<InterventionDeclaration> requested_interventions(const core::System& system,
-                                                             const ScenarioRequest& request);
                                                              const std::string& alone,
+                                                             const ScenarioRequest& request);
 
 /// Those of the scenario and these, in the order of their instants. Throws core::Error (Input) as
 /// resolve_interventions() does, and where one is within a step of a unit that takes steps of one

@@ -79,6 +79,7 @@ RunPlan::RunPlan(ResolvedSystem resolved, const ScenarioRequest& request)
   options_.start = times.start;
   options_.stop = times.stop;
   has_stop_ = times.has_stop;
+  stop_hint_ = times.stop_hint;
   options_.state_saving.each_step = repeated_each_step(resolved_);
   const ComponentSteps own = choose_steps(resolved_, request.step, times, options_);
   for (std::size_t i = 0; i < components.size(); ++i) components[i].own_step = own[i];
@@ -140,7 +141,7 @@ void RunPlan::warn_of_other_steps() const {
 }
 
 InterventionScope RunPlan::intervention_scope() const {
-  return {resolved_, system_, options_, latest_intervention_};
+  return {resolved_, system_, options_, latest_intervention_, stop_hint_};
 }
 
 std::vector<core::Intervention> RunPlan::resolve(
@@ -169,7 +170,8 @@ std::vector<core::Intervention> RunPlan::interventions_of_branch(
   std::vector<InterventionDeclaration> all = further_interventions_;
   all.insert(all.end(), declarations.begin(), declarations.end());
   resolve(std::move(all));  // they may contradict each other
-  return resolve_interventions(system_, declarations, {options_.start, latest_intervention_});
+  return resolve_interventions(system_, declarations,
+                               {options_.start, latest_intervention_, stop_hint_});
 }
 
 void RunPlan::choose_signals(const ScenarioRequest& request) {
@@ -189,7 +191,8 @@ void RunPlan::choose_checks(const ScenarioRequest& request) {
   if (request.no_checks) return;
   const std::optional<Time> stop =
       request.stop.empty() && has_stop() ? options_.stop : resolved_.scenario.stop;
-  checks_ = select_checks(system_, resolved_.scenario.annotation.checks, {options_.start, stop});
+  checks_ = select_checks(system_, resolved_.scenario.annotation.checks,
+                          {options_.start, stop, stop_hint_});
   options_.watched = checks::Checks(checks_).signals();
 }
 

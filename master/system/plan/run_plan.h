@@ -97,6 +97,7 @@ class RunPlan {
   std::vector<std::optional<Hosting>> hostings_;
   core::RunOptions options_;
   bool has_stop_ = true;
+  std::string stop_hint_;  ///< see PlannedTimes
   Time latest_intervention_{};
   std::vector<recorders::Plot> plots_;
   std::vector<checks::Definition> checks_;

@@ -2,6 +2,8 @@
 #ifndef STRIDE_MASTER_SYSTEM_PLAN_RUN_TIMES_H
 #define STRIDE_MASTER_SYSTEM_PLAN_RUN_TIMES_H
 
+#include <string>
+
 #include <stride/time.h>
 
 #include "master/system/plan/request.h"
@@ -13,6 +15,8 @@ struct PlannedTimes {
   Time start{};
   Time stop{};           ///< far away if none is known
   bool has_stop = true;  ///< whether one is known, without which a run cannot begin
+  /// For times behind a stop time that only a unit has; else empty.
+  std::string stop_hint{};
   /// As it is declared, or 0: it does not depend on --stop, so that a run that ends earlier, or is
   /// resumed to end later, makes the same steps.
   Duration declared_length{};

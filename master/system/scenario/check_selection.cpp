@@ -76,10 +76,12 @@ class Selection {
 
 void Selection::check_window(const CheckDeclaration& check) const {
   const auto fail = [&](const char* attribute, Time time, const char* side, Time limit) {
-    core::fail_input({.where = check.where},
-                     fmt::format("{}: {} s is {} the run, at {} s", attribute, core::to_text(time),
-                                 side, core::to_text(limit)),
-                     fmt::format("leave '{}' out for an interval that is not limited", attribute));
+    core::fail_input(
+        {.where = check.where},
+        fmt::format("{}: {} s is {} the run, at {} s", attribute, core::to_text(time), side,
+                    core::to_text(limit)),
+        (limit == times_.stop && !times_.stop_hint.empty() ? times_.stop_hint + "; or " : "") +
+            fmt::format("leave '{}' out for an interval that is not limited", attribute));
   };
   const auto& [from, to] = check.window;
   if (to && *to < times_.start) fail("to", *to, "before the beginning of", times_.start);

@@ -3,6 +3,7 @@
 #define STRIDE_MASTER_SYSTEM_SCENARIO_CHECK_SELECTION_H
 
 #include <optional>
+#include <string>
 #include <span>
 #include <vector>
 
@@ -18,6 +19,7 @@ namespace stride::scenario {
 struct ScenarioTimes {
   Time start{};
   std::optional<Time> stop{};
+  std::string stop_hint{};  ///< for times behind its stop; empty: none
 };
 
 /// The declared checks with the variables of the system; a glob, and an array that is named as a

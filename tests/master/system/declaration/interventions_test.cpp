@@ -30,6 +30,7 @@ System changeable_system() {
   add(*source, "y", Causality::Output, Variability::Continuous);
   add(*unit, "fed", Causality::Input, Variability::Continuous);
   add(*unit, "open", Causality::Input, Variability::Continuous);
+  unit->variables.back().unit = "m/s";
   add(*unit, "tunable", Causality::Parameter, Variability::Tunable);
   add(*unit, "fixed", Causality::Parameter, Variability::Fixed);
   add(*unit, "y", Causality::Output, Variability::Continuous);
@@ -90,6 +91,7 @@ TEST_CASE("what is no intervention is an error with the form that is expected") 
     CHECK_THAT(mistake({}, {text}),
                Contains("--force " + text + ": expected COMPONENT.VARIABLE[="));
   }
+  CHECK_THAT(mistake({}, {"unit.fed=3@4"}), Contains("write --force unit.fed=3@4.. for a time"));
   CHECK_THAT(mistake({"unit.open=3@soon"}, {}), Contains("'soon' is not a number"));
   CHECK_THAT(mistake({}, {"unit.fed=3@1..-2"}), Contains("--force unit.fed=3@1..-2: "));
 }
@@ -110,9 +112,22 @@ TEST_CASE("what cannot be changed so is an error with the reason and a way out")
 
 TEST_CASE("an instant outside of the run is an error") {
   CHECK_THAT(mistake({"unit.open=3@0.5"}, {}),
-             Contains("0.5 s is outside of the run, from 1 s to"));
-  CHECK_THAT(mistake({}, {"unit.fed=3@4..11"}), Contains("11 s is outside of the run"));
+             Contains("0.5 s is outside of the run, from 1 s to 10 s") &&
+                 Contains("leave it out, or start the run (--start) at 0.5 s or earlier"));
+  CHECK_THAT(mistake({}, {"unit.fed=3@0.5..2"}),
+             Contains("let it begin at 1 s, where the run does"));
+  CHECK_THAT(mistake({}, {"unit.fed=3@0.5..0.7"}), Contains("leave it out, or start"));
+  CHECK_THAT(
+      mistake({}, {"unit.fed=3@4..11"}),
+      Contains("11 s is outside of the run") && Contains("leave the end out for one that lasts"));
   CHECK_THAT(mistake({}, {"unit.fed=3@4..4"}), Contains("it would end at 4 s, and begins at 4 s"));
+}
+
+TEST_CASE("a value with a unit of measure is answered with the number that is meant") {
+  CHECK_THAT(mistake({"unit.open=9km/h@4"}, {}),
+             Contains("the value is a number in 'm/s'") && Contains("2.5"));
+  CHECK_THAT(mistake({}, {"unit.fed=5km/h@4..5"}),
+             Contains("write the number alone: the variable has no unit of measure"));
 }
 
 TEST_CASE("interventions that contradict each other are an error") {
