@@ -85,6 +85,26 @@ TEST_CASE("an unknown unit names the places searched and the nearest unit") {
                  Contains(unit_folder().string()) && Contains("did you mean 'minimal.fmu'?"));
 }
 
+TEST_CASE("a unit that lies in another folder near the scenario is told with its folder") {
+  const std::pair<const char*, const char*> kPlaces[] = {{"units/host.fmu", "host.fmu"},
+                                                         {"host.fmu", "models/host.fmu"},
+                                                         {"units/host.fmu", "models/host.fmu"},
+                                                         {"../units/host.fmu", "host.fmu"}};
+  for (const auto& [source, place] : kPlaces) {
+    const Workspace workspace(Parts{component("filter", source)});
+    fs::create_directories((workspace / place).parent_path());
+    fs::copy(unit_folder() / "minimal.fmu", workspace / place);
+    CHECK_THAT(mistake_in(workspace), Contains(std::string("did you mean '") + place + "'?"));
+  }
+}
+
+TEST_CASE("a unit that is still a file of Python is told how to be packed") {
+  const Workspace workspace(Parts{component("pump", "Pump.fmu")});
+  workspace.scratch().write("pump.py", "");
+  CHECK_THAT(mistake_in(workspace),
+             Contains("packed first: python3 -m stride.unit pump.py -o Pump.fmu"));
+}
+
 TEST_CASE("an unknown unit is answered with the one beside the scenario") {
   const Workspace workspace(Parts{component("filter", "hosst.fmu")});
   fs::copy(unit_folder() / "minimal.fmu", workspace / "host.fmu");

@@ -7,6 +7,7 @@
 #include "master/base/files/input_file.h"
 #include "master/base/files/program_root.h"
 #include "master/base/files/table_file.h"
+#include "master/base/text/lower_case.h"
 #include "master/base/text/suggest.h"
 
 namespace stride::scenario {
@@ -26,6 +27,58 @@ std::vector<std::string> known_units(const std::vector<fs::path>& folders) {
     }
   }
   return names;
+}
+
+/// Folders in this one, without hidden ones.
+std::vector<fs::path> folders_in(const fs::path& folder) {
+  constexpr std::size_t kMost = 100;
+  std::vector<fs::path> folders;
+  for (const fs::path& entry : core::folder_entries(folder)) {
+    const bool is_hidden = entry.filename().string().starts_with('.');
+    if (!is_hidden && folders.size() < kMost && core::is_folder(entry)) folders.push_back(entry);
+  }
+  return folders;
+}
+
+/// A file of this name near where it was looked for: beside the file that names it, in the folders
+/// there, and likewise one level above. Relative to that file, as a source is.
+std::string near_unit(const fs::path& path, const core::Location& where) {
+  fs::path base;
+  if (core::is_file(where.file)) base = fs::path(where.file).parent_path();
+  if (base.empty()) base = ".";
+  for (const fs::path& level : {fs::path("."), fs::path("..")}) {
+    std::vector<fs::path> places{base / level};
+    for (const fs::path& folder : folders_in(base / level)) places.push_back(folder);
+    for (const fs::path& place : places) {
+      const fs::path file = (place / path.filename()).lexically_normal();
+      if (core::path_exists(file)) return file.lexically_proximate(base);
+    }
+  }
+  return "";
+}
+
+/// A class of Python beside the unit that could be made of it, "pump.py" for "Pump.fmu".
+std::string python_hint(const fs::path& path) {
+  const std::string wanted = core::lower_case(path.stem().string());
+  for (const fs::path& entry :
+       core::folder_entries(path.has_parent_path() ? path.parent_path() : ".")) {
+    const bool is_it =
+        entry.extension() == ".py" && core::lower_case(entry.stem().string()) == wanted;
+    if (!is_it) continue;
+    return fmt::format("a unit in Python is packed first: python3 -m stride.unit {} -o {}",
+                       entry.filename().string(), path.filename().string());
+  }
+  return "";
+}
+
+std::string unit_hint(const fs::path& path, const core::Location& where,
+                      std::span<const std::string> known) {
+  if (const std::string near = near_unit(path, where); !near.empty()) {
+    return fmt::format("did you mean '{}'?", near);
+  }
+  if (const std::string hint = python_hint(path); !hint.empty()) return hint;
+  if (known.empty()) return "build the unit, or name its folder in STRIDE_UNITS";
+  return core::suggestion(path.filename().string(), known);
 }
 
 }  // namespace
@@ -75,8 +128,7 @@ fs::path find_unit_shown_as(const fs::path& path, const std::string& shown_as,
   core::fail_input({where, {}, {}, {}},
                    fmt::format("there is no unit '{}', and none named '{}' in{}", shown_as,
                                path.filename().string(), searched),
-                   known.empty() ? "build the unit, or name its folder in STRIDE_UNITS"
-                                 : core::suggestion(path.filename().string(), known));
+                   unit_hint(path, where, known));
 }
 
 }  // namespace stride::scenario
