@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any, Optional
 
 from ._errors import Error, InputError, MisuseError, RunError
-from ._installed import choose_python, prefix
+from ._installed import choose_python, missing, prefix
 
 SECOND = 10**12  # in picoseconds
 
@@ -159,10 +159,7 @@ def _find() -> Path:
         found = sorted((prefix() / folder).glob("libstride.so*"))
         if found:
             return found[0]
-    raise FileNotFoundError(
-        f"there is no libstride.so in {prefix()}/lib: install the package from a wheel, or set STRIDE_PREFIX to where"
-        " stride is installed"
-    )
+    raise missing(f"libstride.so in {prefix()}/lib")
 
 
 @functools.lru_cache(maxsize=None)

@@ -1,6 +1,7 @@
 """stride.run, what it returns, and stride.campaign."""
 
 import gc
+import importlib.util
 import json
 import os
 import pathlib
@@ -485,3 +486,41 @@ def test_a_campaign_that_is_wrong(campaign):
         stride.campaign(campaign)
     with pytest.raises(stride.InputError, match="nowhere.xosc"):
         stride.campaign("nowhere.xosc")
+
+
+def package_at(folder):
+    """The module that finds the program, of a copy of the package in this folder."""
+    folder.mkdir(parents=True)
+    source = pathlib.Path(stride.__file__).with_name("_installed.py")
+    spec = importlib.util.spec_from_file_location("installed_elsewhere", shutil.copy(source, folder))
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+def program_at(prefix):
+    program = prefix / "bin/stride"
+    program.parent.mkdir(parents=True)
+    program.write_bytes(b"\x7fELF")
+    program.chmod(0o755)
+    return program
+
+
+def test_the_program_of_an_installation_is_found_around_its_package(tmp_path, monkeypatch):
+    monkeypatch.delenv("STRIDE_PREFIX")
+    monkeypatch.setenv("PATH", "/nowhere")
+    installed = package_at(tmp_path / "share/stride/python/stride")
+    with pytest.raises(FileNotFoundError, match="set STRIDE_PREFIX to the folder that stride is installed"):
+        installed.program()
+    program = program_at(tmp_path)
+    assert installed.program() == program
+
+
+def test_the_program_in_the_path_is_found_from_a_checkout(tmp_path, monkeypatch):
+    monkeypatch.delenv("STRIDE_PREFIX")
+    program = program_at(tmp_path / "installed")
+    monkeypatch.setenv("PATH", str(program.parent))
+    assert package_at(tmp_path / "checkout/python/stride").program() == program
+    program.write_text("#!/usr/bin/python3\n")  # as a wheel has it, which calls the package
+    with pytest.raises(FileNotFoundError):
+        package_at(tmp_path / "other/python/stride").program()
