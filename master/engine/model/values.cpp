@@ -59,15 +59,13 @@ void parse_element(const Variable&, const std::string& text, Binary& value) {
 }
 
 void parse_enumeration(const Variable& variable, const std::string& text, std::int64_t& value) {
-  std::string names;
   for (const auto& [item, number] : variable.items) {
     if (item == text || words_of(item) == words_of(text) || std::to_string(number) == text) {
       value = number;
       return;
     }
-    names += (names.empty() ? "" : ", ") + item;
   }
-  reject(text, "one of " + names);
+  reject(text, "one of " + item_text(variable.items));
 }
 
 template <class T>

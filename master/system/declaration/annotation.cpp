@@ -94,10 +94,10 @@ void read_component_step(const xml::Element& element, StepSettings& settings) {
   }
 }
 
-/// That of the run.
+/// That of the run, without `components`, which another name may stand for.
 void read_step(const xml::Element& element, StepSettings& settings) {
-  element.allow_attributes(
-      {"policy", "size", "maximum", "minimum", "relativeTolerance", "absoluteTolerance"});
+  element.allow_attributes({"components", "policy", "size", "maximum", "minimum",
+                            "relativeTolerance", "absoluteTolerance"});
   element.allow_children({});
   read_settings(element, settings,
                 {{"policy", &StepSettings::set_policy},

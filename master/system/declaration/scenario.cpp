@@ -9,6 +9,7 @@
 
 #include "master/base/time_text.h"
 #include "master/base/xml/document.h"
+#include "master/engine/model/system/known_names.h"
 #include "master/system/declaration/scenario_path.h"
 #include "master/system/ssp/flatten.h"
 #include "master/system/ssp/ssp.h"
@@ -68,8 +69,8 @@ void flatten(const ssp::SystemNode& system, std::vector<std::string>& warnings,
              Scenario& scenario) {
   ssp::FlatSystem flat = ssp::flatten(system, warnings);
   scenario.system = std::move(flat.declaration);
-  scenario.sources = std::move(flat.sources);
   if (!scenario.alone.empty()) scenario.system.components.front().where.line = 0;
+  scenario.sources = std::move(flat.sources);
 }
 
 /// As it is without the parameters that are still unknown.
@@ -82,7 +83,6 @@ std::vector<ssp::ParameterValue> late_parameters(const ReadOptions& options,
   return options.late_parameters(scenario);
 }
 
-}  // namespace
 void add_parameters(std::vector<ssp::ParameterValue> values, const std::string& alone,
                     ssp::SystemNode& system) {
   for (ssp::ParameterValue& value : values) {
@@ -91,6 +91,7 @@ void add_parameters(std::vector<ssp::ParameterValue> values, const std::string& 
   }
 }
 
+}  // namespace
 
 std::string stem(const std::filesystem::path& path) {
   if (std::error_code error; !std::filesystem::is_directory(path, error)) return path.stem();

@@ -388,15 +388,24 @@ class Flattener {
     }
   }
 
+  /// The parameter of an element is meant by a name with a dot, so no connectors are listed then.
+  std::string name_hint(const SystemNode& node, const std::string& name) const {
+    std::vector<std::string> connectors, elements;
+    for (const auto& [connector, port] : graph_.connectors(node)) connectors.push_back(connector);
+    for (const ElementNode& element : node.elements) elements.push_back(element.name);
+    if (!core::nearest(name, connectors).empty()) return core::suggestion(name, connectors);
+    const std::size_t dot = name.find('.');
+    if (dot != name.npos) return core::suggestion(name.substr(0, dot), elements);
+    elements.insert(elements.begin(), connectors.begin(), connectors.end());
+    return core::suggestion(name, elements) + "; names of parameters read component.variable";
+  }
+
   /// After some, others are only counted: each would be compared with the names of all elements.
   void report_unmatched(const ParameterValue& value, const SystemNode& node) {
     if (!value.is_required && !unmatched_.count()) return;
     const auto [at, rest] = descend(node, value.name);
-    std::vector<std::string> names;
-    for (const auto& [name, port] : graph_.connectors(*at)) names.push_back(name);
-    for (const ElementNode& element : at->elements) names.push_back(element.name);
     const std::string head = rest.substr(0, rest.find('.'));
-    const std::string hint = core::suggestion(head, names);
+    const std::string hint = name_hint(*at, rest);
     if (value.is_required) {
       const std::string before = value.name.substr(0, value.name.size() - rest.size());
       core::fail_input({value.where, {}, {}, {}},

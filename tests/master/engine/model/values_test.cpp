@@ -67,7 +67,7 @@ TEST_CASE("an enumeration takes names and numbers") {
   row.items = {{"off", 0}, {"on", 7}};
   CHECK(element_text(parse(row, "on"), 0) == "7");
   CHECK(element_text(parse(row, "7"), 0) == "7");
-  CHECK_THAT(reason(row, "maybe"), Contains("expected one of off, on"));
+  CHECK_THAT(reason(row, "maybe"), Contains("expected one of off (0), on (7)"));
 }
 
 TEST_CASE("the name of an item may hold blanks") {
@@ -75,7 +75,8 @@ TEST_CASE("the name of an item may hold blanks") {
   mode.items = {{"Option 1", 1}, {"Option 2", 2}, {"off", 3}};
   CHECK(parse(mode, "Option 2").numbers<std::int64_t>()[0] == 2);
   CHECK(parse(mode, " Option  2 ").numbers<std::int64_t>()[0] == 2);
-  CHECK_THAT(reason(mode, "Option 3"), Contains("expected one of Option 1, Option 2, off"));
+  CHECK_THAT(reason(mode, "Option 3"),
+             Contains("expected one of Option 1 (1), Option 2 (2), off (3)"));
   mode.size = 4;
   const ValueBlock modes = parse(mode, "Option 2 off 1 Option 1");
   const auto numbers = modes.numbers<std::int64_t>();

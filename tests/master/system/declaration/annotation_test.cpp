@@ -217,6 +217,12 @@ TEST_CASE("A mistake in the annotation is named with its line") {
              Contains("two results have the file name 'run.json'"));
 }
 
+TEST_CASE("The components of a step in the singular are answered with the attribute") {
+  CHECK_THAT(annotation_error("<stride:Step component='a' size='0.1'/>"),
+             Contains("<stride:Step> has no attribute 'component'") &&
+                 Contains("did you mean 'components'?"));
+}
+
 TEST_CASE("An annotation that was meant to be ours is not ignored") {
   const auto error = [](const std::string& type, const std::string& inside) {
     return error_of([&] {

@@ -133,6 +133,22 @@ TEST_CASE("A value of the command line is for somebody") {
                     Contains("--set c.x=1: there is no component 'd'"));
 }
 
+TEST_CASE("A value of the command line for a component is not answered with connectors") {
+  const TemporaryFolder folder;
+  std::string text = system_with(inline_binding(""));
+  text.insert(text.find("<ssd:Elements>"),
+              "<ssd:Connectors><ssd:Connector name='lone' kind='input'/></ssd:Connectors>");
+  const auto file = folder.write("x.ssd", text);
+  const auto error = [&](const std::string& name) {
+    const ParameterValue value{name, "1", {}, {"--set", 0}, {}, true};
+    return error_of([&] { read_scenario(file, {{}, {value}}); });
+  };
+  CHECK_THAT(error("pump.gain"), Contains("known are: a") && !Contains("lone"));
+  CHECK_THAT(error("gain"), Contains("known are: lone, a") &&
+                                Contains("names of parameters read component.variable"));
+  CHECK_THAT(error("lon"), Contains("did you mean 'lone'?"));
+}
+
 TEST_CASE("A value of the command line for a connector that leads nowhere is an error") {
   const TemporaryFolder folder;
   std::string text = system_with(inline_binding(""));
