@@ -51,6 +51,20 @@ TEST_CASE("a mistake in a command's arguments names the argument and points to t
              Contains("--frobnicate") && Contains("stride check --help"));
   CHECK_THAT(input_error_of(run_program({"run", "test.ssd", "--stopp=3"})),
              Contains("--stopp=3") && Contains("did you mean '--stop'?"));
+  for (const Arguments& arguments :
+       {Arguments{"run", "--stopp", "3", "test.ssd"},
+        {"run", "test.ssd", "--stopp", "3"},
+        {"run", "--stopp", "3"},
+        {"run", "-q", "test.ssd", "x", "--stopp", "3", "--set", "a.b=1"}}) {
+    CHECK_THAT(input_error_of(run_program(arguments)), Contains("did you mean '--stop'?"));
+  }
+  for (const auto& [other, meant] : {std::pair{"--end", "--stop"},
+                                     {"--dt", "--step"},
+                                     {"--start-time", "--start"},
+                                     {"--output-dir", "--out"}}) {
+    CHECK_THAT(input_error_of(run_program({"run", "test.ssd", other, "3"})),
+               Contains(std::string("did you mean '") + meant + "'?"));
+  }
   CHECK_THAT(input_error_of(run_program({"pack", "nothing.so", "--output", "x.fmu"})),
              Contains("nothing.so"));
 }
@@ -84,7 +98,7 @@ TEST_CASE("a stop time before the start time is refused") {
   parts.connections = "";
   parts.experiment = "<ssd:DefaultExperiment startTime=\"5\"/>\n";
   CHECK_THAT(input_error_of(Workspace(parts).run()),
-             Contains("that of the units' DefaultExperiment, is before the start time 5 s") &&
+             Contains("s (of the units' DefaultExperiment) is before the start time 5 s") &&
                  Contains("--stop SECONDS"));
 }
 
@@ -131,6 +145,43 @@ TEST_CASE("--set explains what is wrong with it") {
   CHECK_THAT(error("first.u="), Contains("expected one Float64 value"));
   CHECK_THAT(error("first.time=1"), Contains("cannot be set"));
   CHECK_FALSE(fs::exists(workspace / "out"));
+}
+
+TEST_CASE("options that contradict each other are refused") {
+  const Workspace workspace(two_filters());
+  const auto error = [&](const Arguments& arguments) {
+    return input_error_of(workspace.run(arguments));
+  };
+  CHECK_THAT(
+      error({"--step", "1", "--max-step", "0.1"}),
+      Contains("--step 1 is longer than --max-step 0.1") && Contains("leave one of them out"));
+  CHECK_THAT(error({"--step", "0.1", "--policy", "event-driven"}),
+             Contains("--step 0.1: with the policy 'event-driven' steps end at events") &&
+                 Contains("--max-step 0.1, or use --policy fixed"));
+  CHECK_THAT(error({"--relative-tolerance", "0.1"}),
+             Contains("--relative-tolerance: the policy 'fixed' does not control the error") &&
+                 Contains("--policy error-controlled"));
+  CHECK_FALSE(fs::exists(workspace / "out"));
+}
+
+TEST_CASE("options that have no effect are warned of") {
+  const Workspace workspace(two_filters());
+  const Outcome serial = workspace.run({"--quiet", "--threads", "2", "--coupling", "gauss-seidel"});
+  CHECK(serial.exit_code == 0);
+  CHECK_THAT(serial.err,
+             Contains("--threads 2: with the coupling 'gauss-seidel' the units step one "
+                      "after another"));
+  CHECK_THAT(workspace.run({"--quiet", "--set", "first.u=1", "--set", "first.u=2"}).err,
+             Contains("warning: --set first.u=2 replaces --set first.u=1"));
+  CHECK(workspace.run({"--quiet", "--set", "first.u=1", "--set", "first.u=1"}).err == "");
+  CHECK_THAT(
+      workspace.run({"--quiet", "--swap", "first=gain.fmu", "--swap", "first=minimal.fmu"}).err,
+      Contains("warning: --swap first=minimal.fmu replaces --swap first=gain.fmu"));
+  Parts parts = two_filters();
+  parts.annotation = "<stride:Step size=\"0.1\"/>\n";
+  const Outcome shorter = Workspace(parts).run({"--quiet", "--max-step", "0.05"});
+  CHECK(shorter.exit_code == 0);
+  CHECK_THAT(shorter.err, Contains("no step is as long as the step size of 0.1 s"));
 }
 
 TEST_CASE("--swap explains what is wrong with it") {

@@ -5,6 +5,7 @@
 #include <exception>
 #include <filesystem>
 #include <iostream>
+#include <map>
 #include <new>
 #include <string>
 #include <system_error>
@@ -13,6 +14,7 @@
 #include <CLI/CLI.hpp>
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <pthread.h>
 #include <spdlog/spdlog.h>
 #include <unistd.h>
@@ -98,12 +100,46 @@ std::vector<std::string> option_names(const CLI::App& command) {
   return names;
 }
 
+/// What other tools and habits call an option.
+std::string other_name(const std::string& option) {
+  static const std::map<std::string, const char*> kOthers = {{"--end", "--stop"},
+                                                             {"--end-time", "--stop"},
+                                                             {"--stop-time", "--stop"},
+                                                             {"--until", "--stop"},
+                                                             {"--duration", "--stop"},
+                                                             {"--start-time", "--start"},
+                                                             {"--begin", "--start"},
+                                                             {"--dt", "--step"},
+                                                             {"--step-size", "--step"},
+                                                             {"--timestep", "--step"},
+                                                             {"--output-interval", "--step"},
+                                                             {"--param", "--set"},
+                                                             {"--parameter", "--set"},
+                                                             {"--start-value", "--set"},
+                                                             {"--outdir", "--out"},
+                                                             {"--output-dir", "--out"},
+                                                             {"--results", "--out"},
+                                                             {"--record", "--signals"},
+                                                             {"--seconds", "--stop"},
+                                                             {"--algorithm", "--coupling"},
+                                                             {"--solver", "--policy"}};
+  const auto found = kOthers.find(option);
+  return found == kOthers.end() ? "" : found->second;
+}
+
+/// The option of these that was meant; empty if none is near.
+std::string meant_option(const std::string& option, const std::vector<std::string>& names) {
+  const std::string other = other_name(option);
+  if (std::ranges::find(names, other) != names.end()) return other;
+  return stride::core::nearest(option, names);
+}
+
 /// The option that was meant by one that is not there, or else where they are listed.
 std::string option_hint(const CLI::App& command, const std::vector<std::string>& rest) {
   const std::vector<std::string> names = option_names(command);
   for (const std::string& word : rest) {
     if (!word.starts_with("--")) continue;
-    const std::string meant = stride::core::nearest(word.substr(0, word.find('=')), names);
+    const std::string meant = meant_option(word.substr(0, word.find('=')), names);
     if (!meant.empty()) return fmt::format("did you mean '{}'?", meant);
   }
   return fmt::format("'{} --help' lists its options", full_name(&command));
@@ -128,6 +164,12 @@ std::string command_hint(const CLI::App& above, const std::string& word) {
   return stride::core::suggestion(word, command_names(above));
 }
 
+/// In the order in which they were written, which CLI11 turns round.
+std::string unexpected_text(const std::vector<std::string>& rest) {
+  return fmt::format("The following argument{} not expected: {}",
+                     rest.size() == 1 ? " was" : "s were", fmt::join(rest, " "));
+}
+
 /// The mistake in the command line; with the whole help only if there is no command at all.
 std::string explanation(const CLI::App* app, const CLI::Error& mistake) {
   using stride::core::message_text;
@@ -139,9 +181,10 @@ std::string explanation(const CLI::App* app, const CLI::Error& mistake) {
                        rest.front().starts_with("-") ? "option" : "command",
                        message_text(name_text(rest.front())), command_hint(*command, rest.front()));
   }
-  const std::string message = message_text(name_text(mistake.what()));
-  if (command == app) return fmt::format("stride: error: {}\n\n{}", message, app->help());
   const bool has_too_many = dynamic_cast<const CLI::ExtrasError*>(&mistake) != nullptr;
+  const std::string message =
+      message_text(name_text(has_too_many ? unexpected_text(rest) : mistake.what()));
+  if (command == app) return fmt::format("stride: error: {}\n\n{}", message, app->help());
   return fmt::format("stride: error: {}{}\n  hint: {}\n", message,
                      has_too_many ? flag_hint(*command) + assignment_hint(*command, rest) : "",
                      option_hint(*command, rest));
