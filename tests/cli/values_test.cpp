@@ -172,8 +172,9 @@ TEST_CASE("a message with a status that FMI does not have is an error of the uni
   const RawUnit workspace("mumbles", false);
   const Outcome outcome = run_raw_unit(workspace, is_hosted, "");
   CHECK(outcome.exit_code == 0);
-  CHECK_THAT(outcome.err, Contains("error: unit 'mumbles': something is up (logged with 77, a "
-                                   "status that FMI 3.0 does not have)\n"));
+  CHECK_THAT(outcome.err,
+             Contains("error: unit 'mumbles' logged: something is up (logged with 77, a "
+                      "status that FMI 3.0 does not have)\n"));
 }
 
 TEST_CASE("of many warnings of a unit the first are shown, and the others counted") {

@@ -382,7 +382,7 @@ std::string FmuInstance::take_messages(const std::string& function) {
   remove(kMessages);
   held_.clear();
   std::vector<std::string> messages = std::exchange(messages_, {});
-  if (messages.empty()) return "the unit gives no reason";
+  if (messages.empty()) return "the unit gives no reason; it may have printed one itself";
   const std::string prefix = function + ": ";
   for (std::string& message : messages) {
     if (message.starts_with(prefix)) message.erase(0, prefix.size());

@@ -29,6 +29,12 @@ spdlog::level::level_enum level(importer::Status status) {
   }
 }
 
+/// Beside an error of stride it has to be seen that this one is the unit's.
+const char* verb(spdlog::level::level_enum level, const std::string& category) {
+  if (category == isolation::kPrinted) return " printed";
+  return level == spdlog::level::err && category != "stride" ? " logged" : "";
+}
+
 bool is_of_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
 
 std::size_t length_of_number(std::string_view text) {
@@ -104,8 +110,7 @@ void UnitLog::write(const std::string& unit, importer::Status status, const std:
   const bool may_be_many =
       of_message != spdlog::level::info && !spdlog::should_log(spdlog::level::info);
   if (may_be_many && !is_shown(unit, message, category != "stride")) return;
-  spdlog::log(of_message, "unit '{}'{}: {}", unit,
-              category == isolation::kPrinted ? " printed" : "", message);
+  spdlog::log(of_message, "unit '{}'{}: {}", unit, verb(of_message, category), message);
 }
 
 /// `counts`: towards the number that is shown of a unit.
