@@ -355,8 +355,8 @@ class Simulation:
         index = ctypes.c_size_t()
         c.check(
             self._library.stride_find(self._open(), _text_bytes(name, "a name"), ctypes.byref(index))
-        )  # fails with a suggestion
-        raise InputError(f"there is no variable '{name}'")
+        )  # fails with a suggestion, unless it is the short name of a unit that is run alone
+        return index.value, self._by_index[index.value]
 
     def __contains__(self, name: object) -> bool:
         return name in self.variables

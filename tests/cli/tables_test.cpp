@@ -198,6 +198,8 @@ TEST_CASE("a unit of measure of a table that nothing defines is warned of") {
   const Outcome outcome = workspace.stride({"run", "defined.ssd", "--quiet"});
   CHECK(outcome.exit_code == 0);
   CHECK(outcome.err == "");
+  workspace.scratch().write("cycle.csv", "time,wanted,far [furlnog]\n0,0,1\n6,5,2\n");
+  CHECK_THAT(workspace.stride({"check", "defined.ssd"}).err, Contains("did you mean 'furlong'?"));
 }
 
 TEST_CASE("a check of a time behind the last row is told why the run ends there") {

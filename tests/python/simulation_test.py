@@ -573,3 +573,13 @@ def test_an_enumeration_is_set_by_number_or_name(types):
         assert (caught.value.component, caught.value.variable) == ("types", "colour")
         with pytest.raises(stride.InputError, match="a text has no NUL"):
             sim["types.colour"] = "a\0"
+
+
+def test_a_unit_alone_takes_the_names_of_its_variables(folder):
+    with stride.Simulation("minimal.fmu", stop=1, set={"u": 1}, signals=["y"]) as sim:
+        sim["u"] = 2
+        sim.step(until=0.5)
+        assert sim["y"] == sim["minimal.y"] > 0
+        assert sim["u"] == 2
+        with pytest.raises(stride.InputError, match="did you mean 'minimal.time_constant'"):
+            sim["tim_constant"]

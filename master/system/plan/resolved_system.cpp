@@ -36,8 +36,11 @@ void describe_units(ResolvedSystem& resolved, const ScenarioRequest& request) {
   }
 }
 
-std::string unit_hint(const Scenario& scenario, const std::string& unit) {
-  const std::string near = core::nearest(unit, core::known_unit_names());
+std::string unit_hint(const Scenario& scenario, const core::UnitsOfMeasure& defined,
+                      const std::string& unit) {
+  std::vector<std::string> names = core::known_unit_names();
+  for (const auto& [name, meaning] : defined) names.push_back(name);
+  const std::string near = core::nearest(unit, names);
   const std::string meant = near.empty() ? "" : fmt::format("did you mean '{}'? Or ", near);
   return meant + fmt::format(
                      "define it in the <ssd:Units> of {}: <ssc:Unit name=\"{}\"><ssc:BaseUnit "
@@ -62,7 +65,7 @@ void warn_of_unknown_units(ResolvedSystem& resolved) {
           "{}: column '{}': nothing defines '{}', its unit of measure, and it is not known by "
           "name, so its values are converted into no other\n  hint: {}",
           scenario.files->shown(scenario.sources[i]), column.name, column.unit,
-          unit_hint(scenario, column.unit)));
+          unit_hint(scenario, defined, column.unit)));
     }
   }
 }

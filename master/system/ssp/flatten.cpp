@@ -397,7 +397,9 @@ class Flattener {
     const std::size_t dot = name.find('.');
     if (dot != name.npos) return core::suggestion(name.substr(0, dot), elements);
     elements.insert(elements.begin(), connectors.begin(), connectors.end());
-    return core::suggestion(name, elements) + "; names of parameters read component.variable";
+    const std::string hint = core::suggestion(name, elements);
+    return hint + (hint.ends_with('?') ? " Names" : "; names") +
+           " of parameters read component.variable";
   }
 
   /// After some, others are only counted: each would be compared with the names of all elements.
