@@ -19,6 +19,9 @@ namespace {
 /// After a step that has ended there, in the event.
 constexpr std::int32_t kInEvent = 1;
 
+/// Picoseconds that are what sums of doubles leave in place of 0.
+constexpr long double kNoise = 1e-3L;
+
 struct Column {
   Heading heading;
   std::size_t input = 0;
@@ -36,6 +39,22 @@ bool is_number(const std::string& text) {
   const char* const last = plain.data() + plain.size();
   const auto [end, mistake] = std::from_chars(plain.data(), last, number);
   return mistake == std::errc() && end == last;
+}
+
+/// Whether it is a whole number that a double would round.
+bool is_too_long(const std::string& text) {
+  constexpr std::size_t kAlwaysExact = 15;  // digits
+  const std::string plain = plain_value(Type::Float64, text);
+  const std::size_t sign = plain.rfind('-', 0) == 0 ? 1 : 0;
+  if (plain.size() - sign <= kAlwaysExact) return false;
+  if (plain.find_first_not_of("0123456789", sign) != std::string::npos) return false;
+  std::uint64_t whole = 0;
+  double number = 0;
+  const char* const first = plain.data() + sign;
+  const char* const last = plain.data() + plain.size();
+  std::from_chars(first, last, number);
+  if (std::from_chars(first, last, whole).ec != std::errc()) return false;  // beyond any integer
+  return number >= 0x1p64 || static_cast<std::uint64_t>(number) != whole;
 }
 
 /// 0 and 1 are numbers.
@@ -60,6 +79,7 @@ class Looks {
     Kind& kind = is_number(text) ? number_ : is_truth(text) ? truth_ : other_;
     if (kind.count++ == 0) kind.line = line, kind.text = text;
     are_decimal_commas_ &= has_decimal_comma(text);
+    if (too_long_.line == 0 && is_too_long(text)) too_long_ = {line, text};
     has_bare_value_ |= !is_quoted && &kind != &other_;
   }
 
@@ -73,16 +93,17 @@ class Looks {
     }
     if (seen.size() > 1 && has_bare_value_) refuse(seen);
     if (seen.size() == 1 && are_decimal_commas_) {
-      throw Mixture(other_.line, "'" + other_.text +
+      throw Mistake(other_.line, "'" + other_.text +
                                      "' looks like a number with a decimal comma; expected a "
                                      "decimal point, or ': String' behind the heading for text");
     }
     if (seen.size() > 1 || other_.line != 0) return Type::String;
+    if (too_long_.line != 0) refuse_too_long();
     return truth_.line != 0 ? Type::Boolean : Type::Float64;
   }
 
-  struct Mixture : std::invalid_argument {
-    Mixture(int where, const std::string& text) : std::invalid_argument(text), line(where) {}
+  struct Mistake : std::invalid_argument {
+    Mistake(int where, const std::string& text) : std::invalid_argument(text), line(where) {}
     int line;
   };
 
@@ -105,7 +126,7 @@ class Looks {
     const auto has = [&](char sign) {
       return &odd == &other_ && odd.text.find(sign) != std::string::npos;
     };
-    throw Mixture(odd.line, "'" + odd.text + "' is not " + name + " as '" + common.text +
+    throw Mistake(odd.line, "'" + odd.text + "' is not " + name + " as '" + common.text +
                                 "' in line " + std::to_string(common.line) + " is; " +
                                 (has(';') ? "expected commas between fields; " : "") +
                                 (has(',') ? "expected a decimal point; " : "") +
@@ -114,7 +135,15 @@ class Looks {
                                 "' behind the heading if all of them are meant so");
   }
 
-  Kind number_, truth_, other_;
+  [[noreturn]] void refuse_too_long() const {
+    throw Mistake(too_long_.line,
+                  "'" + too_long_.text +
+                      "' has more digits than a Float64, the type of a column of numbers; write "
+                      "': Int64' or ': UInt64' behind the heading for whole numbers, or "
+                      "': Float64' to round them");
+  }
+
+  Kind number_, truth_, other_, too_long_;
   bool are_decimal_commas_ = true;
   bool has_bare_value_ = false;  ///< without quotation marks, and not text anyhow
 };
@@ -257,8 +286,8 @@ class TableReader {
   Type type_of(const Looks& looks, const std::string& name) const {
     try {
       return looks.type();
-    } catch (const Looks::Mixture& mixture) {
-      rows_.fail_at(mixture.line, "column '" + name + "': " + mixture.what());
+    } catch (const Looks::Mistake& mistake) {
+      rows_.fail_at(mistake.line, "column '" + name + "': " + mistake.what());
     }
   }
 
@@ -345,25 +374,38 @@ class TableReader {
   }
 
   void read_time() {
-    stride::Time time;
-    checked([&] { time = parse_time(plain_value(Type::Float64, rows_.fields()[0])); });
+    long double ticks = 0;
+    const std::string& field = rows_.fields()[0];
+    checked([&] { ticks = parse_ticks(plain_value(Type::Float64, field)); });
+    const stride::Time time(stride::Duration(static_cast<stride::Picoseconds>(std::round(ticks))));
     if (!is_first_ && time < time_) {
-      rows_.fail("column 'time': " + rows_.fields()[0] + " is before the time of the line above");
+      rows_.fail("column 'time': " + field + " is before the time of the line above");
+    }
+    const bool is_lost = time == stride::Time{} && std::abs(ticks) > kNoise;
+    const bool is_merged = !is_first_ && time == time_ && ticks - exact_ticks_ > kNoise;
+    if (is_lost || is_merged) {
+      rows_.fail("column 'time': " + field + " is less than 1 ps from " +
+                 (is_merged ? "the time of the line above" : "0") +
+                 ", and 1 ps is the resolution of times");
     }
     time_ = time;
+    exact_ticks_ = ticks;
     if (std::exchange(is_first_, false)) result_.begin = time;
   }
 
-  stride::Time parse_time(const std::string& text) const {
+  /// In picoseconds.
+  long double parse_ticks(const std::string& text) const {
     long double number = 0;
     const char* const last = text.data() + text.size();
     const auto [end, mistake] = std::from_chars(text.data(), last, number);
     const long double ticks = number * static_cast<long double>(ticks_);
     const bool is_time = mistake == std::errc() && end == last && !text.empty();
-    if (is_time && std::abs(ticks) <= stride::kMaxSeconds * 1e12L) {
-      return stride::Time(stride::Duration(static_cast<stride::Picoseconds>(std::round(ticks))));
-    }
-    throw std::invalid_argument("column 'time': '" + text + "' is not a time; expected a number");
+    if (is_time && std::abs(ticks) <= stride::kMaxSeconds * 1e12L) return ticks;
+    const bool is_number = end == last && !text.empty() && !std::isnan(number);
+    throw std::invalid_argument(
+        "column 'time': '" + text + "' is " +
+        (is_number ? "beyond 1e15 s, the largest time; let the times begin at 0"
+                   : "not a time; expected a number"));
   }
 
   bool has_field(std::size_t i) const { return rows_.is_quoted(i + 1) || !field(i).empty(); }
@@ -490,6 +532,7 @@ class TableReader {
   std::map<std::string, std::size_t> clocks_;  ///< inputs, by name
   std::vector<std::size_t> jumps_;             ///< inputs, in the present row
   stride::Time time_{};
+  long double exact_ticks_ = 0;  ///< of the same time, before it was rounded
   bool is_first_ = true;
 };
 

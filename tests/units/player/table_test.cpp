@@ -135,6 +135,21 @@ TEST_CASE("times are exact to the picosecond, and may be before the start") {
   CHECK(stimuli.entries[2].time == stride::Time(stride::Duration(14'200'358'702'064)));
 }
 
+TEST_CASE("what sums of doubles leave in place of 0 is 0, and of one time the same") {
+  const Stimuli stimuli = table("time,k:Int32\n-0.1,0\n5.5e-17,1\n0.3,2\n0.30000000000000004,3\n");
+  CHECK(stimuli.entries[0].time == stride::Time{});
+  CHECK(stimuli.entries[1].time == stimuli.entries[2].time);
+}
+
+TEST_CASE("whole numbers keep their digits, or their column says that it may round them") {
+  const Stimuli stimuli = table(
+      "time,a: Int64,b: Float64,c,d\n0,9007199254740993,9007199254740993,1e300,36028797018963968\n"
+      "1,-9007199254740993,0,123456789012345678901234,-9007199254740994\n");
+  CHECK(std::get<std::vector<std::int64_t>>(stimuli.inputs[0].values) ==
+        std::vector<std::int64_t>{9007199254740993, -9007199254740993});
+  CHECK(stimuli.inputs[1].curve->at(time_from_seconds(0)).value == 9007199254740992.0);
+}
+
 TEST_CASE("mistakes in a table have the line and the column") {
   const std::pair<const char*, const char*> kMistakes[] = {
       {"", "x.csv:1: the table is empty"},
@@ -175,7 +190,14 @@ TEST_CASE("mistakes in a table have the line and the column") {
       {"time,u\n1,1\n0,1\n", "x.csv:3: column 'time': 0 is before"},
       {"time,u\nx,1\n", "x.csv:2: column 'time': 'x' is not a time"},
       {"time,u\n,1\n", "x.csv:2: column 'time': '' is not a time"},
-      {"time,u\n1e7,1\n", "x.csv:2: column 'time': '1e7' is not a time"},
+      {"time,u\n1e7,1\n", "x.csv:2: column 'time': '1e7' is beyond 9.2e6 s (106 days)"},
+      {"time,u\n0,1\n99999999,1\n", "x.csv:3: column 'time': '99999999' is beyond 9.2e6 s"},
+      {"time,u\n1e-13,1\n", "x.csv:2: column 'time': 1e-13 is less than 1 ps from 0"},
+      {"time [us],u\n0,1\n1e-7,1\n", "x.csv:3: column 'time': 1e-7 is less than 1 ps from the"},
+      {"time,n\n0,9007199254740992\n1,9007199254740993\n",
+       "x.csv:3: column 'n': '9007199254740993' has more digits than a Float64, the type of a "
+       "column "
+       "of numbers; write ': Int64'"},
       {"time,u:Float64\n0,1\n1,x\n", "x.csv:3: column 'u': 'x' is not a valid Float64"},
       {"time,k:Int8\n0,1\n1,128\n", "x.csv:3: column 'k': '128' is not a valid Int8"},
       {"time,u\n0,nan\n", "x.csv:2: column 'u': 'nan' is not finite"},
