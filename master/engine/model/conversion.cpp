@@ -42,6 +42,8 @@ std::optional<std::int64_t> number_of(const EnumerationItems& items, const std::
   return std::nullopt;
 }
 
+bool has_unit(const PathConnector& connector) { return !connector.unit.name.empty(); }
+
 bool is_relative(const PathConnector& connector) { return connector.is_relative.value_or(false); }
 
 /// Composes the segments of a path, one after the other.
@@ -71,7 +73,7 @@ class Composer {
     }
     if (!is_real(type(segments_.size()))) return {};
     // by way of another unit, it would be rounded more than once
-    const auto direct = unit_conversion(first_unit(), path_.back().unit);
+    const auto direct = unit_conversion(first_unit(path_), path_.back().unit);
     return is_plain && direct ? *direct : linear;
   }
 
@@ -94,15 +96,15 @@ class Composer {
     return conversion;
   }
 
-  std::string words(std::string text) const {
+  /// Of an Enumeration, by the names of the items.
+  std::string words(std::string text, bool is_integer) const {
+    if (is_integer && !is_mapping(0)) text = names(text, path_.front().items);
     for (std::size_t i = 0; i < segments_.size(); ++i) {
-      const Transformation::Kind kind = segments_[i].transformation.kind;
-      const bool is_mapping =
-          kind != Transformation::Kind::None && kind != Transformation::Kind::Linear;
-      if (!is_mapping && unmapped_items(i).empty()) continue;
+      if (!is_mapping(i) && unmapped_items(i).empty() && !changes_items(i)) continue;
       std::string result;
       for (const std::string& element : elements(i, text)) {
-        result += (result.empty() ? "" : " ") + word(i, element);
+        const bool is_number = is_integer && i == 0;
+        result += (result.empty() ? "" : " ") + word(i, element, is_number);
       }
       text = result;
     }
@@ -112,11 +114,30 @@ class Composer {
  private:
   ValueType type(std::size_t place) const { return *path_[place].type; }
 
-  /// The connectors before the first one that has a unit take on that one.
-  const UnitOfMeasure& first_unit() const {
-    const auto first = std::ranges::find_if(
-        path_, [](const PathConnector& connector) { return !connector.unit.name.empty(); });
-    return first == path_.end() ? path_.front().unit : first->unit;
+  bool is_mapping(std::size_t segment) const {
+    const Transformation::Kind kind = segments_[segment].transformation.kind;
+    return kind != Transformation::Kind::None && kind != Transformation::Kind::Linear;
+  }
+
+  bool are_enumerations(std::size_t segment) const {
+    return type(segment) == ValueType::Enumeration && type(segment + 1) == ValueType::Enumeration;
+  }
+
+  /// Whether an Enumeration becomes another one or an integer, or the other way round.
+  bool changes_items(std::size_t segment) const {
+    const PathConnector& from = path_[segment];
+    const PathConnector& to = path_[segment + 1];
+    if (from.type == to.type) return are_enumerations(segment) && from.items != to.items;
+    return from.type == ValueType::Enumeration || to.type == ValueType::Enumeration;
+  }
+
+  std::string names(const std::string& numbers, const EnumerationItems& items) const {
+    if (items.empty()) return numbers;
+    try {
+      return numbers_as_names(meant_value(ValueType::Int64, numbers).value_or(numbers), items);
+    } catch (const std::invalid_argument& mistake) {
+      fail(mistake.what(), "");
+    }
   }
 
   /// Those of the text before a segment.
@@ -254,9 +275,7 @@ class Composer {
     const Transformation::Kind kind = segments_[segment].transformation.kind;
     const PathConnector& from = path_[segment];
     const PathConnector& to = path_[segment + 1];
-    const bool are_enumerations =
-        from.type == ValueType::Enumeration && to.type == ValueType::Enumeration;
-    if (!are_enumerations || kind == Transformation::Kind::IntegerMapping) return {};
+    if (!are_enumerations(segment) || kind == Transformation::Kind::IntegerMapping) return {};
     EnumerationItems items = from.items;
     for (const auto& [source, target] : segments_[segment].transformation.names) {
       std::erase_if(items, [&](const auto& item) { return item.first == source; });
@@ -350,41 +369,63 @@ class Composer {
                   : "define what it becomes, in an <ssc:IntegerMappingTransformation>");
   }
 
-  std::string word(std::size_t segment, const std::string& word) const {
-    const Transformation& transformation = segments_[segment].transformation;
-    if (transformation.kind == Transformation::Kind::None) {
-      return number_of_word(word, unmapped_items(segment)).value_or(word);
+  /// `is_number`: and not a name.
+  std::string word(std::size_t segment, const std::string& word, bool is_number) const {
+    switch (segments_[segment].transformation.kind) {
+      case Transformation::Kind::EnumerationMapping:
+        return mapped_item(segment, word);
+      case Transformation::Kind::BooleanMapping:
+        return mapped_boolean(segment, word);
+      case Transformation::Kind::IntegerMapping:
+        return mapped_number(segment, word, is_number);
+      default:
+        return unmapped_item(segment, word);
     }
-    if (transformation.kind == Transformation::Kind::EnumerationMapping) {
-      for (const auto& [source, target] : transformation.names) {
-        if (source == word) return target;
-      }
-      return word;
-    }
-    const bool is_of_boolean = is_boolean(segment);
-    const auto meant = meant_value(is_of_boolean ? ValueType::Boolean : ValueType::Int64, word);
-    const std::string& plain = meant ? *meant : word;
-    if (is_of_boolean) {
-      const auto source = boolean_of(plain);
-      if (!source) return word;
-      return mapped(transformation.numbers, *source ? 1 : 0) != 0 ? "true" : "false";
-    }
-    std::int64_t number = 0;
-    const auto end = std::from_chars(plain.data(), plain.data() + plain.size(), number);
-    if (end.ptr != plain.data() + plain.size() || end.ec != std::errc{}) {
-      const auto named = number_of(path_[segment].items, word);
-      if (!named) return word;
-      number = *named;
-    }
-    return std::to_string(mapped(transformation.numbers, number));
   }
 
-  /// Nothing for a name, which stays.
-  static std::optional<std::string> number_of_word(const std::string& word, const NumberMap& map) {
+  std::string unmapped_item(std::size_t segment, const std::string& word) const {
+    const auto number = type(segment) == ValueType::Enumeration
+                            ? item_number(word, path_[segment].items)
+                            : whole_number(word);
+    return number ? item_word(segment + 1, mapped(unmapped_items(segment), *number)) : word;
+  }
+
+  std::string mapped_item(std::size_t segment, const std::string& word) const {
+    const auto number = item_number(word, path_[segment].items);
+    const std::string name = number ? item_word(segment, *number) : word;
+    for (const auto& [source, target] : segments_[segment].transformation.names) {
+      if (source == word || source == name) return target;
+    }
+    return unmapped_item(segment, word);
+  }
+
+  std::string mapped_boolean(std::size_t segment, const std::string& word) const {
+    const auto source = boolean_of(meant_value(ValueType::Boolean, word).value_or(word));
+    if (!source) return word;
+    const NumberMap& map = segments_[segment].transformation.numbers;
+    return mapped(map, *source ? 1 : 0) != 0 ? "true" : "false";
+  }
+
+  std::string mapped_number(std::size_t segment, const std::string& word, bool is_number) const {
+    const auto named = number_of(path_[segment].items, word);
+    const auto number = named && !is_number ? named : whole_number(word);
+    if (!number) return word;
+    return item_word(segment + 1, mapped(segments_[segment].transformation.numbers, *number));
+  }
+
+  static std::optional<std::int64_t> whole_number(const std::string& word) {
+    const std::string plain = meant_value(ValueType::Int64, word).value_or(word);
+    const char* const last = plain.data() + plain.size();
     std::int64_t number = 0;
-    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
-    if (end != word.data() + word.size() || error != std::errc{}) return std::nullopt;
-    return std::to_string(mapped(map, number));
+    const auto [end, error] = std::from_chars(plain.data(), last, number);
+    return end == last && error == std::errc{} ? std::optional(number) : std::nullopt;
+  }
+
+  /// The name of the connector's item, if it has one of this number; else the number.
+  std::string item_word(std::size_t place, std::int64_t number) const {
+    const EnumerationItems& items = path_[place].items;
+    const auto found = std::ranges::find(items, number, &EnumerationItems::value_type::second);
+    return found != items.end() ? found->first : std::to_string(number);
   }
 
   std::vector<PathConnector> path_;
@@ -444,6 +485,16 @@ std::vector<PathConnector> completed(std::vector<PathConnector> path) {
   return path;
 }
 
+UnitOfMeasure first_unit(const std::vector<PathConnector>& path) {
+  const auto first = std::ranges::find_if(path, has_unit);
+  return first == path.end() ? UnitOfMeasure{} : first->unit;
+}
+
+UnitOfMeasure last_unit(const std::vector<PathConnector>& path) {
+  const auto last = std::find_if(path.rbegin(), path.rend(), has_unit);
+  return last == path.rend() ? UnitOfMeasure{} : last->unit;
+}
+
 bool mixes_differences(const std::vector<PathConnector>& path) {
   const std::optional<bool> from = path.front().is_relative;
   const std::optional<bool> to = path.back().is_relative;
@@ -456,9 +507,11 @@ Conversion compose(const std::vector<PathConnector>& path, std::span<const PathS
 }
 
 TextConversion compose_text(const std::string& text, const std::vector<PathConnector>& path,
-                            std::span<const PathSegment> segments, const Context& context) {
+                            std::span<const PathSegment> segments, const Context& context,
+                            bool is_integer) {
   const Composer composer(path, segments, context);
-  return {composer.words(text), composer.linear()};
+  const LinearConversion linear = composer.linear();
+  return {composer.words(text, is_integer), linear};
 }
 
 }  // namespace stride::core

@@ -53,6 +53,11 @@ struct PathConnector {
 /// be known.
 std::vector<PathConnector> completed(std::vector<PathConnector> path);
 
+/// The unit of measure of the first connector that has one, which those before it take on.
+UnitOfMeasure first_unit(const std::vector<PathConnector>& path);
+/// Likewise of the last one, which those behind it have.
+UnitOfMeasure last_unit(const std::vector<PathConnector>& path);
+
 /// Whether one end of a path is declared as a difference, and the other one as none.
 bool mixes_differences(const std::vector<PathConnector>& path);
 
@@ -68,13 +73,14 @@ Conversion compose(const std::vector<PathConnector>& path, std::span<const PathS
 
 /// Likewise for a value that is given as text, whose type and enumeration need not be known, and is
 /// taken for one that the first transformation is for: the text behind all mappings, and what to do
-/// with its numbers.
+/// with its numbers. `is_integer`: it has numbers of items, not names.
 struct TextConversion {
   std::string text;
   LinearConversion linear;
 };
 TextConversion compose_text(const std::string& text, const std::vector<PathConnector>& path,
-                            std::span<const PathSegment> segments, const Context& context);
+                            std::span<const PathSegment> segments, const Context& context,
+                            bool is_integer = false);
 
 /// Whether each value of `from` is representable in `to`. An Enumeration converts if all of its
 /// items do.

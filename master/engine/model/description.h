@@ -116,6 +116,11 @@ struct Variable {
   std::optional<ClockAttributes> clock;                     ///< of a Clock
   std::vector<std::pair<std::string, std::int64_t>> items;  ///< of an Enumeration
 
+  /// Where the unit has one value for several variables (aliases of FMI 1.0 and 2.0): the first of
+  /// them; of that one, and of other variables, nothing.
+  std::optional<ValueReference> shares_value_of;
+  bool is_negated = false;  ///< an alias that has the negative value, or the other Boolean
+
   /// Of a continuous input or an output: it may be accessed within a step.
   bool intermediate_update = false;
 

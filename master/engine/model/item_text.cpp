@@ -53,6 +53,30 @@ std::string item_text(const EnumerationItems& items) {
   return fmt::format("{}", fmt::join(texts, ", "));
 }
 
+std::optional<std::int64_t> item_number(const std::string& text, const EnumerationItems& items) {
+  const Words words = words_of(text);
+  const auto named = std::ranges::find_if(
+      items, [&](const auto& item) { return item.first == text || words_of(item.first) == words; });
+  if (named != items.end()) return named->second;
+  const auto numbered = std::ranges::find_if(
+      items, [&](const auto& item) { return std::to_string(item.second) == text; });
+  return numbered != items.end() ? std::optional(numbered->second) : std::nullopt;
+}
+
+std::string numbers_as_names(const std::string& text, const EnumerationItems& items) {
+  std::string named;
+  for (const std::string& word : words_of(text)) {
+    const auto item = std::ranges::find_if(
+        items, [&](const auto& known) { return std::to_string(known.second) == word; });
+    if (item == items.end()) {
+      throw std::invalid_argument(fmt::format(
+          "'{}' is not the number of an item, expected one of {}", word, item_text(items)));
+    }
+    named += (named.empty() ? "" : " ") + item->first;
+  }
+  return named;
+}
+
 std::vector<std::string> item_words(const std::string& text, const EnumerationItems& items) {
   const Words words = words_of(text);
   for (const auto& [name, number] : items) {

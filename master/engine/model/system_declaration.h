@@ -78,7 +78,8 @@ struct OutputDeclaration {
   Location where{};
   bool is_inner = false;  ///< not an output of the outermost system: recorded on demand
   std::string value{};
-  UnitOfMeasure unit{};  ///< in which the value is given
+  UnitOfMeasure unit{};     ///< in which the value is given
+  bool is_integer = false;  ///< for an Enumeration, the value is the number of an item
 };
 /// A start value of what a connector may be: see ConnectionDeclaration.
 struct StartDeclaration {
@@ -95,6 +96,10 @@ struct StartDeclaration {
   /// Start values with the same non-zero group come from one declaration; at least one of them must
   /// have a target.
   std::size_t group = 0;
+  /// Start values with the same non-zero number have the same precedence, so for one variable they
+  /// must not differ. The others are ordered.
+  std::size_t rank = 0;
+  bool is_integer = false;  ///< for an Enumeration, the value has numbers of items, not names
 };
 struct SystemDeclaration {
   std::string name;

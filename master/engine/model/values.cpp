@@ -59,11 +59,10 @@ void parse_element(const Variable&, const std::string& text, Binary& value) {
 }
 
 void parse_enumeration(const Variable& variable, const std::string& text, std::int64_t& value) {
-  for (const auto& [item, number] : variable.items) {
-    if (item == text || words_of(item) == words_of(text) || std::to_string(number) == text) {
-      value = number;
-      return;
-    }
+  const std::optional<std::int64_t> number = item_number(text, variable.items);
+  if (number) {
+    value = *number;
+    return;
   }
   reject(text, "one of " + item_text(variable.items));
 }
@@ -206,6 +205,11 @@ ValueBlock parse(const Variable& variable, const std::string& text) {
     for (std::size_t i = 0; i < words.size(); ++i) parse_element(variable, words[i], values[i]);
   });
   return block;
+}
+
+ValueBlock parse_start(const Variable& variable, const std::string& text) {
+  if (variable.type != ValueType::Enumeration) return parse(variable, text);
+  return parse(variable, numbers_as_names(text, variable.items));
 }
 
 std::string element_text(const ValueBlock& block, std::size_t element) {

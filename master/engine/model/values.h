@@ -152,9 +152,11 @@ bool is_same(const ValueBlock& a, std::size_t a_element, const ValueBlock& b,
 std::vector<std::string> element_texts(const Variable& variable, const std::string& text);
 
 /// Parses a variable's value: numbers separated by blanks for an array, "true"/"false"/"1"/"0" for
-/// Boolean, the item's name or number for Enumeration, hexadecimal digits for Binary, the text
-/// itself for String. Throws std::invalid_argument whose text contains what was expected.
+/// Boolean, the item's name, or else its number, for Enumeration, hexadecimal digits for Binary,
+/// the text itself for String. Throws std::invalid_argument whose text contains what was expected.
 ValueBlock parse(const Variable& variable, const std::string& text);
+/// Likewise a `start` of FMI, which has the number of an item: the number comes before the name.
+ValueBlock parse_start(const Variable& variable, const std::string& text);
 
 /// The text of one element: shortest decimal form that reads back the same, "true"/"false",
 /// hexadecimal digits.

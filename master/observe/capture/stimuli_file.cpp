@@ -26,7 +26,7 @@ void append_quoted(std::string& text, std::string_view value) {
 
 core::ValueBlock start_values(const core::Variable& variable) {
   try {
-    core::ValueBlock values = core::parse(variable, variable.start);
+    core::ValueBlock values = core::parse_start(variable, variable.start);
     if (values.size() == variable.size) return values;
   } catch (const std::invalid_argument&) {  // it names none
   }

@@ -221,7 +221,9 @@ std::optional<double> CampaignScenario::scenario_value(std::size_t column) const
   if (elements.size() != 1 || elements.front().size() != 1) return std::nullopt;
   const core::ElementRange& element = elements.front().parts.front();
   for (const core::StartValue& start : loaded_.system().start_values()) {
-    if (start.id != element.id || std::ranges::count(start.kept, element.first) > 0) continue;
+    if (loaded_.system().value_owner(start.id) != loaded_.system().value_owner(element.id))
+      continue;
+    if (std::ranges::count(start.kept, element.first) > 0) continue;
     return number_at(start.value, element.first);
   }
   return number_of(word_at(loaded_.system().variable(element.id).start, element.first));
@@ -230,9 +232,8 @@ std::optional<double> CampaignScenario::scenario_value(std::size_t column) const
 std::string CampaignScenario::unit_of_measure(std::size_t column) const {
   for (const StartTarget& target : targets_) {
     if (target.column != column) continue;
-    if (!target.declaration.unit.name.empty()) return target.declaration.unit.name;
     const auto elements = elements_of(column);
-    return loaded_.system().variable(elements.front().parts.front().id).unit;
+    return loaded_.system().start_unit(target.declaration, elements.front().parts.front()).name;
   }
   return "";
 }
@@ -255,7 +256,9 @@ void CampaignScenario::check_effects(const std::vector<PlanColumn>& columns) con
               "force it for some time: <stride:Force> in a <stride:Intervention>");
         }
         for (const auto& [other, column] : taken) {
-          if (column == i || !other.overlaps(part)) continue;
+          const bool is_alias =
+              system.value_owner(other.id) == system.value_owner(part.id) && other.id != part.id;
+          if (column == i || !(is_alias || other.overlaps(part))) continue;
           core::fail_input({.where = parameter.where},
                            fmt::format("'{}' and '{}' are two sources for one variable",
                                        core::name_text(columns[column].parameter.name),

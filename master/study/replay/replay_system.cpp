@@ -113,9 +113,19 @@ class ReplayWriter {
       writer_.open("ssv:Parameter");
       writer_.attribute("name", core::element_name(variable, i));
       write_element(fmt::format("ssv:{}", core::name(variable.type)).c_str(),
-                    {{"value", core::element_text(start.value, i)}});
+                    {{"value", value_text(variable, start.value, i)}});
       writer_.close();
     }
+  }
+
+  /// An item has its name, since another one may have its number for a name.
+  static std::string value_text(const core::Variable& variable, const core::ValueBlock& value,
+                                std::size_t element) {
+    const std::string text = core::element_text(value, element);
+    if (variable.type != core::ValueType::Enumeration) return text;
+    const auto item = std::ranges::find(
+        variable.items, text, [](const auto& known) { return std::to_string(known.second); });
+    return item != variable.items.end() ? item->first : text;
   }
 
   bool is_played(const core::Variable& variable) const {

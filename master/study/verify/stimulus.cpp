@@ -29,7 +29,7 @@ std::pair<T, T> bounds(const Variable& variable) {
   scalar.size = 1;
   scalar.dimensions.clear();
   const auto read = [&](const std::string& text, T& bound) {
-    if (!text.empty()) bound = core::parse(scalar, text).template numbers<T>()[0];
+    if (!text.empty()) bound = core::parse_start(scalar, text).template numbers<T>()[0];
   };
   read(variable.min, range.first);
   read(variable.max, range.second);
@@ -82,7 +82,7 @@ bool has_start_value(const Variable& variable) {
 }
 
 ValueBlock start_value(const Variable& variable) {
-  if (!variable.start.empty()) return core::parse(variable, variable.start);
+  if (!variable.start.empty()) return core::parse_start(variable, variable.start);
   ValueBlock block(variable.type, variable.size);
   if (variable.type == ValueType::Enumeration && !variable.items.empty()) {
     std::ranges::fill(block.numbers<std::int64_t>(), variable.items.front().second);

@@ -129,10 +129,13 @@ std::vector<ssp::ParameterValue> read_parameters(scenario::ScenarioRequest& requ
 
 /// A value for what is not there is a mistake, as it is of --set.
 void add_parameters(scenario::ScenarioRequest& request, const std::vector<std::string>& texts) {
+  std::size_t count = 0;
   for (const std::string& text : texts) {
     std::vector<std::string> warnings;
+    ++count;
     for (ssp::ParameterValue& value : read_parameters(request, parameter_files(text), warnings)) {
       value.is_required = true;
+      value.binding = count;
       request.parameters.push_back(std::move(value));
     }
     for (const std::string& warning : warnings) spdlog::warn("{}", core::message_text(warning));

@@ -58,6 +58,18 @@ std::optional<ValueType> type_of(const xml::Element& type, const std::string& ss
             core::suggestion(std::string(name), known));
 }
 
+/// SSP gives units of measure to floating-point numbers only.
+void note_unit(const xml::Element& type, std::vector<std::string>& warnings) {
+  const std::string_view name = type.name().local;
+  const bool is_real = name == "Real" || name == "Float64" || name == "Float32";
+  const auto unit = type.attribute("unit");
+  if (is_real || !unit) return;
+  warnings.push_back(core::to_text({.where = type.where()}) +
+                     fmt::format("unit=\"{}\" of {} is ignored: only <ssc:Float64>, <ssc:Float32> "
+                                 "and <ssc:Real> have a unit of measure",
+                                 *unit, type.tag()));
+}
+
 /// The interval of a unit's clock is not changed by a connector.
 void note_interval(const xml::Element& type, std::vector<std::string>& warnings) {
   for (const char* attribute :
@@ -130,6 +142,7 @@ bool read_type(const xml::Element& child, const SspFile& file,
   connector.type = type_of(child, file.version);
   if (!connector.type) connector.kin = kin_of(child.name().local);
   if (connector.type == ValueType::Clock) note_interval(child, warnings);
+  note_unit(child, warnings);
   connector.unit = file.definitions.unit(child.attribute_or("unit"));
   if (connector.type == ValueType::Enumeration) {
     const auto& enumerations = file.definitions.enumerations;

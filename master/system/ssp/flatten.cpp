@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -59,6 +60,8 @@ class Flattener {
   struct Start {
     core::StartDeclaration declaration;
     std::size_t connections = 0;
+
+    auto precedence() const { return std::pair(!declaration.is_optional, connections); }
   };
 
   void add_component(const PortGraph::Component& component) {
@@ -144,6 +147,7 @@ class Flattener {
     const ParameterValue& value = *given_.at(*first);
     output.value = value.value;
     output.unit = value.unit;
+    output.is_integer = value.is_integer;
     output.via.push_back(typed(via(ports_[*first], value.segment), ports_[*first]));
     for (auto i = static_cast<std::size_t>(first - ports.begin()); i < way.size(); ++i) {
       output.via.push_back(typed(via(way[i]), ports_[ports[i + 1]]));
@@ -205,14 +209,23 @@ class Flattener {
         continue;
       }
       for (const ParameterValue& value : element.parameters) {
+        begin_value(&element, value);
         add_start(value, graph_.component(element), value.name);
       }
     }
     for (const ParameterValue& value : node.parameters) {
+      begin_value(&node, value);
       const std::size_t first = starts_.size();
       if (!apply(value, node, value.name)) report_unmatched(value, node);
       group(first);
     }
+  }
+
+  /// Those of one binding of an element have one rank.
+  void begin_value(const void* owner, const ParameterValue& value) {
+    const auto binding = std::tuple(owner, value.binding, value.is_required);
+    if (value.binding == 0 || binding != binding_) ++rank_;
+    binding_ = binding;
   }
 
   /// SSP 2.0, "ParameterBindings": the value is for all that has this name, and names may hold
@@ -263,6 +276,8 @@ class Flattener {
     start.transformation = value.segment.transformation;
     start.is_optional = !value.is_required;
     start.dimensions = value.dimensions;
+    start.is_integer = value.is_integer;
+    start.rank = rank_;
     return start;
   }
 
@@ -329,12 +344,24 @@ class Flattener {
   /// A later one replaces an earlier one. A connector decides the value of what it is connected to,
   /// so the connector comes after it, and the command line after the file.
   void add_start_values() {
-    std::ranges::stable_sort(starts_, {}, [](const Start& start) {
-      return std::pair(!start.declaration.is_optional, start.connections);
-    });
+    std::ranges::stable_sort(starts_, {}, &Start::precedence);
     note_overruled();
+    number_ranks();
     for (Start& start : starts_) {
       flat_.declaration.start_values.push_back(std::move(start.declaration));
+    }
+  }
+
+  /// Of values of one binding, those that come through more connections have precedence.
+  void number_ranks() {
+    std::size_t number = 0;
+    for (std::size_t i = 0; i < starts_.size(); ++i) {
+      const std::size_t rank = starts_[i].declaration.rank;
+      const bool is_next =
+          i == 0 || rank != last_rank_ || starts_[i].precedence() != starts_[i - 1].precedence();
+      last_rank_ = rank;
+      if (is_next) ++number;
+      starts_[i].declaration.rank = number;
     }
   }
 
@@ -429,6 +456,8 @@ class Flattener {
   std::vector<Start> starts_;
   std::map<std::size_t, const ParameterValue*> given_;  ///< by port, the last one
   std::size_t groups_ = 0;
+  std::size_t rank_ = 0, last_rank_ = 0;
+  std::tuple<const void*, std::size_t, bool> binding_{};  ///< of the last value
 };
 
 }  // namespace

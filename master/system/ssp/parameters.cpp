@@ -27,6 +27,11 @@ namespace {
 constexpr const char* kParameterSetType = "application/x-ssp-parameter-set";
 constexpr const char* kMappingType = "application/x-ssp-parameter-mapping";
 
+/// Whether a value of the type of that name is a whole number.
+bool is_integer_type(std::string_view name) {
+  return name == "Integer" || name.starts_with("Int") || name.starts_with("UInt");
+}
+
 /// Several elements, each in a <Value> of its own, as the text form of an array.
 std::string listed_value(const xml::Element& type, const std::vector<xml::Element>& values) {
   std::string joined;
@@ -60,6 +65,7 @@ ParameterValue read_value(const xml::Element& type, const Definitions& inside,
   type.allow_children({{kSsv, "Value"}});
   ParameterValue parameter;
   parameter.where = type.where();
+  parameter.is_integer = is_integer_type(name);
   parameter.unit = inside.unit(type.attribute_or("unit"), around);
   const std::vector<xml::Element> values = type.children({kSsv, "Value"});
   const auto value = type.attribute("value");
@@ -304,10 +310,13 @@ std::vector<ParameterValue> read_parameters(const xml::Element& owner,
                                             const BindingContext& context) {
   std::vector<ParameterValue> values;
   const std::vector<xml::Element> lists = owner.children({kSsd, "ParameterBindings"});
+  std::size_t count = 0;
   for (const xml::Element& bindings : lists) {
     bindings.allow_children({{kSsd, "ParameterBinding"}});
     for (const xml::Element& binding : bindings.children()) {
       std::vector<ParameterValue> read = read_binding(binding, context);
+      ++count;
+      for (ParameterValue& value : read) value.binding = count;
       values.insert(values.end(), std::make_move_iterator(read.begin()),
                     std::make_move_iterator(read.end()));
     }

@@ -260,8 +260,11 @@ class SystemReader {
         component, [&] { return is_own ? read_own_system(component) : read_file(file); }));
     BindingContext context = binding_context();
     context.component_folders = source_folders(file);
+    auto& parameters = node.system->parameters;
+    const std::size_t own = parameters.empty() ? 0 : parameters.back().binding;
     for (ParameterValue& value : read_parameters(component, context)) {
-      node.system->parameters.push_back(std::move(value));
+      value.binding += own;
+      parameters.push_back(std::move(value));
     }
   }
 

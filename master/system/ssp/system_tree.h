@@ -30,6 +30,9 @@ struct ParameterValue {
   core::PathSegment segment{};  ///< of its parameter mapping
   bool is_required = false;     ///< a mistake, if it has no target; SSP's are ignored then
   std::vector<core::DimensionDeclaration> dimensions{};  ///< none: not checked
+  /// Which of the bindings of its element it belongs to, from 1 on; 0: to none, but is one alone.
+  std::size_t binding = 0;
+  bool is_integer = false;  ///< by its type: for an Enumeration, the number of an item
 };
 
 /// The signals that all references to a signal dictionary share, by name.

@@ -26,6 +26,17 @@ namespace {
 /// for all warnings and for the mistakes that Diagnostics shows.
 constexpr std::size_t kMostHints = 120;
 
+/// Whether suppressUnitConversion changes what a value becomes.
+bool suppresses_conversion(const Way& way) {
+  const std::vector<PathConnector> path = completed(way.path);
+  for (std::size_t i = 0; i < way.segments.size(); ++i) {
+    if (!way.segments[i].suppress_unit_conversion) continue;
+    const auto conversion = convert(path[i].unit, path[i + 1].unit);
+    if (!conversion || !conversion->is_identity()) return true;
+  }
+  return false;
+}
+
 /// The first one that is not an item of the unit's Enumeration, if that has items; or empty.
 std::string other_item(const EnumerationItems& declared, const EnumerationItems& items) {
   for (const auto& item : declared) {
@@ -356,7 +367,7 @@ std::vector<Connection> System::connect(const ConnectionDeclaration& wanted, con
       way.go(wanted, path_connector(to));
     }
     made.push_back({from.id, to.id, converted_on(way.path, way.segments, wanted.where), from.first,
-                    to.first, to.size});
+                    to.first, to.size, suppresses_conversion(way)});
   }
   return made;
 }
@@ -425,7 +436,7 @@ void System::note_difference(const std::vector<PathConnector>& path,
                   "the values are converted from '{}' to '{}' as differences, without an offset\n"
                   "  hint: if they are absolute, set suppressUnitConversion=\"true\" and convert "
                   "them by an <ssc:LinearTransformation>",
-                  difference.name, other.name, path.front().unit.name, path.back().unit.name));
+                  difference.name, other.name, first_unit(path).name, last_unit(path).name));
 }
 
 }  // namespace stride::core

@@ -22,6 +22,7 @@
 #include "master/engine/model/time/interval.h"
 #include "master/engine/model/values.h"
 #include "master/engine/model/variable_id.h"
+#include "master/engine/model/way.h"
 
 namespace stride::core {
 
@@ -52,6 +53,8 @@ struct Connection {
   std::size_t from_first = 0;  ///< element
   std::size_t to_first = 0;
   std::size_t size = 1;  ///< the number of elements
+  /// Units of measure differ on the way, and suppressUnitConversion leaves the numbers as they are.
+  bool keeps_number = false;
 
   ElementRange source() const { return {from, from_first, size}; }
   ElementRange target() const { return {to, to_first, size}; }
@@ -114,6 +117,10 @@ class System {
   const std::vector<SystemOutput>& outputs() const { return outputs_; }
   VariableId output_id(std::size_t output) const { return {components_.size(), output}; }
   bool is_output(VariableId id) const { return id.component == components_.size(); }
+  /// Of the variables that share one value in their unit the first one; else the variable itself.
+  VariableId value_owner(VariableId id) const;
+  /// In which a start value for these elements is given.
+  UnitOfMeasure start_unit(const StartDeclaration& declaration, const ElementRange& part) const;
   /// Those of structural parameters, sorted by component; the sizes of the components' arrays, in
   /// their descriptions, follow from them.
   const std::vector<StartValue>& structural_values() const { return structural_values_; }
@@ -169,12 +176,14 @@ class System {
     const StartDeclaration* declaration;
     ConnectorElements elements;
   };
-  /// What a variable has of start values so far.
+  /// What a variable, or those that share its value, have of start values so far.
   struct GivenElements {
+    VariableId id;  ///< the last one that was given a value
     ValueBlock value;
     std::vector<bool> is_given;
+    std::vector<std::pair<ElementRange, const StartDeclaration*>> givers{};
   };
-  using GivenValues = std::map<VariableId, GivenElements>;
+  using GivenValues = std::map<VariableId, GivenElements>;  ///< by value_owner()
   bool is_structural(const StartDeclaration& declaration) const;
   std::optional<Target> find_target(const StartDeclaration& declaration) const;
   std::vector<Target> find_targets(const SystemDeclaration& declaration, Diagnostics& diagnostics);
@@ -182,6 +191,14 @@ class System {
   void add_start_values(const SystemDeclaration& declaration, Diagnostics& diagnostics);
   void check_value_dimensions(const Target& target) const;
   void give(const Target& target, GivenValues& values);
+  void give(const StartDeclaration& declaration, const ElementRange& part, const ValueBlock& value,
+            GivenValues& values);
+  void check_giver(const StartDeclaration& declaration, const ElementRange& part,
+                   const ValueBlock& value, const GivenElements& given);
+  bool is_same_value(const ElementRange& part, const ValueBlock& value,
+                     const GivenElements& given) const;
+  Way way_of(const StartDeclaration& declaration, const ElementRange& part) const;
+  void note_unit(const Way& way, const Location& where);
   static std::vector<StartValue> listed(GivenValues values);
   void resize(const StartDeclaration& declaration, VariableId structural_parameter,
               std::size_t size);
@@ -260,6 +277,9 @@ class System {
   std::set<VariableId> message_clocks_;  ///< time-based clocks that are connected to triggered ones
   std::size_t unknown_variables_ = 0;    ///< reported so far
   std::set<std::string> misfits_;        ///< connectors of systems that were reported
+  /// Of connectors of systems without one, in which their value is taken, and by what.
+  std::map<std::string, std::pair<UnitOfMeasure, std::string>> taken_units_;
+  std::set<std::string> ambiguous_units_;  ///< such connectors that were reported
 };
 
 }  // namespace stride::core

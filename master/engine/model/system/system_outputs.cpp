@@ -10,7 +10,6 @@
 #include "master/engine/model/meant_value.h"
 #include "master/engine/model/system/declared_dimensions.h"
 #include "master/engine/model/system/system.h"
-#include "master/engine/model/way.h"
 
 namespace stride::core {
 namespace {
@@ -120,7 +119,9 @@ void System::add_constant(const OutputDeclaration& wanted) {
   variable.dimensions =
       known_sizes(wanted.via.back().dimensions).value_or(std::vector<Dimension>{});
   variable.size = element_count(variable.dimensions).value_or(1);
-  const auto [text, linear] = compose_text(wanted.value, way.path, way.segments, context);
+  note_unit(way, wanted.where);
+  const auto [text, linear] =
+      compose_text(wanted.value, way.path, way.segments, context, wanted.is_integer);
   try {
     output.constant = parse(variable, meant_value(variable.type, text).value_or(text));
   } catch (const std::invalid_argument& mistake) {

@@ -19,7 +19,6 @@
 #include "master/engine/model/system/declared_dimensions.h"
 #include "master/engine/model/system/system.h"
 #include "master/engine/model/system/unknown_variable.h"
-#include "master/engine/model/way.h"
 
 namespace stride::core {
 namespace {
@@ -82,6 +81,27 @@ std::vector<std::string> scalar_texts(const StartDeclaration& wanted, const Vari
   } catch (const std::invalid_argument& mistake) {
     fail_input({wanted.where, wanted.component, wanted.variable, {}}, mistake.what());
   }
+}
+
+/// Of numbers or Booleans of any types; of the other one with the opposite sign or truth.
+bool is_same_number(const ValueBlock& value, std::size_t element, const ValueBlock& other,
+                    std::size_t other_element, bool is_negative) {
+  return visit(value, [&]<class A>(std::span<const A> ones) {
+    return visit(other, [&]<class B>(std::span<const B> others) {
+      if constexpr (std::is_arithmetic_v<A> && std::is_arithmetic_v<B>) {
+        if (std::is_same_v<A, bool> && is_negative) return ones[element] != others[other_element];
+        const auto number = static_cast<double>(others[other_element]);
+        return static_cast<double>(ones[element]) == (is_negative ? -number : number);
+      } else {
+        return false;
+      }
+    });
+  });
+}
+
+/// Of the command line the option alone.
+std::string place_text(const Location& where) {
+  return where.line == 0 ? where.file : fmt::format("{}:{}", where.file, where.line);
 }
 
 Variable element_of(const Variable& array) {
@@ -170,6 +190,53 @@ std::vector<System::Target> System::find_targets(const SystemDeclaration& declar
   return targets;
 }
 
+/// A value for a connector of a system goes through the component's connector, which may have
+/// another unit of measure than the variable; one for the component is for the variable.
+Way System::way_of(const StartDeclaration& wanted, const ElementRange& part) const {
+  Way way({"the value", {}, known_unit(wanted.unit, part.id.component), {}, true});
+  auto declared = wanted.via.empty() ? std::nullopt : declared_connector(part);
+  if (!declared) {
+    way.go(wanted, path_connector(part));
+    return way;
+  }
+  way.go(wanted, *std::move(declared));
+  way.go(path_connector(part), PathSegment{});
+  return way;
+}
+
+UnitOfMeasure System::start_unit(const StartDeclaration& wanted, const ElementRange& part) const {
+  return first_unit(way_of(wanted, part).path);
+}
+
+/// A connector of a system without a unit of measure has that of the connectors behind it, "if
+/// unambiguous" (SSP 2.0, 4.5.1).
+void System::note_unit(const Way& way, const Location& where) {
+  const bool is_open =
+      way.path.size() > 2 && way.path[0].unit.name.empty() && way.path[1].unit.name.empty();
+  if (!is_open) return;
+  std::size_t place = 2;
+  for (; place < way.path.size(); ++place) {
+    const PathSegment& before = way.segments[place - 1];
+    const bool is_changed =
+        before.suppress_unit_conversion || before.transformation.kind != Transformation::Kind::None;
+    if (is_changed) return;
+    if (!way.path[place].unit.name.empty()) break;
+  }
+  if (place == way.path.size()) return;
+  const PathConnector& taker = way.path[place];
+  const auto [known, is_new] = taken_units_.try_emplace(way.path[1].name, taker.unit, taker.name);
+  const auto& [unit, name] = known->second;
+  const auto conversion = convert(unit, taker.unit);
+  if (is_new || (conversion && conversion->is_identity())) return;
+  if (!ambiguous_units_.insert(known->first).second) return;
+  warnings_.push_back(
+      to_text({.where = where}) +
+      fmt::format("the connector '{}' has no unit of measure, and those behind it differ: '{}' "
+                  "takes the value in '{}', and '{}' in '{}'\n"
+                  "  hint: declare the unit of measure of the connector, or of the value",
+                  known->first, name, unit.name, taker.name, taker.unit.name));
+}
+
 /// Of a part of the target, from that part's text.
 ValueBlock System::start_value(const StartDeclaration& wanted, const ElementRange& part,
                                const std::string& given) {
@@ -187,15 +254,21 @@ ValueBlock System::start_value(const StartDeclaration& wanted, const ElementRang
                undefined.empty() ? "give the value in the variable's unit"
                                  : suggestion(unit.name, convertible_names(end.unit)));
   }
-  if (end.unit.name.empty() && wanted.via.empty() && !undefined_text(unit).empty()) {
+  if (!is_real(target.type) && !unit.name.empty()) {
+    warnings_.push_back(to_text(context) +
+                        fmt::format("the unit of measure '{}' of the value is ignored: the "
+                                    "variable is {}, which has none",
+                                    unit.name, name_with_article(target.type)));
+  } else if (end.unit.name.empty() && wanted.via.empty() && !undefined_text(unit).empty()) {
     warnings_.push_back(to_text(context) +
                         fmt::format("nothing defines '{}', the unit of measure of the value, and "
                                     "the variable has none: the number is used as it is",
                                     unit.name));
   }
-  Way way({"the value", {}, unit, {}, true});
-  way.go(wanted, end);
-  const auto [text, linear] = compose_text(given, way.path, way.segments, context);
+  const Way way = way_of(wanted, part);
+  note_unit(way, wanted.where);
+  const auto [text, linear] =
+      compose_text(given, way.path, way.segments, context, wanted.is_integer);
   const std::optional<std::string> meant = meant_value(target.type, text);
   if (meant) {
     warnings_.push_back(to_text(context) +
@@ -213,8 +286,9 @@ ValueBlock System::start_value(const StartDeclaration& wanted, const ElementRang
     }
     return value;
   } catch (const std::invalid_argument& mistake) {
-    fail_input(context, mistake.what(),
-               number_with_unit_hint(text, end.unit, end.is_relative.value_or(false)));
+    fail_input(
+        context, mistake.what(),
+        number_with_unit_hint(text, start_unit(wanted, part), end.is_relative.value_or(false)));
   }
 }
 
@@ -261,21 +335,84 @@ void System::give(const Target& target, GivenValues& values) {
   for (std::size_t i = 0; i < texts.size(); ++i) {
     const ElementRange& part = elements.parts[i];
     const ValueBlock value = start_value(*wanted, part, texts[i]);
-    const Variable& whole = variable(part.id);
-    auto& [given, is_given] =
-        values
-            .try_emplace(part.id,
-                         GivenElements{{whole.type, whole.size}, std::vector<bool>(whole.size)})
-            .first->second;
-    copy_elements(given, part.first, value, 0, part.size);
-    std::fill_n(is_given.begin() + static_cast<std::ptrdiff_t>(part.first), part.size, true);
+    give(*wanted, part, value, values);
   }
+}
+
+VariableId System::value_owner(VariableId id) const {
+  const auto& first = variable(id).shares_value_of;
+  if (!first) return id;
+  return {id.component, *components_[id.component].description->find(*first)};
+}
+
+/// Of values for the same elements, or for two names of one value in the unit, that differ: those
+/// of one rank are a mistake, and of two names on the command line the user may not know that they
+/// share a value.
+void System::check_giver(const StartDeclaration& wanted, const ElementRange& part,
+                         const ValueBlock& value, const GivenElements& given) {
+  if (is_same_value(part, value, given)) return;
+  const bool is_alias = given.id != part.id;
+  const auto has_given = [&](const auto& giver) { return is_alias || giver.first.overlaps(part); };
+  const auto& givers = given.givers;
+  const auto found = std::find_if(givers.rbegin(), givers.rend(), has_given);
+  if (found == givers.rend() || found->second == &wanted) return;
+  const auto& [range, other] = *found;
+  const std::string places = fmt::format(
+      "'{}' has the value {} here, and '{}' {} in {}", range_name(part), name_text(wanted.value),
+      range_name(range), name_text(other->value), place_text(other->where));
+  const char* const why = is_alias ? "; both are names of one variable (one value reference)" : "";
+  const Context context{wanted.where, wanted.component, wanted.variable, {}};
+  if (wanted.rank != 0 && wanted.rank == other->rank) {
+    fail_input(
+        context,
+        fmt::format("two values of one parameter set contradict each other: {}{}", places, why),
+        "keep one of the two");
+  }
+  if (!is_alias || wanted.is_optional || other->is_optional) return;
+  warnings_.push_back(to_text({.where = wanted.where}) + places + why + "; the later one is used");
+}
+
+/// Whether the elements have this value already.
+bool System::is_same_value(const ElementRange& part, const ValueBlock& value,
+                           const GivenElements& given) const {
+  const bool is_negative = variable(part.id).is_negated != variable(given.id).is_negated;
+  const auto is_same_element = [&](std::size_t i) {
+    const std::size_t at = part.first + i;
+    if (!given.is_given[at]) return true;
+    if (value.type() == given.value.type() && !is_negative)
+      return is_same(value, i, given.value, at);
+    return is_same_number(value, i, given.value, at, is_negative);
+  };
+  for (std::size_t i = 0; i < part.size; ++i) {
+    if (!is_same_element(i)) return false;
+  }
+  return true;
+}
+
+/// Of variables that share their value, which are scalars, the last one has it.
+void System::give(const StartDeclaration& wanted, const ElementRange& part, const ValueBlock& value,
+                  GivenValues& values) {
+  const Variable& whole = variable(part.id);
+  const VariableId owner = value_owner(part.id);
+  if (const auto found = values.find(owner); found != values.end()) {
+    check_giver(wanted, part, value, found->second);
+    if (found->second.id != part.id) values.erase(found);
+  }
+  GivenElements nothing{part.id, {whole.type, 0}, {}};
+  GivenElements& given = values.try_emplace(owner, std::move(nothing)).first->second;
+  if (given.is_given.empty()) {
+    given.value = {whole.type, whole.size};
+    given.is_given.resize(whole.size);
+  }
+  copy_elements(given.value, part.first, value, 0, part.size);
+  std::fill_n(given.is_given.begin() + static_cast<std::ptrdiff_t>(part.first), part.size, true);
+  given.givers.emplace_back(part, &wanted);
 }
 
 std::vector<StartValue> System::listed(GivenValues values) {
   std::vector<StartValue> list;
-  for (auto& [id, given] : values) {
-    StartValue& start = list.emplace_back(StartValue{id, std::move(given.value)});
+  for (auto& [owner, given] : values) {
+    StartValue& start = list.emplace_back(StartValue{given.id, std::move(given.value)});
     for (std::size_t i = 0; i < given.is_given.size(); ++i) {
       if (!given.is_given[i]) start.kept.push_back(i);
     }

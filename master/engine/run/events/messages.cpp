@@ -211,9 +211,10 @@ void MessageExchange::send(SourceClock& clock) {
 void MessageExchange::convert(Target& target, std::span<const Payload> payloads) {
   for (Receiver& receiver : target.receivers) {
     const ValueBlock& sent = payloads[receiver.payload].block;
-    const auto& [from, to, conversion, from_first, to_first, size] = *receiver.connection;
-    copy_elements(receiver.block, 0, sent, 0, sent.size(), conversion);
-    check_converted(system_, from, to, conversion, {&receiver.block, 0, sent.size()}, time_);
+    const Connection& wire = *receiver.connection;
+    copy_elements(receiver.block, 0, sent, 0, sent.size(), wire.conversion);
+    check_converted(system_, wire.from, wire.to, wire.conversion, {&receiver.block, 0, sent.size()},
+                    time_);
   }
 }
 

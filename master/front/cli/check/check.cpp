@@ -69,15 +69,18 @@ std::string entries(const core::NumberMap& map) {
 }
 
 /// What is done to a value, one after the other.
-std::string conversion(const core::Conversion& conversion) {
+std::string conversion(const core::Connection& connection) {
+  const core::Conversion& conversion = connection.conversion;
   const auto& [factor, offset] = conversion.linear;
   std::vector<std::string> parts;
   if (!conversion.map.empty()) parts.push_back(entries(conversion.map));
   if (!conversion.truth.empty()) parts.push_back("Boolean " + entries(conversion.truth));
   if (!conversion.linear.is_identity()) {
-    parts.push_back(offset == 0 ? fmt::format("× {}", factor)
-                                : fmt::format("× {} + {}", factor, offset));
+    // a quotient such as 3.5999999999999996 is 3.6 in the digits of its units' definitions
+    parts.push_back(offset == 0 ? fmt::format("× {:.15g}", factor)
+                                : fmt::format("× {:.15g} + {:.15g}", factor, offset));
   }
+  if (connection.keeps_number) parts.push_back("unit of measure not converted");
   return fmt::format("{}", fmt::join(parts, "; "));
 }
 
@@ -86,7 +89,7 @@ std::string connection_table(const core::System& system) {
   for (const core::Connection& connection : system.connections()) {
     const core::Variable& target = system.variable(connection.to);
     table.add({system.range_name(connection.source()), system.range_name(connection.target()),
-               core::name(target.type), target.unit, conversion(connection.conversion)});
+               core::name(target.type), target.unit, conversion(connection)});
   }
   return table.text();
 }

@@ -108,6 +108,7 @@ class Fmi1Variables {
     places_.emplace(variable.name, variable.reference);
     attributes_.references.push_back(reference);
     attributes_.negated.push_back(is_negated);
+    variable.is_negated = is_negated;
     unit_.variables.push_back(std::move(variable));
     return true;
   }
@@ -214,6 +215,7 @@ Fmi1Attributes read_fmi1_description(const xml::Element& root, core::UnitDescrip
   unit.model_identifier = read_model_identifier(root);
   const bool can_reject_steps = read_fmi1_capabilities(find_stand_alone(root, unit.warnings), unit);
   Fmi1Attributes attributes = Fmi1Variables(root, unit).attributes();
+  mark_aliases(attributes.references, unit.variables);
   attributes.can_reject_steps = can_reject_steps;
   return attributes;
 }

@@ -211,6 +211,7 @@ Fmi2Attributes read_fmi2_description(const xml::Element& root, core::UnitDescrip
       co_simulation.lenient_flag("canRunAsynchronuously", unit.warnings);  // as it is spelt there
   const Variables variables(root, unit);
   attributes.references = variables.references();
+  mark_aliases(attributes.references, unit.variables);
   const Places& places = variables.places();
   const auto reader = [&places](const char* list) {
     return

@@ -114,6 +114,18 @@ bool are_declared_alike(const core::Variable& a, const core::Variable& b) {
          a.unit == b.unit && a.is_relative == b.is_relative;
 }
 
+void mark_aliases(std::span<const std::uint32_t> references,
+                  std::vector<core::Variable>& variables) {
+  std::map<std::pair<core::ValueType, std::uint32_t>, core::ValueReference> first;
+  for (std::size_t i = 0; i < variables.size(); ++i) {
+    core::Variable& variable = variables[i];
+    const bool is_integer = variable.type == core::ValueType::Enumeration;
+    const core::ValueType base = is_integer ? core::ValueType::Int32 : variable.type;
+    const auto [owner, is_new] = first.emplace(std::pair(base, references[i]), variable.reference);
+    if (!is_new) variable.shares_value_of = owner->second;
+  }
+}
+
 void TypeDefinitions::add(const xml::Element& definition, const xml::Element& type) {
   const std::string name = definition.required("name");
   if (types_.emplace(name, type).second) return;

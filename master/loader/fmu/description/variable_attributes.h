@@ -8,6 +8,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -26,6 +27,11 @@ std::optional<Enum> find_named(std::string_view word, std::size_t count) {
   }
   return std::nullopt;
 }
+
+/// Marks the variables that have a value reference of their base type in common, which are
+/// `references` of the variables in their order.
+void mark_aliases(std::span<const std::uint32_t> references,
+                  std::vector<core::Variable>& variables);
 
 /// The names of the variables and aliases of a description, of which each is to be there once.
 class VariableNames {

@@ -74,7 +74,7 @@ class Examination {
   void examine_range(const Variable& variable) {
     if (!has_start_value(variable)) return;
     try {
-      const core::ValueBlock start = core::parse(variable, variable.start);
+      const core::ValueBlock start = core::parse_start(variable, variable.start);
       compare(variable, start);
     } catch (const std::invalid_argument& error) {
       if (variable.start.empty()) return;

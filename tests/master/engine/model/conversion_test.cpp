@@ -280,7 +280,30 @@ TEST_CASE("items of the same names are the same, whatever their numbers") {
                       items("s.x", {{"off", 1}, {"on", 2}}),
                       items("b.u", kLamp)},
                      segments, {})
-            .text == "1 on 0");
+            .text == "on on off");
+}
+
+TEST_CASE("an item is known by its name before its number") {
+  const EnumerationItems digits{{"1", 5}, {"eco", 1}, {"3", 3}};
+  const auto text = [&](const std::string& given, std::vector<PathConnector> ends,
+                        const PathSegment& segment, bool is_integer = false) {
+    std::vector<PathConnector> path{{"the value", {}, {}, {}, true}};
+    path.insert(path.end(), ends.begin(), ends.end());
+    const std::vector<PathSegment> segments{segment, {}};
+    return compose_text(given, path, std::span(segments).first(ends.size()), {}, is_integer).text;
+  };
+  const PathConnector end = items("b.u", digits);
+  CHECK(text("1", {end}, {}) == "1");
+  CHECK(text("1 3", {end}, {}, true) == "eco 3");
+  CHECK_THROWS_WITH(text("2", {end}, {}, true), Contains("'2' is not the number of an item"));
+  // by way of a connector with other items, and of an integer
+  CHECK(text("a", {items("s.x", {{"a", 1}, {"b", 3}}), end}, {}) == "eco");
+  CHECK(text("1", {point("s.x", ValueType::Int32), end}, {}) == "eco");
+  CHECK(text("1", {end, point("b.u", ValueType::Int32)}, {}) == "5");
+  CHECK(text("1", {end}, numbers(Kind::IntegerMapping, {{5, 1}})) == "eco");
+  CHECK(text("5", {end}, numbers(Kind::IntegerMapping, {{5, 1}}), true) == "eco");
+  CHECK(text("1", {end}, names({{"eco", "3"}})) == "1");
+  CHECK(text("5", {end}, names({{"1", "3"}})) == "3");
 }
 
 TEST_CASE("items of the same names and other numbers are an error where not all are in both") {

@@ -68,6 +68,12 @@ TEST_CASE("an enumeration takes names and numbers") {
   CHECK(element_text(parse(row, "on"), 0) == "7");
   CHECK(element_text(parse(row, "7"), 0) == "7");
   CHECK_THAT(reason(row, "maybe"), Contains("expected one of off (0), on (7)"));
+  row.items = {{"eco", 1}, {"1", 2}, {"3", 3}};
+  CHECK(element_text(parse(row, "1"), 0) == "2");
+  CHECK(element_text(parse_start(row, "1"), 0) == "1");
+  CHECK(element_text(parse(row, "2"), 0) == "2");
+  CHECK(element_text(parse_start(row, "3"), 0) == "3");
+  CHECK_THROWS_WITH(parse_start(row, "4"), Contains("expected one of eco (1), 1 (2), 3 (3)"));
 }
 
 TEST_CASE("the name of an item may hold blanks") {

@@ -207,6 +207,48 @@ TEST_CASE("the command line decides over the file, and a connector among its val
                                        Contains("connected to 'q', which has one by --set q=3"));
 }
 
+TEST_CASE("values of one set have one rank, unless a connection gives one of them precedence") {
+  const auto set = [](const std::string& values) {
+    return "<ssd:ParameterBinding><ssd:ParameterValues><ssv:ParameterSet version='2.0' name='p'>"
+           "<ssv:Parameters>" +
+           values +
+           "</ssv:Parameters></ssv:ParameterSet></ssd:ParameterValues>"
+           "</ssd:ParameterBinding>";
+  };
+  const auto value = [](const std::string& name) {
+    return "<ssv:Parameter name='" + name + "'><ssv:Real value='1'/></ssv:Parameter>";
+  };
+  const std::string bindings = "<ssd:ParameterBindings>" + set(value("c.a") + value("c.b")) +
+                               set(value("c.d") + value("q") + value("c.e")) +
+                               "</ssd:ParameterBindings>";
+  const TemporaryFolder folder;
+  const auto file =
+      folder.write("x.ssd", ssd(system("root", connector("q", "parameter"), component("c"),
+                                       wire("q", "c.k"), "", bindings)));
+  const ParameterValue one{"c.f", "2", {}, {"--set c.f=2", 0}, {}, true};
+  const ParameterValue other{"c.g", "3", {}, {"--set c.g=3", 0}, {}, true};
+  const Scenario scenario = read_scenario(file, {{}, {one, other}});
+  CHECK(values(scenario) ==
+        Strings{"c.a = 1", "c.b = 1", "c.d = 1", "c.e = 1", "c.k = 1", "c.f = 2", "c.g = 3"});
+  std::vector<std::size_t> ranks;
+  for (const core::StartDeclaration& start : scenario.system.start_values) {
+    ranks.push_back(start.rank);
+  }
+  CHECK(ranks == std::vector<std::size_t>{1, 1, 2, 2, 3, 4, 5});
+}
+
+TEST_CASE("a unit of measure of a connector that is no number is a warning") {
+  const auto warnings = read(ssd(system("root", "",
+                                        "<ssd:Component name='a' source='a.fmu'><ssd:Connectors>" +
+                                            connector("n", "input", "<ssc:Integer unit='m'/>") +
+                                            connector("x", "input", "<ssc:Real unit='m'/>") +
+                                            "</ssd:Connectors></ssd:Component>",
+                                        "")))
+                            .warnings;
+  REQUIRE(warnings.size() == 1);
+  CHECK_THAT(warnings[0], Contains("unit=\"m\" of <ssc:Integer> is ignored"));
+}
+
 TEST_CASE("connectors of systems can be recorded: those of the root, and on demand of others") {
   const Scenario scenario =
       read(ssd(system("root", connector("y", "output"), component("a") + filter("s"),

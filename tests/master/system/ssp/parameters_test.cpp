@@ -73,6 +73,8 @@ TEST_CASE("Inline values of a component are read as text, with their unit and li
   CHECK(values[1].unit.name.empty());
   CHECK(values[1].where.line == 6);
   CHECK(values[2].value == "7");
+  CHECK(values[2].is_integer);
+  CHECK(!values[5].is_integer);
   CHECK(values[3].value == "true");
   CHECK(values[4].value.empty());
   CHECK(values[5].value == "on");

@@ -914,6 +914,167 @@ TEST_CASE("where one end alone is a difference, the value is one, with a warning
   CHECK(System(thermal_system({wanted})).warnings().empty());
 }
 
+namespace {
+
+/// For the input `k` of `b`, in K, through connectors of systems.
+StartDeclaration through(const std::string& value, const UnitOfMeasure& unit,
+                         std::vector<ViaDeclaration> via) {
+  StartDeclaration start{"b", "k", value, unit, {"s.ssd", 12}};
+  start.via = std::move(via);
+  return start;
+}
+
+ViaDeclaration system_connector(const std::string& name, const UnitOfMeasure& unit = {}) {
+  return {{name, ValueType::Float64, unit, {}, true}, {}};
+}
+
+double first_start(const SystemDeclaration& declared) {
+  return System(declared).start_values().at(0).value.numbers<double>()[0];
+}
+
+}  // namespace
+
+TEST_CASE("a value for a connector of a system without a unit is in that of the one behind it") {
+  const UnitOfMeasure celsius{"degC", kCelsius}, kelvin{"K", kKelvin};
+  SystemDeclaration declared = thermal_system({});
+  declared.components[1].connectors = {
+      {"k", ValueType::Float64, Causality::Input, celsius, {"s.ssd", 6}}};
+  const auto with = [&](const UnitOfMeasure& unit, std::vector<ViaDeclaration> via) {
+    declared.start_values = {through("10", unit, std::move(via))};
+    return first_start(declared);
+  };
+  CHECK(with({}, {system_connector("T")}) == 283.15);
+  CHECK(with({}, {system_connector("T"), system_connector("s.T")}) == 283.15);
+  CHECK(with(celsius, {system_connector("T")}) == 283.15);
+  CHECK(with(kelvin, {system_connector("T")}) == 10);
+  CHECK(with({}, {system_connector("T", kelvin)}) == 10);
+  CHECK(with({}, {}) == 10);  // for the variable itself
+  declared.start_values[0].via = {system_connector("T")};
+  declared.start_values[0].suppress_unit_conversion = true;  // up to the component's connector
+  CHECK(first_start(declared) == 283.15);
+  declared.start_values = {through("hot", {}, {system_connector("T")})};
+  declared.start_values[0].value = "10degF";
+  CHECK_THAT(reason(declared), Contains("a number in 'degC'") && Contains(": -12.2"));
+}
+
+TEST_CASE("connectors of different units of measure behind one of a system are a warning") {
+  SystemDeclaration declared = thermal_system({});
+  declared.components[1].connectors = {
+      {"k", ValueType::Float64, Causality::Input, {"degC", kCelsius}, {"s.ssd", 6}}};
+  const auto starts = [](const ViaDeclaration& via) {
+    StartDeclaration other = through("10", {}, {via});
+    other.component = "a";
+    return std::vector{other, through("10", {}, {via})};
+  };
+  declared.start_values = starts(system_connector("T"));
+  const System system(declared);
+  REQUIRE(system.warnings().size() == 1);
+  CHECK_THAT(system.warnings()[0],
+             StartsWith("s.ssd:12: the connector 'T' has no unit of measure") &&
+                 Contains("'a.k' takes the value in 'K', and 'b.k' in 'degC'"));
+  declared.start_values = starts(system_connector("T", {"K", kKelvin}));
+  CHECK(System(declared).warnings().empty());
+  declared.start_values = starts(system_connector("T"));
+  declared.start_values[1].component = "a";
+  CHECK(System(declared).warnings().empty());
+}
+
+TEST_CASE("the warning for a difference names the units of measure on the way") {
+  SystemDeclaration declared = thermal_system({from_to("a.bare", "b.step")});
+  declared.components[0].description = thermal_with_output("bare");
+  declared.connections[0].via = {system_connector("s.y", {"degC", kCelsius})};
+  const System system(declared);
+  REQUIRE(system.warnings().size() == 1);
+  CHECK_THAT(system.warnings()[0], Contains("converted from 'degC' to 'K'"));
+}
+
+TEST_CASE("a unit of measure for what has none is a warning") {
+  SystemDeclaration declared = declaration();
+  declared.start_values = {{"beta", "n", "2", {"mm", kMillimetres}, {"s.ssd", 12}}};
+  const System system(declared);
+  REQUIRE(system.warnings().size() == 1);
+  CHECK_THAT(
+      system.warnings()[0],
+      StartsWith("s.ssd:12: unit 'beta', variable 'n': the unit of measure 'mm' of the value "
+                 "is ignored: the variable is an Int32"));
+}
+
+TEST_CASE("a connection whose conversion is suppressed is marked where it matters") {
+  ConnectionDeclaration suppressed = from_to("a.t", "b.k");
+  suppressed.suppress_unit_conversion = true;
+  CHECK(System(thermal_system({suppressed})).connections()[0].keeps_number);
+  CHECK(!System(thermal_system({from_to("a.t", "b.k")})).connections()[0].keeps_number);
+  suppressed.to_connector = "bare";
+  CHECK(!System(thermal_system({suppressed})).connections()[0].keeps_number);
+}
+
+// ---- Precedence ----
+
+namespace {
+
+/// With the parameters `x` and `y`, which share their value, and `minus`, which has its negative.
+SystemDeclaration with_aliases(std::vector<StartDeclaration> starts) {
+  auto unit =
+      std::make_shared<UnitDescription>(*Describe("aliases")
+                                             .add("x", ValueType::Float64, Causality::Parameter)
+                                             .add("y", ValueType::Float64, Causality::Parameter)
+                                             .add("minus", ValueType::Float64, Causality::Parameter)
+                                             .done());
+  unit->variables[1].shares_value_of = unit->variables[2].shares_value_of = 0;
+  unit->variables[2].is_negated = true;
+  SystemDeclaration system;
+  system.name = "aliases";
+  system.components = {{"a", unit, {}, {"s.ssd", 3}}};
+  system.start_values = std::move(starts);
+  return system;
+}
+
+StartDeclaration ranked(const std::string& variable, const std::string& value, int line,
+                        std::size_t rank, bool is_optional = true) {
+  StartDeclaration start{"a", variable, value, {}, {"p.ssv", line}};
+  start.rank = rank;
+  start.is_optional = is_optional;
+  return start;
+}
+
+}  // namespace
+
+TEST_CASE("of values for variables that share theirs, the one with precedence counts") {
+  const auto [first, second] =
+      GENERATE(table<const char*, const char*>({{"x", "y"}, {"y", "x"}, {"minus", "x"}}));
+  const System system(with_aliases({ranked(first, "1", 4, 1), ranked(second, "2", 5, 2)}));
+  REQUIRE(system.start_values().size() == 1);
+  const StartValue& start = system.start_values()[0];
+  CHECK(system.variable(start.id).name == second);
+  CHECK(start.value.numbers<double>()[0] == 2);
+  CHECK(system.warnings().empty());
+}
+
+TEST_CASE("values of one set that contradict each other are an error") {
+  CHECK_THAT(reason(with_aliases({ranked("x", "1", 4, 1), ranked("y", "2", 5, 1)})),
+             StartsWith("p.ssv:5: unit 'a', variable 'y': two values of one parameter set "
+                        "contradict each other: 'a.y' has the value 2 here, and 'a.x' 1 in "
+                        "p.ssv:4; both are names of one variable"));
+  CHECK(reason(with_aliases({ranked("x", "1", 4, 1), ranked("y", "1.0", 5, 1)})) == "accepted");
+  CHECK(reason(with_aliases({ranked("x", "1", 4, 1), ranked("minus", "-1", 5, 1)})) == "accepted");
+  CHECK_THAT(reason(with_aliases({ranked("x", "1", 4, 1), ranked("minus", "1", 5, 1)})),
+             Contains("contradict each other"));
+  SystemDeclaration arrays = arrays_and_scalars({});
+  arrays.start_values = {ranked("u", "1 2 3", 4, 1), ranked("u[2]", "5", 5, 1)};
+  CHECK_THAT(reason(arrays), Contains("'a.u[2]' has the value 5 here, and 'a.u' 1 2 3 in p.ssv:4"));
+  arrays.start_values[1].value = "2";
+  CHECK(reason(arrays) == "accepted");
+  arrays.start_values = {ranked("u[2]", "5", 4, 1), ranked("u[3]", "6", 5, 1)};
+  CHECK(reason(arrays) == "accepted");
+}
+
+TEST_CASE("values of the command line for two names of one variable are a warning") {
+  const System system(with_aliases({ranked("x", "1", 0, 1, false), ranked("y", "2", 0, 2, false)}));
+  REQUIRE(system.warnings().size() == 1);
+  CHECK_THAT(system.warnings()[0],
+             Contains("both are names of one variable") && Contains("the later one is used"));
+}
+
 TEST_CASE("a start value of a difference is one") {
   SystemDeclaration declared = thermal_system({});
   declared.start_values = {{"b", "step", "10", {"degC", kCelsius}, {"s.ssd", 12}},

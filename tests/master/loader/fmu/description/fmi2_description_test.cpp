@@ -171,6 +171,9 @@ TEST_CASE("aliases are variables of their own, which differ in what may be done 
   CHECK(unit.fmi2->references[output] == unit.fmi2->references[local]);
   CHECK(unit.variables[output].causality == Causality::Output);
   CHECK(unit.variables[local].causality == Causality::Local);
+  CHECK(unit.variables[std::max(output, local)].shares_value_of ==
+        unit.variables[std::min(output, local)].reference);
+  CHECK(!unit.variables[std::min(output, local)].shares_value_of);
 }
 
 TEST_CASE("two inputs cannot be aliases") {
