@@ -2,10 +2,12 @@
 
 #include <cstdlib>
 #include <limits>
+#include <stdexcept>
 #include <vector>
 
 #include <fmt/format.h>
 
+#include "master/base/message_text.h"
 #include "master/base/text/words.h"
 
 namespace stride::core {
@@ -23,7 +25,37 @@ bool are_near(long double number, long double other) {
   return std::abs(number - other) <= kDeviation * std::abs(number);
 }
 
+/// A whole number that an Int64 or a UInt64 can have.
+bool is_integer_text(const std::string& word) {
+  constexpr std::size_t kMostDigits = 19;
+  const std::size_t sign = word.starts_with('-') || word.starts_with('+') ? 1 : 0;
+  const bool has_digits = word.size() > sign && word.size() - sign <= kMostDigits;
+  return has_digits && word.find_first_not_of("0123456789", sign) == std::string::npos;
+}
+
 }  // namespace
+
+ValueBlock parse_converted(const Variable& variable, const std::string& text,
+                           const LinearConversion& conversion) {
+  if (variable.type != ValueType::Float32 || conversion.is_identity()) {
+    ValueBlock value = parse(variable, text);
+    convert(value, conversion);
+    return value;
+  }
+  Variable wide = variable;
+  wide.type = ValueType::Float64;
+  ValueBlock exact = parse(wide, text);
+  ValueBlock value(variable.type, variable.size);
+  convert(exact, conversion);
+  copy_elements(value, 0, exact, 0, variable.size);
+  for (std::size_t i = 0; i < variable.size; ++i) {
+    if (std::isfinite(real(exact, i)) == std::isfinite(real(value, i))) continue;
+    throw std::invalid_argument(fmt::format(
+        "'{}' is {} in the variable's unit of measure, expected a number within the range of Float32",
+        name_text(text), real(exact, i)));
+  }
+  return value;
+}
 
 std::optional<std::string> lost_number(const std::string& text, const ValueBlock& block,
                                        const LinearConversion& conversion) {
@@ -32,6 +64,11 @@ std::optional<std::string> lost_number(const std::string& text, const ValueBlock
   for (std::size_t i = 0; i < words.size() && i < block.size(); ++i) {
     const long double exact =
         conversion.factor * std::strtold(words[i].c_str(), nullptr) + conversion.offset;
+    const bool is_whole = conversion.is_identity() && is_integer_text(words[i]);
+    if (is_whole && exact != static_cast<long double>(real(block, i))) {
+      return fmt::format("{} becomes {:.0f}: {} has fewer digits", words[i], real(block, i),
+                         name(block.type()));
+    }
     if (!is_near_zero(exact, block.type())) continue;
     const std::string value = element_text(block, i);  // the shortest text that stands for it
     if (are_near(exact, real(block, i)) || are_near(exact, std::strtold(value.c_str(), nullptr))) {

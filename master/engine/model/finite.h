@@ -27,6 +27,11 @@ inline std::optional<std::string> not_finite(const ValueBlock& block) {
   });
 }
 
+/// As parse(), converted: a Float32 is rounded once, behind the conversion. Throws
+/// std::invalid_argument for what it cannot hold, too.
+ValueBlock parse_converted(const Variable& variable, const std::string& text,
+                           const LinearConversion& conversion);
+
 /// The first number of a text that has lost its digits in this value, which it became by a
 /// conversion: what has happened to it, "1e-400 becomes 0: …".
 std::optional<std::string> lost_number(const std::string& text, const ValueBlock& block,

@@ -7,6 +7,7 @@
 
 #include "master/base/limited_warnings.h"
 #include "master/engine/model/array_element.h"
+#include "master/engine/model/finite.h"
 #include "master/engine/model/meant_value.h"
 #include "master/engine/model/system/declared_dimensions.h"
 #include "master/engine/model/system/system.h"
@@ -123,11 +124,11 @@ void System::add_constant(const OutputDeclaration& wanted) {
   const auto [text, linear] =
       compose_text(wanted.value, way.path, way.segments, context, wanted.is_integer);
   try {
-    output.constant = parse(variable, meant_value(variable.type, text).value_or(text));
+    output.constant =
+        parse_converted(variable, meant_value(variable.type, text).value_or(text), linear);
   } catch (const std::invalid_argument& mistake) {
     fail_input(context, mistake.what());
   }
-  convert(*output.constant, linear);
   outputs_.push_back(std::move(output));
 }
 

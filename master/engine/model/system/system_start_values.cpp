@@ -275,8 +275,7 @@ ValueBlock System::start_value(const StartDeclaration& wanted, const ElementRang
                         fmt::format("'{}' is taken for {}", name_text(text), *meant));
   }
   try {
-    ValueBlock value = parse(target, meant.value_or(text));
-    convert(value, linear);
+    ValueBlock value = parse_converted(target, meant.value_or(text), linear);
     check_range(target, value, context);
     if (const auto odd = not_finite(value)) {
       warnings_.push_back(to_text(context) +

@@ -10,8 +10,7 @@ std::optional<std::string> lost(ValueType type, const std::string& text,
                                 const LinearConversion& conversion = {}) {
   Variable variable;
   variable.type = type;
-  ValueBlock value = parse(variable, text);
-  convert(value, conversion);
+  const ValueBlock value = parse_converted(variable, text, conversion);
   return lost_number(text, value, conversion);
 }
 
@@ -33,8 +32,34 @@ TEST_CASE("numbers that are too near to 0 for their type are lost") {
   CHECK_FALSE(lost(T::Int32, "0"));
 }
 
+TEST_CASE("whole numbers lose digits beyond those of their type") {
+  using T = ValueType;
+  CHECK(lost(T::Float64, "9007199254740993") ==
+        "9007199254740993 becomes 9007199254740992: Float64 has fewer digits");
+  CHECK(lost(T::Float64, "-9007199254740993"));
+  CHECK(lost(T::Float32, "16777217"));
+  for (const char* text : {"9007199254740992", "9223372036854775808", "123456789", "1.1"}) {
+    CHECK_FALSE(lost(T::Float64, text));
+  }
+  CHECK_FALSE(lost(T::Float64, "100000000000000000000001"));  // no integer has so many
+  CHECK_FALSE(lost(T::Int64, "9007199254740993"));
+}
+
+TEST_CASE("a Float32 is rounded once, behind its conversion") {
+  Variable variable;
+  variable.type = ValueType::Float32;
+  const auto converted_value = [&](const std::string& text, double factor) {
+    return parse_converted(variable, text, {factor, 0}).numbers<float>()[0];
+  };
+  CHECK(converted_value("1e-50", 1e30) == 1e-20F);
+  CHECK(converted_value("1e40", 1e-3) == 1e37F);
+  CHECK_THROWS_WITH(converted_value("1e38", 1e3), Catch::Contains("the range of Float32"));
+  CHECK(std::isinf(converted_value("inf", 2)));
+}
+
 TEST_CASE("a conversion may lose a number, and an offset may make it 0") {
   CHECK(lost(ValueType::Float32, "1e-30", {1e-20, 0}));
+  CHECK_FALSE(lost(ValueType::Float32, "1e-50", {1e20, 0}));
   CHECK_FALSE(lost(ValueType::Float64, "-273.15", {1, 273.15}));
   CHECK_FALSE(lost(ValueType::Float64, "1e-30", {1e-20, 0}));
 }
