@@ -25,6 +25,8 @@ namespace {
 constexpr std::string_view kBlanks = " \t\r\n";
 constexpr int kDecimals = 12;
 
+constexpr const char* kTooSmall = "is not 0 s and less than 1 ps, the resolution of times";
+
 /// 0.DIGITS * 10^point, without leading or trailing zeros: no digits is zero.
 struct Decimal {
   bool is_negative = false;
@@ -135,7 +137,7 @@ Duration magnitude(const Decimal& decimal, std::string_view text) {
   const std::int64_t kept = decimal.point + kDecimals;  // digits left of the picosecond's end
   constexpr std::int64_t kMostDigits = 28;              // of kMaxSeconds
   if (kept > kMostDigits) reject(text, "is beyond 1e15 s, the largest time");
-  if (kept < 0) return Duration::zero();
+  if (kept < 0) reject(text, kTooSmall);
   std::string digits = decimal.digits.substr(0, static_cast<std::size_t>(kept));
   const bool round_up =
       digits.size() < decimal.digits.size() && decimal.digits[digits.size()] >= '5';
@@ -144,6 +146,7 @@ Duration magnitude(const Decimal& decimal, std::string_view text) {
   Picoseconds count = 0;
   for (const char digit : digits) count = 10 * count + (digit - '0');
   const Duration duration(count + (round_up ? 1 : 0));
+  if (duration == Duration::zero()) reject(text, kTooSmall);
   if (duration > std::chrono::seconds(static_cast<std::int64_t>(kMaxSeconds))) {
     reject(text, "is beyond 1e15 s, the largest time");
   }

@@ -16,8 +16,8 @@ std::string to_text(Duration duration);
 
 /// A decimal number of seconds, such as "14.2", "1e-3" or " 30 ", as a count of picoseconds. No
 /// double comes between, so twelve decimals are exact; further ones are rounded half up. Throws
-/// std::invalid_argument, whose text contains what was expected, for what is negative, too large or
-/// no number.
+/// std::invalid_argument, whose text contains what was expected, for what is negative, too large,
+/// no number, or another one than 0 that would be rounded to 0.
 Duration parse_seconds(std::string_view text);
 
 /// Likewise an instant, which may be before 0: "-0.5".
