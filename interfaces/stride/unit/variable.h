@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <initializer_list>
 #include <optional>
 #include <string>
 #include <type_traits>
@@ -50,6 +51,17 @@ struct Variable {
   bool is_verdict_text = false;     ///< of a String output: it explains the verdict
 };
 
+/// An item of an Enumeration: {"eco", Mode::eco} of an enum of the unit's, or {"eco", 2}.
+struct EnumerationItem {
+  template <class Value,
+            std::enable_if_t<std::is_enum_v<Value> || std::is_integral_v<Value>, int> = 0>
+  EnumerationItem(std::string item_name, Value item_value)
+      : name(std::move(item_name)), value(static_cast<std::int64_t>(item_value)) {}
+
+  std::string name;
+  std::int64_t value;
+};
+
 /// What input(), output(), parameter() and local() return, to add more to the row. Units of
 /// measure are written as Modelica does: "m", "km/h", "N.m", "W/(m2.K)", "degC"; see
 /// <stride/unit_of_measure.h> and Unit::unit_of_measure().
@@ -73,6 +85,11 @@ class VariableBuilder {
     return row_.dimensions = std::move(sizes), *this;
   }
   /// The names and values of an Enumeration.
+  VariableBuilder& items(std::initializer_list<EnumerationItem> items) {
+    row_.items.clear();
+    for (const EnumerationItem& item : items) row_.items.emplace_back(item.name, item.value);
+    return *this;
+  }
   VariableBuilder& items(std::vector<std::pair<std::string, std::int64_t>> items) {
     return row_.items = std::move(items), *this;
   }

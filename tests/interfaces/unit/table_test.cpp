@@ -76,6 +76,22 @@ TEST_CASE("bounds are values of the type") {
                     Contains("the minimum 1 is above the maximum 0"));
 }
 
+TEST_CASE("the items of an Enumeration are enumerators of the unit, or numbers") {
+  enum class Mode : std::int64_t { Eco = 1, Sport = 5 };
+  Mode mode = Mode::Eco;
+  const std::vector<std::pair<std::string, std::int64_t>> listed{{"eco", 1}, {"sport", 5}};
+  const auto items = [&](const std::function<void(VariableBuilder)>& list) {
+    const Rows unit([&](Rows& rows) { list(rows.input("mode", mode)); });
+    return unit.variables().at(0).items;
+  };
+  CHECK(items([](VariableBuilder row) {
+          row.items({{"eco", Mode::Eco}, {"sport", Mode::Sport}});
+        }) == listed);
+  CHECK(items([](VariableBuilder row) { row.items({{"eco", 1}, {"sport", 5}}); }) == listed);
+  CHECK(items([&](VariableBuilder row) { row.items(listed); }) == listed);
+  CHECK(items([](VariableBuilder row) { row.items({{"eco", Mode::Eco}}); }).size() == 1);
+}
+
 TEST_CASE("types without an order have no bounds") {
   CHECK_THROWS_WITH(check([](Rows& unit) { unit.input("flag", unit.flag).max(1); }),
                     "variable 'flag': the type Boolean has no bounds");
