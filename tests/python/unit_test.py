@@ -550,12 +550,18 @@ STEP = "def step(self, now, end): pass"
         ),
         ("y = su.Output(float)\n        def y(self): pass", "'y' is defined twice; give one of both another name"),
         ("y = su.Output(float, depends_on=['v'])", "U.y: depends_on: there is no input 'v'"),
-        ("y = su.Output(float, color=1)", "unexpected keyword argument 'color'"),
-        ("a = su.Output(float)\n        y = su.Output('hello', unit='m')", "U.y: unit: expected of numbers only"),
+        ("y = su.Output(float, color=1)", "Output(…): there is no color=…; known are: depends_on, description, discrete"),
+        ("y = su.Output(float, unti='m')", "Output(…): there is no unti=…; did you mean unit=…?"),
+        ("y = su.MessageInput(str, mimetype='x')", "MessageInput(…): there is no mimetype=…; did you mean mime_type=…?"),
+        ("a = su.Output(float)\n        y = su.Output('hello', unit='m')", "U.y: unit: expected of Float32 and Float64 only"),
+        (
+            "y = su.Input(int, unit='m')",
+            "U.y: unit: expected of Float32 and Float64 only, is of Int64; write Input(float, unit='m')",
+        ),
         ("a = su.Output(bool, discrete=True)\n        y = su.Output(bool, name='no name')", "'no name'"),
         ("y = su.Output(float, name='process.program')", "'process.program'"),
         ("1/0", "ZeroDivisionError: division by zero (u.py:4, in U)"),
-        ("y = su.Output(1, unit='K', relative=True)", "U.y: relative: expected of Float32 and Float64 only"),
+        ("y = su.Output(1, unit='K', relative=True)", "U.y: unit: expected of Float32 and Float64 only"),
         ("y = su.Output(1.0, relative=True)", "relative() is for variables with a unit of measure"),
         ("y = su.Output(1.0, min=2)", "U.y: start: 1.0 is beyond min=2; give another start, or another min"),
         ("y = su.Input(float, shape=2, start=[0, 9.5], max=9)", "U.y: start: [0, 9.5] is beyond max=9"),
@@ -564,6 +570,7 @@ STEP = "def step(self, now, end): pass"
         ("y = su.Output('numpy.float32')", "there is no type 'numpy.float32'; expected Float32, or"),
         ("y = su.Output('integer')", "there is no type 'integer'; expected Int32, or"),
         ("y = su.Output('Flaot64')", "there is no type 'Flaot64'; expected Float64, or"),
+        ("y = su.Output('flaot')", "there is no type 'flaot'; expected float (Float64), or for the text 'flaot'"),
         ("y = su.Output('Enumeration')", "there is no type 'Enumeration'; expected Float64, Float32, Int8,"),
         ("y = su.Output(float, min='low')", "U.y: min: expected a number, is 'low' (str)"),
         ("y = su.Output('on', max=1)", "U.y: max: expected of numbers only"),
@@ -609,13 +616,25 @@ def test_no_file(units):
 
 def test_a_text_may_look_like_a_type():
     assert su.Output(str, start="float32").start == "float32"
-    for text in ("", "hello", "on", "stride", "a string", "points"):
+    for text in ("", "hello", "on", "stride", "a string", "points", "flat", "init", "hint"):
         assert (su.Output(text).type_name, su.Output(text).start) == ("String", text)
 
 
 def test_words_behind_the_base_are_checked_with_the_class(units):
     said = units.pack("class U(su.Unit, time_unit='min'):\n    def step(self, now, end): pass\n")
     assert 'U: time-unit="min" is not known: expected ps, ns, us, ms or s' in said
+
+
+@pytest.mark.parametrize(
+    "word, expected",
+    [
+        ("splitinvariant", "class U(Unit, …): there is no splitinvariant=…; did you mean split_invariant=…?"),
+        ("Maximum_Step", "there is no Maximum_Step=…; did you mean maximum_step=…?"),
+        ("colour", "there is no colour=…; known are: early_return, maximum_step, split_invariant, time_unit"),
+    ],
+)
+def test_misspelt_words_behind_the_base(units, word, expected):
+    assert expected in units.pack(f"class U(su.Unit, {word}=True):\n    def step(self, now, end): pass\n")
 
 
 def test_a_unit_option_that_is_not_known():

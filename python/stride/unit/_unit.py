@@ -5,7 +5,7 @@ from __future__ import annotations
 from ._errors import UnitError
 from ._time import SECOND, Time
 from ._values import MISTAKES, printable
-from ._variables import MessageOutput, Variable, collect, definitions
+from ._variables import MessageOutput, Variable, collect, definitions, refuse_words
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -104,7 +104,10 @@ class Unit(metaclass=UnitType):
         maximum_step: Optional[float] = None,
         time_unit: Optional[str] = None,
         units_of_measure: Optional[dict[str, tuple[Any, ...]]] = None,
+        **others: Any,
     ) -> None:
+        known = ("early_return", "split_invariant", "maximum_step", "time_unit", "units_of_measure")
+        refuse_words(f"class {cls.__name__}(Unit, …)", others, known)
         given = {
             "may-stop": early_return,
             "split-invariant": split_invariant,

@@ -149,7 +149,10 @@ def _types_like(text: str) -> list[str]:
     import difflib
 
     names = [name.lower() for name in SCALARS]
-    return [known[name] for name in difflib.get_close_matches(word, names, n=1, cutoff=0.8)]
+    if close := difflib.get_close_matches(word, names, n=1, cutoff=0.8):
+        return [known[close[0]]]
+    swapped = [name for name in _ALMOST if len(name) > 4 and sorted(name) == sorted(word)]  # such as "flaot"
+    return [f"{name} ({_ALMOST[name]})" for name in swapped]
 
 
 def type_name(given: Any) -> Optional[str]:

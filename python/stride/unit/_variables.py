@@ -15,6 +15,19 @@ if TYPE_CHECKING:
     Method = TypeVar("Method", bound=Callable[..., Any])
 
 
+def refuse_words(where: str, given: Iterable[str], known: Iterable[str]) -> None:
+    """Raises UnitError for the first word that is none of those that are known."""
+    import difflib
+
+    for word in given:
+        names = sorted(known)
+        plain = {name.replace("_", ""): name for name in names}
+        similar = [plain[each] for each in difflib.get_close_matches(word.replace("_", "").lower(), plain, n=1)]
+        raise UnitError(
+            f"{where}: there is no {word}=…; " + (f"did you mean {similar[0]}=…?" if similar else f"known are: {', '.join(names)}")
+        )
+
+
 class Variable:
     """A variable in the body of a class; of an instance the attribute is its value.
 
@@ -45,7 +58,9 @@ class Variable:
         relative: bool = False,
         min: Optional[float] = None,
         max: Optional[float] = None,
+        **others: Any,
     ) -> None:
+        self._refuse(others)
         self.attribute = ""
         self.name = name
         self.description = description
@@ -74,6 +89,12 @@ class Variable:
         if start is not None:
             self.start = start
 
+    def _refuse(self, others: dict[str, Any]) -> None:
+        known: set[str] = set()
+        for each in self.__class__.__mro__:
+            known.update(getattr(each.__init__, "__kwdefaults__", None) or {})
+        refuse_words(f"{self.__class__.__name__}(…)", others, known)
+
     def _set_type(self) -> None:
         self.new: Callable[[Any], Any] = lambda value: value
         if self.shape is None:
@@ -98,6 +119,17 @@ class Variable:
         if self.relative:
             found["relative"] = "true"
         return found
+
+    def require_unit(self) -> None:
+        """Raises UnitError where it has a unit of measure that its type has not."""
+        if self.type_name.startswith("Float"):
+            return
+        for key in ("unit", "relative"):
+            if value := getattr(self, key):
+                raise UnitError(
+                    f"{key}: expected of Float32 and Float64 only, is of {self.type_name}; write"
+                    f" {type(self).__name__}(float, {key}={value!r})"
+                )
 
     def require_bounds(self) -> None:
         """Raises UnitError where the start value is beyond them."""
@@ -244,6 +276,7 @@ def collect(cls: type, base: type) -> dict[str, Variable]:
         except MISTAKES as mistake:
             raise UnitError(f"{where}: start: {mistake}") from None
         try:
+            variable.require_unit()
             variable.require_bounds()
         except UnitError as mistake:
             raise UnitError(f"{where}: {mistake}") from None
