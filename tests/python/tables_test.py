@@ -100,6 +100,10 @@ def test_a_table_of_pandas_with_the_time_as_index(here):
         ({"t": [0.0], "u": [1.0]}, r"cycle\.parquet: there is no column 'time'.*; there are: t, u"),
         ({"time": [0.0], "u": [[1.0]]}, r"column 'u': values of the type list<.*> cannot be played"),
         ({"time": pa.array([0], pa.timestamp("s")), "u": [1.0]}, r"column 'time' has values of the type timestamp"),
+        (
+            {"time": [0.0], "u [m]": pa.array([9007199254740993])},
+            r"column 'u \[m\]': 9007199254740993 has more digits than a Float64.*\n.*leave the unit of measure out",
+        ),
         ({"time": [0.0], "u: int": [1.0]}, r"cycle\.parquet:1: column 2: 'int' behind the colon .* did you mean 'Int32'"),
         ({"time": [1.0, 0.0], "u": [1.0, 1.0]}, r"cycle\.parquet:3: column 'time': 0\.0 is before"),
     ],
@@ -107,6 +111,18 @@ def test_a_table_of_pandas_with_the_time_as_index(here):
 def test_a_wrong_parquet_file(here, columns, message):
     write("cycle.parquet", columns)
     with pytest.raises(stride.InputError, match=message):
+        stride.run("cycle.parquet")
+
+
+def test_a_heading_and_metadata_that_contradict_each_other(here):
+    write("cycle.parquet", {"time": [0.0, 1.0], "v [km/h]": [36.0, 72.0]}, {"v [km/h]": "m/s"})
+    expected = r"cycle\.parquet: column 'v \[km/h\]' is in 'km/h' by its heading, and in 'm/s' by the metadata"
+    with pytest.raises(stride.InputError, match=expected):
+        stride.run("cycle.parquet")
+    write("cycle.parquet", {"time": [0.0, 1.0], "v [km/h]": [36.0, 72.0]}, {"v [km/h]": "km/h"})
+    assert played("cycle.parquet")[0].units == {"cycle.v": "km/h"}
+    write("cycle.parquet", {"time [ms]": [0.0, 1.0], "v": [36.0, 72.0]}, {"time [ms]": "s"})
+    with pytest.raises(stride.InputError, match=r"column 'time \[ms\]' is in 'ms' by its heading, and in 's'"):
         stride.run("cycle.parquet")
 
 
@@ -187,6 +203,22 @@ def test_an_mcap_file_of_others(here):
         writer.finish()
     with pytest.raises(stride.InputError, match=r"other\.mcap: there are no signals of stride in it.*: /pose"):
         stride.run("other.mcap")
+
+
+@pytest.mark.parametrize("schema", [b"\xff\xff", b"", b"\n\x00"])
+def test_an_mcap_file_with_a_schema_of_our_name(here, schema):
+    from mcap.writer import Writer
+
+    with open("other.mcap", "wb") as stream:
+        writer = Writer(stream)
+        writer.start()
+        number = writer.register_schema("stride.signals.x", "protobuf", schema)
+        channel = writer.register_channel("/signals/x", "protobuf", number)
+        writer.add_message(channel, 0, b"", 0)
+        writer.finish()
+    with pytest.raises(stride.InputError, match=r"other\.mcap: this is not an MCAP file that 'stride export' wrote") as caught:
+        stride.run("other.mcap")
+    assert "Traceback" not in str(caught.value)
 
 
 def test_a_damaged_mcap_file(here):

@@ -87,6 +87,34 @@ def _type_of(kind: Any, types: Any) -> Optional[tuple[str, _Text]]:
     return None
 
 
+def _agreed_unit(field: Any) -> tuple[str, bool]:
+    """The unit of measure of a column, and whether its heading has it."""
+    name = _split_heading(field.name)[0]
+    own = re.search(r" \[([^\[\]]*)\]$", name)
+    unit = (field.metadata or {}).get(b"unit", b"").decode()
+    if own and unit and own[1].strip() != unit.strip():
+        raise _Mistake(
+            f"column '{field.name}' is in '{own[1]}' by its heading, and in '{unit}' by the metadata of its field",
+            "keep the one that is right, in the heading or in the metadata",
+        )
+    return (own[1] if own else unit), own is not None
+
+
+def _float_of(name: str) -> _Text:
+    """How a whole number is written in a column of Float64, which must have it."""
+
+    def text(value: int) -> str:
+        if value != int(float(value)):
+            raise _Mistake(
+                f"column '{name}': {value} has more digits than a Float64, and only floating-point numbers have a unit "
+                "of measure",
+                "leave the unit of measure out, or convert the column to float64 if it may be rounded",
+            )
+        return repr(value)
+
+    return text
+
+
 def _column(field: Any, types: Any) -> tuple[str, _Text]:
     name, words = _split_heading(field.name)
     found = _type_of(field.type, types)
@@ -96,10 +124,9 @@ def _column(field: Any, types: Any) -> tuple[str, _Text]:
             "expected numbers, Booleans, texts or bytes: convert the column, or leave it out",
         )
     kind, text = found
-    unit = (field.metadata or {}).get(b"unit", b"").decode()
-    has_own = re.search(r" \[[^\[\]]*\]$", name) is not None
+    unit, has_own = _agreed_unit(field)
     if (unit or has_own) and types.is_integer(field.type):
-        kind = "Float64"  # which alone has a unit of measure in FMI
+        kind, text = "Float64", _float_of(name)  # which alone has a unit of measure in FMI
     courses = [word for word in words.split() if word in ("linear", "hold", "event")]
     if words and words.split() not in ([kind, *courses], [*courses, kind], courses):
         kind = ""  # what else stands there is for the reader of the table to judge
@@ -121,8 +148,8 @@ def _time_column(schema: Any, types: Any) -> tuple[int, str, _Text]:
         power = {"s": 0, "ms": 3, "us": 6, "ns": 9}[field.type.unit]
         return places[0], "time", lambda count: f"{count}e-{power}"
     if types.is_integer(field.type) or types.is_floating(field.type) or types.is_decimal(field.type):
-        unit = (field.metadata or {}).get(b"unit", b"").decode()
-        heading = f"time [{unit}]" if unit and field.name.strip() in ("time", "Time") else field.name
+        unit, has_own = _agreed_unit(field)
+        heading = f"time [{unit}]" if unit and not has_own else field.name
         return places[0], heading, str if types.is_decimal(field.type) else repr
     raise _Mistake(
         f"column '{field.name}' has values of the type {field.type}; expected numbers or durations",
@@ -184,6 +211,7 @@ class _Field:
         held = kind.startswith("Float") and comment["variability"] != "continuous"
         if comment["unit"] and not kind.startswith("Float"):
             kind, held = "Float64", True
+            self._text = _float_of(f"{component}.{comment['name']}")
         name = f"{component}.{comment['name']}"
         indices = _indices([int(size) for size in comment["shape"].split(" x ")]) if self._is_array else [""]
         self.headings = [
@@ -338,6 +366,10 @@ def main(file: Path, csv: Path) -> int:
             write(file, output)
     except _Mistake as mistake:
         print(mistake)
+        return _WRONG_FILE
+    except Exception as error:  # of the packages that read it, for content that they do not expect
+        kind = "a Parquet file that can be read" if write is _write_parquet else "an MCAP file that 'stride export' wrote"
+        print(f"this is not {kind}: {type(error).__name__}: {error}\n  hint: convert it to CSV")
         return _WRONG_FILE
     return 0
 
