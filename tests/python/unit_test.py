@@ -70,6 +70,19 @@ def describe(fmu):
 # ---- What they can do ----
 
 
+def test_a_float32_that_decays_to_zero(units):
+    run = units.run(
+        """
+        class U(su.Unit):
+            y = su.Output("Float32", start=1e-30)
+
+            def step(self, now, end):
+                self.y = self.y * 1e-6
+        """
+    )
+    assert list(run.signals["u.y"]) == [np.float32(1e-30), np.float32(1e-36), np.float32(1e-42), 0, 0]
+
+
 def test_a_unit_with_inputs_outputs_and_parameters(units):
     run = units.run(THERMOSTAT, set={"u.gain": 3, "u.temperature": 16})
     assert run.signals["u.power"][-1] == 12
@@ -570,6 +583,7 @@ STEP = "def step(self, now, end): pass"
         ("y = su.Output('numpy.float32')", "there is no type 'numpy.float32'; expected Float32, or"),
         ("y = su.Output('integer')", "there is no type 'integer'; expected Int32, or"),
         ("y = su.Output('Flaot64')", "there is no type 'Flaot64'; expected Float64, or"),
+        ("y = su.Output('Float32', start=1e-50)", "U.y: start: 1e-50 is too near to 0 for a Float32; write 0.0"),
         ("y = su.Output('flaot')", "there is no type 'flaot'; expected float (Float64), or for the text 'flaot'"),
         ("y = su.Output('Enumeration')", "there is no type 'Enumeration'; expected Float64, Float32, Int8,"),
         ("y = su.Output(float, min='low')", "U.y: min: expected a number, is 'low' (str)"),

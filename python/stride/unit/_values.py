@@ -35,13 +35,16 @@ def _beyond(name: str, most: str, value: str) -> OverflowError:
     return OverflowError(f"expected a number of the type {name}, from -{most} to {most}, is {value}")
 
 
+_LEAST_FLOAT32 = 1.1754943508222875e-38  # below it a Float32 loses digits, and stride refuses what it has not
+
+
 def _float32_text(value: Any) -> str:
     text = _float_text(value)
     try:
-        struct.pack("<f", float(text))
+        rounded = struct.unpack("<f", struct.pack("<f", float(text)))[0]
     except OverflowError:
         raise _beyond("Float32", "3.4028234663852886e+38", text) from None
-    return text
+    return repr(rounded) if abs(rounded) < _LEAST_FLOAT32 else text
 
 
 def _float32(text: str) -> float:

@@ -132,7 +132,9 @@ class Variable:
                 )
 
     def require_bounds(self) -> None:
-        """Raises UnitError where the start value is beyond them."""
+        """Raises UnitError where the start value is beyond them, or those of its type."""
+        if self.type_name == "Float32" and self.shape is None and self.start and float(self.text(self.start)) == 0:
+            raise UnitError(f"start: {self.start!r} is too near to 0 for a Float32; write 0.0, or take a Float64")
         elements = [self.start] if self.shape is None else self.new(self.start).ravel().tolist()
         for bound, is_within in (("min", operator.ge), ("max", operator.le)):
             limit = getattr(self, bound)
