@@ -69,10 +69,6 @@ std::string hint_for(const std::string& reason) {
     return "this system allows none; if the unit does not need it, which is usual, clear the flag "
            "(patchelf --clear-execstack), or compile the unit with -z noexecstack";
   }
-  if (contains("version `") && contains("not found")) {
-    return "the unit was built on a newer system than this one; build it here, or run stride on "
-           "such a system";
-  }
   if (contains("wrong ELF class")) return "it is not for as many bits as this program";
   return fmt::format("expected a shared library for {}", platform());
 }
@@ -122,6 +118,29 @@ std::string missing_library(const std::string& reason, const std::string& opened
             "LD_LIBRARY_PATH");
 }
 
+/// "FILE: version `GLIBCXX_3.4.32' not found (required by …)": the library is there, and too old.
+[[noreturn]] void fail_for_version(const SharedLibrary& library, const std::string& head,
+                                   const std::string& reason, const std::string& version) {
+  const fs::path file = reason.substr(0, reason.find(": version `"));
+  const std::string name = file.filename().string();
+  const bool is_own = file.parent_path() == library.path().parent_path();
+  const bool has_own = is_own || !find_namesakes(library.path(), name).empty();
+  core::fail_input(
+      library.user(),
+      fmt::format("{}it needs '{}' of the library '{}', and {} does not have it", head, version,
+                  name, is_own ? "the one in the FMU" : "this system's, '" + file.string() + "',"),
+      is_own
+          ? fmt::format("take '{}' out of the FMU, if this system's is newer, or put the one into "
+                        "it that the unit was built with",
+                        name)
+          : fmt::format("the unit was built on a newer system than this one{}; build it here, or "
+                        "run stride on such a system",
+                        has_own ? fmt::format(", and the '{}' in its FMU is not used, since a "
+                                              "process has one of them",
+                                              name)
+                                : ""));
+}
+
 /// The loader ends its message with what the system has said.
 bool says_shortage(const std::string& reason) {
   return std::ranges::any_of(std::array{EMFILE, ENFILE, ENOMEM}, [&](int error) {
@@ -146,6 +165,9 @@ bool says_shortage(const std::string& reason) {
                                  "with has",
                                  head, symbol),
                      is_of_python(symbol) ? kPythonHint : kSymbolHint);
+  }
+  if (const auto version = between(reason, ": version `", "'"); !version.empty()) {
+    fail_for_version(library, head, reason, std::string(version));
   }
   const std::string hint = hint_for(reason);
   const bool is_shortage = says_shortage(reason);
