@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <map>
 #include <ranges>
 #include <set>
@@ -15,6 +16,13 @@
 
 namespace stride::core {
 namespace {
+
+template <class Real>
+constexpr const char* kRealName = sizeof(Real) == sizeof(float) ? "Float32" : "Float64";
+
+/// Below it numbers of this type have fewer than three digits.
+template <class Real>
+constexpr double kLeast = 512.0 * static_cast<double>(std::numeric_limits<Real>::denorm_min());
 
 /// One transfer for the variables of a component that have this type, are written at these
 /// times, and belong to these clocks.
@@ -215,7 +223,8 @@ void Exchange::add_real(RealLists<Real, Other>& lists, const Connection& connect
   lists.checked.push_back({from, connection.from});
   if (target.type() != system_.variable(connection.from).type) {
     lists.changed.push_back(
-        {&target.numbers<Other>()[target_at], from, linear.factor, linear.offset});
+        {{&target.numbers<Other>()[target_at], from, linear.factor, linear.offset},
+         first_values_.warns() ? kLeast<Other> : 0});
   } else if (linear.is_identity()) {
     lists.plain.push_back({&target.numbers<Real>()[target_at], from});
   } else {
@@ -399,17 +408,19 @@ template <class Real, class Other>
     *to = value;
     is_odd |= std::isnan(value);
   }
-  const auto route_converted =
-      [&is_odd]<class To>(const std::vector<ConvertedCopy<To, Real>>& copies) {
-        for (const auto& copy : copies) {
-          const Real value = *copy.from;
-          const To result = static_cast<To>(copy.factor * value + copy.offset);
-          *copy.to = result;
-          is_odd |= !std::isfinite(result) && !std::isinf(value);
-        }
-      };
-  route_converted(converted);
-  route_converted(changed);
+  for (const auto& copy : converted) {
+    const Real value = *copy.from;
+    const Real result = static_cast<Real>(copy.factor * value + copy.offset);
+    *copy.to = result;
+    is_odd |= !std::isfinite(result) && !std::isinf(value);
+  }
+  for (const auto& copy : changed) {
+    const Real value = *copy.from;
+    const double exact = copy.factor * value + copy.offset;
+    const Other result = static_cast<Other>(exact);
+    *copy.to = result;
+    is_odd |= (!std::isfinite(result) && !std::isinf(value)) || copy.is_lost(exact);
+  }
   return is_odd;
 }
 
@@ -485,26 +496,49 @@ void Exchange::check_nan(const RealLists<Real, Other>& lists, Time time) const {
     if (!std::isnan(*value)) [[likely]]
       continue;
     fail_run(
-        {{}, system_.components()[id.component].name, system_.variable(id).name, time},
+        output_context(id, time),
         "the output is NaN (not a number), and another unit is connected to it",
         "look at what this unit received before this instant; a parameter may be out of range");
   }
-  const auto check_range = [&]<class To>(const std::vector<ConvertedCopy<To, Real>>& copies) {
-    for (const auto& [to, from, factor, offset] : copies) {
-      const To result = static_cast<To>(factor * *from + offset);
-      if (std::isfinite(result) || std::isinf(*from)) [[likely]]
-        continue;
-      const auto source = std::ranges::find(lists.checked, from, &Checked<Real>::value);
-      const VariableId id = source->id;
-      fail_run({{}, system_.components()[id.component].name, system_.variable(id).name, time},
-               fmt::format("the output is {}, which is beyond the range of {} in the input that it "
-                           "is connected to",
-                           *from, sizeof(To) == sizeof(float) ? "Float32" : "Float64"),
-               "connect it to a Float64, or look at the units of measure of both");
-    }
+  const auto check_range = [&]<class To>(const ConvertedCopy<To, Real>& copy) {
+    const To result = static_cast<To>(copy.factor * *copy.from + copy.offset);
+    if (std::isfinite(result) || std::isinf(*copy.from)) [[likely]]
+      return;
+    fail_run(output_context(source_of(lists, copy.from), time),
+             fmt::format("the output is {}, which is beyond the range of {} in the input that it "
+                         "is connected to",
+                         *copy.from, kRealName<To>),
+             "connect it to a Float64, or look at the units of measure of both");
   };
-  check_range(lists.converted);
-  check_range(lists.changed);
+  for (const auto& copy : lists.converted) check_range(copy);
+  for (const auto& copy : lists.changed) check_range.template operator()<Other>(copy);
+  note_lost(lists, time);
+}
+
+template <class Real, class Other>
+void Exchange::note_lost(const RealLists<Real, Other>& lists, Time time) const {
+  for (auto& copy : lists.changed) {
+    const double exact = copy.factor * *copy.from + copy.offset;
+    if (!copy.is_lost(exact)) [[likely]]
+      continue;
+    copy.least = 0;
+    const VariableId id = source_of(lists, copy.from);
+    if (!lost_.insert(id).second) continue;
+    first_values_.warn(
+        to_text(output_context(id, time)) +
+        fmt::format("the output is {}, which becomes {} in the input that it is connected to: "
+                    "{} has no such number so near to 0 (said once)",
+                    *copy.from, static_cast<Other>(exact), kRealName<Other>));
+  }
+}
+
+template <class Real, class Other>
+VariableId Exchange::source_of(const RealLists<Real, Other>& lists, const Real* from) {
+  return std::ranges::find(lists.checked, from, &Checked<Real>::value)->id;
+}
+
+Context Exchange::output_context(VariableId id, Time time) const {
+  return {{}, system_.components()[id.component].name, system_.variable(id).name, time};
 }
 
 }  // namespace stride::core

@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <set>
 #include <span>
 #include <string>
 #include <type_traits>
@@ -227,6 +229,14 @@ class Exchange {
     const From* from;
     double factor, offset;
   };
+  /// Between Float64 and Float32.
+  template <class To, class From>
+  struct ChangedCopy : ConvertedCopy<To, From> {
+    /// A result below it, other than 0, loses its digits; 0 where that was said or need not be.
+    double least;
+
+    bool is_lost(double result) const { return std::abs(result) < least && result != 0; }
+  };
   template <class Real>
   struct Checked {
     const Real* value;
@@ -236,10 +246,11 @@ class Exchange {
   struct RealLists {
     std::vector<Copy<Real>> plain;
     std::vector<ConvertedCopy<Real, Real>> converted;
-    std::vector<ConvertedCopy<Other, Real>> changed;  ///< to another type
-    std::vector<Checked<Real>> checked;               ///< the sources of all of them
+    /// To another type. What was said is not part of the state.
+    mutable std::vector<ChangedCopy<Other, Real>> changed;
+    std::vector<Checked<Real>> checked;  ///< the sources of all of them
 
-    /// Returns whether a source is NaN, or its value beyond the range of its target.
+    /// Returns whether a source is NaN, or its value beyond the range of its target, or lost there.
     bool route() const;
   };
   /// A whole number that is mapped or becomes one of another type.
@@ -283,6 +294,11 @@ class Exchange {
                    std::vector<VariableId>& changes) const;
   template <class Real, class Other>
   void check_nan(const RealLists<Real, Other>& lists, Time time) const;
+  template <class Real, class Other>
+  static VariableId source_of(const RealLists<Real, Other>& lists, const Real* from);
+  Context output_context(VariableId id, Time time) const;
+  template <class Real, class Other>
+  void note_lost(const RealLists<Real, Other>& lists, Time time) const;
   void check_mapped(const MappedCopy& copy, Time time) const;
   void add_item_checks(Transfers& transfers);
   void add_copies(const Connection& connection);
@@ -321,6 +337,7 @@ class Exchange {
   ItemCheck items_{system_, first_values_};  ///< of all outputs that are read
   RealLists<double, float> doubles_;
   RealLists<float, double> floats_;
+  mutable std::set<VariableId> lost_;  ///< outputs whose loss of digits was said
   bool has_other_types_ = false;  ///< than Float64, to be copied or checked
   bool has_further_ = false;      ///< other types, or what is forced
 };

@@ -33,6 +33,9 @@ class FirstValues {
   void refuse(VariableId from, const Context& context, const std::string& message,
               const std::string& hint) const;
 
+  bool warns() const { return warn_ != nullptr; }
+  void warn(const std::string& message) const { warn_(message); }
+
  private:
   bool is_before_first_step(std::size_t component, Time time) const;
 

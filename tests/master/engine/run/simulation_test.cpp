@@ -432,6 +432,32 @@ TEST_CASE("an output beyond the range of the input that it is connected to ends 
   }
 }
 
+TEST_CASE("a number that a Float32 has not, so near to 0, is a warning, once for the output") {
+  Fixture f;
+  auto& a = f.add("a", Describe("a").output("y").size(2).output("z").done());
+  f.add("b", Describe("b")
+                 .add("u", ValueType::Float32, Causality::Input)
+                 .size(2)
+                 .add("v", ValueType::Float32, Causality::Input)
+                 .input("w")
+                 .done());
+  f.wire("a", "y", "b", "u");
+  f.wire("a", "z", "b", "v");
+  f.wire("a", "z", "b", "w");
+  a.on_step = [](ScriptedUnit& unit, Time, Time to) {
+    unit.block(0).numbers<double>()[0] = unit.block(0).numbers<double>()[1] = 1e-50;
+    unit.block(1).numbers<double>()[0] = 1e-40;  // with fewer digits than others
+    return reached(to);
+  };
+  std::vector<std::string> warnings;
+  f.options.warn = [&](const std::string& text) { warnings.push_back(text); };
+  f.build(0.005, 1ms).run();
+  REQUIRE(warnings.size() == 1);
+  CHECK_THAT(warnings[0],
+             Contains("unit 'a', variable 'y', at 0.001 s: the output is 1e-50, which becomes 0 in "
+                      "the input that it is connected to: Float32 has no such number"));
+}
+
 TEST_CASE("NaN is looked for once the initial values have arrived") {
   Fixture f;
   auto& root = f.add("root", one_in_one_out());
