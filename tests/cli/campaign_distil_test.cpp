@@ -220,12 +220,15 @@ TEST_CASE("what a device was set to, by the scenario, the case and in the run, i
       Parts{component("source", "types.fmu") + component("sink", "types.fmu"),
             connection("source.float64.echo", "sink.float64"),
             "<stride:Step size='0.25'/><stride:Set variable='sink.gain' value='2' at='0.5'/>"
+            "<stride:Set variable='sink.colour' value='4' at='0.5'/>"
             "<stride:EarlyReturn components='sink' allowed='false'/>\n"},
       0);
   space.check_distilled({}, "sink");
   CHECK_THAT(read(space / "suite/case_000000.ssd"),
              Contains("<ssv:Float64 value=\"3\"/>") &&
                  Contains("<stride:Set variable=\"sink.gain\" value=\"2\" at=\"0.5\"/>") &&
+                 Contains("<stride:Set variable=\"sink.colour\" value=\"blue\" at=\"0.5\"/>") &&
+                 Contains("equals=\"blue\"") &&
                  Contains("<stride:EarlyReturn components=\"sink\" allowed=\"false\"/>"));
 }
 

@@ -128,6 +128,29 @@ TEST_CASE("messages of a table do not say when a run begins") {
   CHECK_THAT(read(workspace / "results/cycle/signals.csv"), StartsWith("time\n0\n"));
 }
 
+TEST_CASE("check shows the factors of units of measure, and where none is applied") {
+  const auto checked = [](const std::string& attributes) {
+    const Workspace workspace(
+        Parts{component("cycle", "cycle.csv") +
+                  component("filter", "minimal.fmu",
+                            connector("u", "input", "<ssc:Float64 unit=\"kmh\"/>")),
+              "<ssd:Connection startElement=\"cycle\" startConnector=\"v\" endElement=\"filter\" "
+              "endConnector=\"u\"" +
+                  attributes + "/>\n",
+              "",
+              "<ssd:Units><ssc:Unit name=\"kmh\"><ssc:BaseUnit m=\"1\" s=\"-1\" "
+              "factor=\"0.2777777777777778\"/></ssc:Unit></ssd:Units>\n"});
+    workspace.scratch().write("cycle.csv", "time,v [m/s]\n0,0\n1,2\n");
+    const Outcome outcome = workspace.stride({"check", "test.ssd"});
+    INFO(outcome.err);
+    CHECK(outcome.exit_code == 0);
+    return outcome.out;
+  };
+  CHECK_THAT(checked(""), Contains("  × 3.6\n"));
+  CHECK_THAT(checked(" suppressUnitConversion=\"true\""),
+             Contains("unit of measure not converted\n"));
+}
+
 TEST_CASE("a misspelt table is named") {
   const Driven workspace(kCycle);
   fs::rename(workspace / "cycle.csv", workspace / "cycles.csv");

@@ -423,9 +423,7 @@ class Composer {
 
   /// The name of the connector's item, if it has one of this number; else the number.
   std::string item_word(std::size_t place, std::int64_t number) const {
-    const EnumerationItems& items = path_[place].items;
-    const auto found = std::ranges::find(items, number, &EnumerationItems::value_type::second);
-    return found != items.end() ? found->first : std::to_string(number);
+    return item_name(number, path_[place].items);
   }
 
   std::vector<PathConnector> path_;

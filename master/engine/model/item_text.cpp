@@ -53,6 +53,11 @@ std::string item_text(const EnumerationItems& items) {
   return fmt::format("{}", fmt::join(texts, ", "));
 }
 
+std::string item_name(std::int64_t number, const EnumerationItems& items) {
+  const auto found = std::ranges::find(items, number, &EnumerationItems::value_type::second);
+  return found != items.end() ? found->first : std::to_string(number);
+}
+
 std::optional<std::int64_t> item_number(const std::string& text, const EnumerationItems& items) {
   const Words words = words_of(text);
   const auto named = std::ranges::find_if(

@@ -14,6 +14,8 @@ namespace stride::core {
 /// "off (0), on (1)".
 std::string item_text(const EnumerationItems& items);
 
+/// The name of the item with this number, or the number itself where there is none.
+std::string item_name(std::int64_t number, const EnumerationItems& items);
 /// The number of the item with this name, blanks apart, or else of the one with this number.
 std::optional<std::int64_t> item_number(const std::string& text, const EnumerationItems& items);
 /// A text whose words are the numbers of items, with their names. Throws std::invalid_argument for

@@ -178,6 +178,7 @@ void CampaignScenario::find_start_targets(const Campaign& campaign,
       }
       targets_.push_back({i, declared});
       targets_.back().declaration.group = 0;
+      targets_.back().declaration.rank = 0;  // many of its values are checked at once
     }
   }
   // unknown variables are what a system complains of before it looks at the values

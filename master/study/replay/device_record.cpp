@@ -10,6 +10,7 @@
 #include "master/base/files/csv_reader.h"
 #include "master/base/message_text.h"
 #include "master/engine/model/array_element.h"
+#include "master/engine/model/item_text.h"
 
 namespace stride::replay {
 namespace {
@@ -96,6 +97,12 @@ bool is_demandable(const core::Variable& variable, const std::string& value) {
   return is_writable(value);
 }
 
+/// As a check reads it: an item has its name, which another one may have as its number.
+std::string check_text(const core::Variable& variable, const std::string& value) {
+  if (variable.type != core::ValueType::Enumeration) return value;
+  return core::item_name(std::strtoll(value.c_str(), nullptr, 10), variable.items);
+}
+
 }  // namespace
 
 DeviceRecord read_device_record(const std::filesystem::path& signals,
@@ -148,7 +155,7 @@ std::vector<Expectation> expectations_of(const DeviceRecord& replay,
     for (std::size_t i = 0; i < variable.size; ++i) {
       const auto value = last.find(core::element_name(variable, i));
       if (value == last.end() || !is_demandable(variable, value->second)) continue;
-      made.push_back({Expectation::Kind::Final, value->first, value->second,
+      made.push_back({Expectation::Kind::Final, value->first, check_text(variable, value->second),
                       core::is_real(variable.type) ? tolerance : ""});
     }
   }

@@ -9,6 +9,7 @@
 #include "master/base/time_text.h"
 #include "master/base/xml/writer.h"
 #include "master/engine/model/array_element.h"
+#include "master/engine/model/item_text.h"
 #include "master/system/declaration/coverage_writer.h"
 #include "master/system/ssp/ssp.h"
 
@@ -121,11 +122,16 @@ class ReplayWriter {
   /// An item has its name, since another one may have its number for a name.
   static std::string value_text(const core::Variable& variable, const core::ValueBlock& value,
                                 std::size_t element) {
-    const std::string text = core::element_text(value, element);
-    if (variable.type != core::ValueType::Enumeration) return text;
-    const auto item = std::ranges::find(
-        variable.items, text, [](const auto& known) { return std::to_string(known.second); });
-    return item != variable.items.end() ? item->first : text;
+    if (variable.type != core::ValueType::Enumeration) return core::element_text(value, element);
+    return core::item_name(value.numbers<std::int64_t>()[element], variable.items);
+  }
+
+  std::string value_texts(core::VariableId id, const core::ValueBlock& value) const {
+    std::string texts;
+    for (std::size_t i = 0; i < value.size(); ++i) {
+      texts += (i == 0 ? "" : " ") + value_text(system_.variable(id), value, i);
+    }
+    return texts;
   }
 
   bool is_played(const core::Variable& variable) const {
@@ -217,7 +223,7 @@ class ReplayWriter {
       const bool is_set = change.kind == core::Intervention::Kind::Set;
       writer_.open(is_set ? "stride:Set" : "stride:Force");
       writer_.attribute("variable", own_name(system_.variable(change.id).name));
-      if (change.value) writer_.attribute("value", core::elements_text(*change.value));
+      if (change.value) writer_.attribute("value", value_texts(change.id, *change.value));
       writer_.attribute(is_set ? "at" : "from", core::to_text(change.from));
       if (change.until) writer_.attribute("until", core::to_text(*change.until));
       writer_.close();
