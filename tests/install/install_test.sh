@@ -39,6 +39,19 @@ for unit in "$work"/stride/lib/stride/units/*.fmu; do
   rm -r "$work/unpacked"
 done
 
+step "A table is packed with the libraries that its unit needs"
+(cd "$work" && printf 'time,u\n0,0\n1,1\n' > cycle.csv && "$stride" pack cycle.csv -o cycle.fmu)
+mkdir "$work/unpacked" && (cd "$work/unpacked" && "$cmake" -E tar xf ../cycle.fmu)
+for library in "$work"/unpacked/binaries/*/*.so*; do
+  for name in $(readelf -d "$library" | sed -n 's/.*(NEEDED).*\[\(.*\)\]/\1/p'); do
+    case $name in
+      libc.so.* | libm.so.* | libstdc++.so.* | libgcc_s.so.* | ld-linux-*) ;;
+      *) [ -e "${library%/*}/$name" ] || fail "the FMU of a table has no $name, which ${library##*/} needs" ;;
+    esac
+  done
+done
+rm -r "$work/unpacked" "$work/cycle.fmu" "$work/cycle.csv"
+
 step "A unit outside of the repository, and each header by itself"
 cp -r "$project" "$work/project"
 "$cmake" -G "$generator" -S "$work/project" -B "$work/project/build" -DCMAKE_PREFIX_PATH="$work/stride" > "$work/log" ||
