@@ -1,34 +1,15 @@
 // The part of the FMI 3.0 entry table that is about time-based clocks (2.2.8 there).
-#include <chrono>
-#include <limits>
-
-#include <stride/time_text.h>
-
 #include "interfaces/unit/entry_call.h"
-#include "interfaces/unit/misuse.h"
 
 using stride::Duration;
 using stride::kit::call;
 using stride::kit::duration_of_fraction;
 using stride::kit::duration_of_seconds;
+using stride::kit::fractions_of;
 using stride::kit::Function;
 using stride::kit::Instance;
 
 namespace {
-
-/// As a fraction of seconds, which is reduced only where it has to be: of some hundred days.
-void give_fraction(Duration duration, fmi3UInt64& counter, fmi3UInt64& resolution) {
-  const Duration unit = duration <= std::chrono::seconds(1 << 20)
-                            ? Duration(1)
-                            : common_divisor(duration, std::chrono::seconds(1));
-  const auto count = duration / unit;
-  if (count > std::numeric_limits<fmi3UInt64>::max()) {
-    throw stride::kit::Misuse("the interval of " + stride::decimal_seconds(duration) +
-                              " s is no fraction of 64-bit numbers; ask for the decimal");
-  }
-  counter = static_cast<fmi3UInt64>(count);
-  resolution = static_cast<fmi3UInt64>(std::chrono::seconds(1) / unit);
-}
 
 /// Sets intervals or shifts, all or none: duration(i) is the one for the clock references[i].
 template <class Check, class Set, class Durations>
@@ -62,7 +43,9 @@ fmi3Status fmi3GetIntervalFraction(fmi3Instance instance, const fmi3ValueReferen
     for (size_t i = 0; i < count; ++i) unit.check_has_interval(references[i]);
     for (size_t i = 0; i < count; ++i) {
       const Instance::ClockInterval given = unit.clock_interval(references[i]);
-      give_fraction(given.interval, counters[i], resolutions[i]);
+      const auto fraction = fractions_of(given.interval);
+      counters[i] = fraction.first;
+      resolutions[i] = fraction.resolution;
       qualifiers[i] = given.qualifier;
     }
     return fmi3OK;
@@ -82,7 +65,9 @@ fmi3Status fmi3GetShiftFraction(fmi3Instance instance, const fmi3ValueReference 
                                 size_t count, fmi3UInt64 counters[], fmi3UInt64 resolutions[]) {
   return call(instance, Function::GetShiftFraction, [&](Instance& unit) {
     for (size_t i = 0; i < count; ++i) {
-      give_fraction(unit.clock_shift(references[i]), counters[i], resolutions[i]);
+      const auto fraction = fractions_of(unit.clock_shift(references[i]));
+      counters[i] = fraction.first;
+      resolutions[i] = fraction.resolution;
     }
     return fmi3OK;
   });

@@ -8,6 +8,7 @@
 
 #include "interfaces/unit/hash.h"
 #include "interfaces/unit/idle_manifest.h"
+#include "interfaces/unit/instance.h"
 #include "interfaces/unit/log_categories.h"
 #include "interfaces/unit/units_of_measure.h"
 #include "interfaces/unit/xml_writer.h"
@@ -200,7 +201,7 @@ class Writer {
     xml_.close();
   }
 
-  /// Intervals as decimals for all importers, and as counts of the picoseconds that they are.
+  /// Intervals as decimals for all importers, and as counts of picoseconds.
   void write_timing(const Variable& row) {
     xml_.attribute("intervalVariability", name(row.interval_variability));
     if (!is_time_based(row)) return;
@@ -212,9 +213,10 @@ class Writer {
     }
     xml_.attribute("supportsFraction", true);
     if (!row.has_interval) return;
-    xml_.attribute("resolution", std::int64_t{Duration::period::den})
-        .attribute("intervalCounter", std::int64_t{clock.interval().count()});
-    if (is_shifted) xml_.attribute("shiftCounter", std::int64_t{clock.shift().count()});
+    const Fractions counters = fractions_of(clock.interval(), clock.shift());
+    xml_.attribute("resolution", static_cast<std::int64_t>(counters.resolution))
+        .attribute("intervalCounter", static_cast<std::int64_t>(counters.first));
+    if (is_shifted) xml_.attribute("shiftCounter", static_cast<std::int64_t>(counters.second));
   }
 
   void write_variability(const Variable& row) {

@@ -66,11 +66,11 @@ class Clock {
  private:
   friend class ClockAccess;
   /// What the importer has read of the interval: nothing yet, not the present one, all.
-  enum class Knowledge : std::uint32_t { None, New, Reported };
+  enum class Knowledge : std::uint64_t { None, New, Reported };
 
   Duration interval_{};
   Duration shift_{};
-  std::uint32_t ticked_ = 0;
+  std::uint64_t ticked_ = 0;
   Knowledge knowledge_ = Knowledge::None;
 };
 
