@@ -50,9 +50,10 @@ ValueBlock parse_converted(const Variable& variable, const std::string& text,
   copy_elements(value, 0, exact, 0, variable.size);
   for (std::size_t i = 0; i < variable.size; ++i) {
     if (std::isfinite(real(exact, i)) == std::isfinite(real(value, i))) continue;
-    throw std::invalid_argument(fmt::format(
-        "'{}' is {} in the variable's unit of measure, expected a number within the range of Float32",
-        name_text(text), real(exact, i)));
+    throw std::invalid_argument(
+        fmt::format("'{}' is {} in the variable's unit of measure, expected a number within the "
+                    "range of Float32",
+                    name_text(text), real(exact, i)));
   }
   return value;
 }

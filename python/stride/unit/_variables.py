@@ -23,9 +23,8 @@ def refuse_words(where: str, given: Iterable[str], known: Iterable[str]) -> None
         names = sorted(known)
         plain = {name.replace("_", ""): name for name in names}
         similar = [plain[each] for each in difflib.get_close_matches(word.replace("_", "").lower(), plain, n=1)]
-        raise UnitError(
-            f"{where}: there is no {word}=…; " + (f"did you mean {similar[0]}=…?" if similar else f"known are: {', '.join(names)}")
-        )
+        hint = f"did you mean {similar[0]}=…?" if similar else f"known are: {', '.join(names)}"
+        raise UnitError(f"{where}: there is no {word}=…; {hint}")
 
 
 class Variable:

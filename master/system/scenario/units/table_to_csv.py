@@ -368,7 +368,8 @@ def main(file: Path, csv: Path) -> int:
         print(mistake)
         return _WRONG_FILE
     except Exception as error:  # of the packages that read it, for content that they do not expect
-        kind = "a Parquet file that can be read" if write is _write_parquet else "an MCAP file that 'stride export' wrote"
+        is_parquet = write is _write_parquet
+        kind = "a Parquet file that can be read" if is_parquet else "an MCAP file that 'stride export' wrote"
         print(f"this is not {kind}: {type(error).__name__}: {error}\n  hint: convert it to CSV")
         return _WRONG_FILE
     return 0

@@ -171,7 +171,7 @@ TEST_CASE("A mistake in the annotation is named with its line") {
   CHECK_THAT(annotation_error("<stride:Step maximum='0'/>"),
              Contains("maximum: a step must be above 0 s"));
   CHECK_THAT(annotation_error("<stride:Step size='1e-13'/>"),
-             Contains("at least the picosecond that times are counted in"));
+             Contains("size: '1e-13' is not 0 s and less than 1 ps, the resolution of times"));
   CHECK_THAT(annotation_error("<stride:Results signals='units'/>"),
              Contains("signals=\"units\" is the name of a folder of the results"));
   CHECK_THAT(annotation_error("<stride:Step policy='fixt'/>"),
