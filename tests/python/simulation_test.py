@@ -568,7 +568,7 @@ def test_an_enumeration_is_set_by_number_or_name(types):
             assert sim["types.colour"] == number
         with pytest.raises(stride.InputError) as caught:
             sim["types.colour"] = "blau"
-        text = "'types.colour': 'blau' is not a value for it, expected one of red, green, blue"
+        text = "'types.colour': 'blau' is not a value for it, expected one of red (1), green (2), blue (4)"
         assert (str(caught.value), caught.value.file) == (text, None)
         assert (caught.value.component, caught.value.variable) == ("types", "colour")
         with pytest.raises(stride.InputError, match="a text has no NUL"):

@@ -3,8 +3,8 @@
 #define STRIDE_MASTER_SYSTEM_SCENARIO_CHECK_SELECTION_H
 
 #include <optional>
-#include <string>
 #include <span>
+#include <string>
 #include <vector>
 
 #include <stride/time.h>

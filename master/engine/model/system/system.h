@@ -143,8 +143,8 @@ class System {
   bool is_signal(VariableId id) const;
   /// Whether it is a time-based clock that is connected to a triggered one.
   bool ticks_triggered(VariableId id) const { return message_clocks_.contains(id); }
-  /// The unit of measure of a component's variable, or of its connector; with its meaning, if that is
-  /// defined.
+  /// The unit of measure of a component's variable, or of its connector; with its meaning, if that
+  /// is defined.
   UnitOfMeasure unit_of_measure(VariableId id) const { return path_connector(whole(id)).unit; }
   /// "component.variable"; of an output of the system its name.
   std::string full_name(VariableId id) const { return prefix(id) + variable(id).name; }

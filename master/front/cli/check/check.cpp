@@ -256,6 +256,7 @@ void check(const scenario::ScenarioRequest& request) {
   loaded.warn_of_other_steps();
   const core::System& system = loaded.system();
   const core::RunOptions& options = loaded.options();
+  const std::string order = order_table(loaded);  // which may be refused, before all output
   print_text("{}: {}, {}, {}\n", system.name(),
              core::counted(system.components().size(), "component"),
              core::counted(system.connections().size(), "connection"),
@@ -268,7 +269,7 @@ void check(const scenario::ScenarioRequest& request) {
   print_text("{}", unconnected_elements_text(system));
   print_text("{}{}", check_table(loaded), coverage_table(loaded.coverage()));
   print_text("{}", intervention_table(system, options.interventions));
-  print_text("\nStep order\n{}", order_table(loaded));
+  print_text("\nStep order\n{}", order);
   print_text("\nOrder of the initial values\n{}", initial_order_text(system));
   print_text("\nAlgebraic loops\n{}", loops_text(system));
   for (const auto& unit : units) unit->free();

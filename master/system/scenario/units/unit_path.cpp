@@ -41,18 +41,17 @@ std::vector<fs::path> folders_in(const fs::path& folder) {
 }
 
 /// A file of this name near where it was looked for: beside the file that names it, in the folders
-/// there, and likewise one level above. Relative to that file, as a source is.
+/// there, or one level above. Relative to that file, as a source is.
 std::string near_unit(const fs::path& path, const core::Location& where) {
   fs::path base;
   if (core::is_file(where.file)) base = fs::path(where.file).parent_path();
   if (base.empty()) base = ".";
-  for (const fs::path& level : {fs::path("."), fs::path("..")}) {
-    std::vector<fs::path> places{base / level};
-    for (const fs::path& folder : folders_in(base / level)) places.push_back(folder);
-    for (const fs::path& place : places) {
-      const fs::path file = (place / path.filename()).lexically_normal();
-      if (core::path_exists(file)) return file.lexically_proximate(base);
-    }
+  std::vector<fs::path> places = folders_in(base);
+  places.insert(places.begin(), base);
+  places.push_back(base / "..");
+  for (const fs::path& place : places) {
+    const fs::path file = (place / path.filename()).lexically_normal();
+    if (core::path_exists(file)) return file.lexically_proximate(base);
   }
   return "";
 }

@@ -88,7 +88,8 @@ TEST_CASE("texts that do not fit are all found, each with its line") {
       set_error("b.time_constant", {"1", "-1"}),
       Contains("c.xosc:6: unit 'b', variable 'time_constant': the value -1 is out of range"));
   CHECK_THAT(set_error("a.int8", {"1", "1.5"}), Contains("'1.5' is not a value for it"));
-  CHECK_THAT(set_error("a.colour", {"red", "pink"}), Contains("expected one of red, green, blue"));
+  CHECK_THAT(set_error("a.colour", {"red", "pink"}),
+             Contains("expected one of red (1), green (2), blue (4)"));
   CHECK_THAT(set_error("a.boolean", {"maybe"}), Contains("expected true or false"));
   const std::string both = plan_error(campaign_text(
       deterministic(value_set("b.time_constant", {"-1"}) + "\n" + value_set("a.int8", {"200"}))));
