@@ -1,7 +1,7 @@
 // The part of the FMI 3.0 entry table that is about time-based clocks (2.2.8 there).
 #include "interfaces/unit/entry_call.h"
+#include "interfaces/unit/fractions.h"
 
-using stride::Duration;
 using stride::kit::call;
 using stride::kit::duration_of_fraction;
 using stride::kit::duration_of_seconds;

@@ -35,12 +35,6 @@ inline Duration duration_of_seconds(double seconds) {
 inline Time checked_time(double seconds) { return Time(duration_of_seconds(seconds)); }
 Duration duration_of_fraction(std::uint64_t counter, std::uint64_t resolution);
 
-/// Both as counts of a part of a second. Throws a Misuse where these have more than 64 bits.
-struct Fractions {
-  std::uint64_t first, second, resolution;
-};
-Fractions fractions_of(Duration first, Duration second = {});
-
 /// Throws a Misuse with the text that compose() makes. It is apart from what is checked, so that a
 /// check costs no more than its comparison.
 template <class Compose>

@@ -1,9 +1,5 @@
 // The time-based clocks of an instance (FMI 3.0, 2.2.8).
-#include <algorithm>
-#include <limits>
 #include <stdexcept>
-
-#include <stride/time_text.h>
 
 #include "interfaces/unit/clock_access.h"
 #include "interfaces/unit/instance.h"
@@ -20,22 +16,6 @@ Duration duration_of_fraction(std::uint64_t counter, std::uint64_t resolution) {
                  " s is longer than any simulation");
   }
   return Duration(static_cast<Picoseconds>(picoseconds));
-}
-
-/// Of picoseconds, as long as these are not too many, or else reduced.
-Fractions fractions_of(Duration first, Duration second) {
-  constexpr Duration kSecond = std::chrono::seconds(1);
-  constexpr Duration kLong = std::chrono::hours(24 * 100);
-  const bool is_long = first > kLong || second > kLong;
-  const Duration part =
-      is_long ? common_divisor(common_divisor(kSecond, first), second) : Duration(1);
-  constexpr Picoseconds kMost = std::numeric_limits<std::int64_t>::max();
-  if (first / part > kMost || second / part > kMost) {
-    throw Misuse("the interval of " + decimal_seconds(std::max(first, second)) +
-                 " s is no fraction of 64-bit numbers; ask for the decimal");
-  }
-  return {static_cast<std::uint64_t>(first / part), static_cast<std::uint64_t>(second / part),
-          static_cast<std::uint64_t>(kSecond / part)};
 }
 
 const Variable& Instance::time_based_clock(fmi3ValueReference reference) const {

@@ -6,9 +6,9 @@
 
 #include <stride/value_text.h>
 
+#include "interfaces/unit/fractions.h"
 #include "interfaces/unit/hash.h"
 #include "interfaces/unit/idle_manifest.h"
-#include "interfaces/unit/instance.h"
 #include "interfaces/unit/log_categories.h"
 #include "interfaces/unit/units_of_measure.h"
 #include "interfaces/unit/xml_writer.h"

@@ -19,7 +19,7 @@ Words times_of(const Workspace& workspace) {
   return times;
 }
 
-Outcome run(const Workspace& workspace, const Arguments& arguments) {
+Outcome run_long(const Workspace& workspace, const Arguments& arguments) {
   Arguments all{"--quiet"};
   all.insert(all.end(), arguments.begin(), arguments.end());
   const Outcome outcome = workspace.run(all);
@@ -42,7 +42,7 @@ TEST_CASE("a century in steps of a day has a row for each, at its exact time") {
   const Arguments hosting = GENERATE(Arguments{}, Arguments{"--isolate"});
   Arguments arguments{"--stop", kCentury, "--step", "86400", "--set", "first.u=1"};
   arguments.insert(arguments.end(), hosting.begin(), hosting.end());
-  CHECK(run(workspace, arguments).err == "");
+  CHECK(run_long(workspace, arguments).err == "");
   const Words times = times_of(workspace);
   REQUIRE(times.size() == 36526);
   CHECK(times[1] == "86400");
@@ -56,8 +56,8 @@ TEST_CASE("a run that begins after a century is that from 0 s on, to the picosec
   const Workspace late(two_filters());
   const Workspace early(two_filters());
   const std::string step = GENERATE("0.25", "0.3333333333333333");
-  run(early, {"--stop", "2", "--step", step, "--set", "first.u=1"});
-  run(late, {"--start", kCentury, "--stop", "3155760002", "--step", step, "--set", "first.u=1"});
+  run_long(early, {"--stop", "2", "--step", step, "--set", "first.u=1"});
+  run_long(late, {"--start", kCentury, "--stop", "3155760002", "--step", step, "--set", "first.u=1"});
   const Words times = times_of(late);
   REQUIRE(times.size() == times_of(early).size());
   CHECK(times[1] == (step == "0.25" ? "3155760000.25" : "3155760000.333333333333"));
@@ -75,7 +75,7 @@ TEST_CASE("components step with steps of their own in the last hours of a centur
   Arguments arguments{"--start", kCentury, "--stop", "3155767200",
                       "--step",  "3600",   "--step", "second=2400"};
   arguments.insert(arguments.end(), hosting.begin(), hosting.end());
-  run(workspace, arguments);
+  run_long(workspace, arguments);
   CHECK(times_of(workspace) ==
         Words{kCentury, "3155762400", "3155763600", "3155764800", "3155767200"});
 }
@@ -94,7 +94,7 @@ TEST_CASE("messages, interventions and checks are at exact times after a century
   const Arguments hosting = GENERATE(Arguments{}, Arguments{"--isolate"});
   Arguments arguments{"--start", kCentury, "--stop", "3155760002"};
   arguments.insert(arguments.end(), hosting.begin(), hosting.end());
-  run(workspace, arguments);
+  run_long(workspace, arguments);
   const Csv events(workspace / "out/events.csv");
   std::size_t received = 0;
   for (std::size_t i = 0; i < events.size(); ++i) {
@@ -107,7 +107,7 @@ TEST_CASE("messages, interventions and checks are at exact times after a century
 
 TEST_CASE("a trace of a run of years has a time scale of 1 ns") {
   const Workspace workspace(two_filters());
-  run(workspace, {"--stop", "31557600", "--step", "15778800"});
+  run_long(workspace, {"--stop", "31557600", "--step", "15778800"});
   CHECK_THAT(workspace.result("signals.vcd"), Contains("$timescale 1 ns $end") &&
                                                   Contains("\n#15778800000000000\n") &&
                                                   Contains("\n#31557600000000000\n"));

@@ -176,7 +176,7 @@ void Session::take_last(std::string_view line) {
 void Session::read_tag(std::string_view name) {
   if (name == "log") return take_log();
   if (name == "time-unit") {
-    const auto picoseconds = tag_.value<Picoseconds>("picoseconds");
+    const auto picoseconds = tag_.value<stride::Picoseconds>("picoseconds");
     if (picoseconds < 1) throw std::invalid_argument("expected at least one picosecond");
     unit_ = Duration(picoseconds);
     return;
@@ -262,9 +262,8 @@ Sync Session::take_sync(Time to, bool may_stop) {
 }
 
 Time Session::take_time(std::string_view attribute) const {
-  const auto number = tag_.value<Picoseconds>(attribute);
-  const Picoseconds most =
-      Duration(std::chrono::seconds(std::int64_t{1'000'000'000'000'000})) / unit_;
+  const auto number = tag_.value<stride::Picoseconds>(attribute);
+  const stride::Picoseconds most = stride::duration_from_seconds(stride::kMaxSeconds) / unit_;
   if (number < -most || number > most) {
     throw std::invalid_argument(std::string(attribute) + "=\"" + std::string(tag_.text(attribute)) +
                                 "\": expected a time within 1e15 s");

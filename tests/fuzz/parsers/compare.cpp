@@ -51,7 +51,7 @@ void compare_with(const std::string& bytes) {
         const auto& time = rows.differences[i].time;
         ensure(!time || (before && *before <= *time), "differences are in the order of time");
       }
-      settings.time_tolerance = 1'000'000;
+      settings.time_tolerance = Duration(1'000'000);
       compare::compare_results(a, b, settings);
     }
   });

@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "tests/at.h"
 #include "tests/master/report/support.h"
 
 using namespace stride::report;
@@ -23,7 +24,7 @@ TEST_CASE("a row of messages is read, whatever the order of the columns") {
       rows_of("index,time,component,variable,direction,content,payload\n3,0.5,a,y,sent,hi,00ff\n");
   REQUIRE(rows.table().next());
   const RecordedMessage message = rows.message();
-  CHECK(message.time == 500'000'000'000);
+  CHECK(message.time == stride::tests::at(0.5));
   CHECK(message.index == 3);
   CHECK(message.component == "a");
   CHECK(message.variable == "y");

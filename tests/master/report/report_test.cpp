@@ -6,6 +6,7 @@
 #include <catch2/catch.hpp>
 
 #include "master/report/page.h"
+#include "tests/at.h"
 #include "tests/master/report/support.h"
 
 using namespace stride;
@@ -14,6 +15,8 @@ using Catch::Contains;
 using core::ValueType;
 using nlohmann::json;
 using recorders::Plot;
+using stride::tests::at_picosecond;
+using stride::tests::at_picoseconds;
 
 namespace {
 
@@ -30,17 +33,17 @@ Results sample(const TemporaryFolder& folder) {
   results.run.components = {{"a", "A"}, {"b", "B"}};
   results.run.connections = {{"a.x", "b.u", "value"}};
   results.notes = {"something is missing"};
-  results.signals.times = {0, 1};
+  results.signals.times = at_picoseconds({0, 1});
   results.signals.columns = {
       column({"a.x", "m", ValueType::Float64, true}, {"nan", "-inf"}),
       column({"a.<n>", "", ValueType::Int64, false}, {"9007199254740993", "1"}),
       column({"a.on", "", ValueType::Boolean, false}, {"true", "false"})};
-  results.messages = {{14'200'358'702'064, 1, "a", "y", "sent", "00e8", "</script><!--\xff"}};
-  results.activities = {{"a", "idle", {0, 5}, {4, 9}}};
+  results.messages = {{at_picosecond(14'200'358'702'064), 1, "a", "y", "sent", "00e8", "</script><!--\xff"}};
+  results.activities = {{"a", "idle", at_picoseconds({0, 5}), at_picoseconds({4, 9})}};
   folder.write("0.jpg", "zero");
   folder.write("1.png", "one");
   results.folder = folder / "";
-  results.films = {{"world", {0, 7}, {"0.jpg", "1.png"}}};
+  results.films = {{"world", at_picoseconds({0, 7}), {"0.jpg", "1.png"}}};
   return results;
 }
 

@@ -5,6 +5,7 @@
 
 #include "master/observe/recorders/unit_folders.h"
 #include "master/report/world_file.h"
+#include "tests/at.h"
 #include "tests/master/report/support.h"
 
 using namespace stride;
@@ -12,12 +13,13 @@ using namespace stride::report;
 using Catch::Contains;
 using Catch::Equals;
 using Catch::StartsWith;
+using stride::tests::at_picosecond;
+using stride::tests::at_picoseconds;
 
 namespace {
 
-using Times = std::vector<std::int64_t>;
 
-constexpr std::int64_t kMillisecond = 1'000'000'000;
+constexpr std::int64_t kMillisecond = 1'000'000'000;  // [ps]
 
 const char* const kRun = R"({
   "outcome": "completed",
@@ -94,10 +96,10 @@ TEST_CASE("a results folder is read") {
   const Folder f;
   const Results results = f.read();
   CHECK(results.notes.empty());
-  CHECK(results.signals.times == Times{0, kMillisecond});
+  CHECK(results.signals.times == at_picoseconds({0, kMillisecond}));
   REQUIRE(results.messages.size() == 1);
   const RecordedMessage& message = results.messages[0];
-  CHECK(message.time == kMillisecond / 2);
+  CHECK(message.time == at_picosecond(kMillisecond / 2));
   CHECK(message.index == 2);
   CHECK(message.component == "b, c");
   CHECK(message.variable == "y");
@@ -108,8 +110,8 @@ TEST_CASE("a results folder is read") {
   CHECK(results.activities[0].kind == "event");
   CHECK(results.activities[1].kind == "idle");
   CHECK(results.activities[1].component == "a");
-  CHECK(results.activities[1].from == Times{0, kMillisecond});
-  CHECK(results.activities[1].until == Times{kMillisecond, 2 * kMillisecond});
+  CHECK(results.activities[1].from == at_picoseconds({0, kMillisecond}));
+  CHECK(results.activities[1].until == at_picoseconds({kMillisecond, 2 * kMillisecond}));
   CHECK(results.films.empty());
 }
 
@@ -142,7 +144,7 @@ TEST_CASE(
   const Results results = f.read();
   REQUIRE(results.films.size() == 1);
   CHECK(results.films[0].component == "world");
-  CHECK(results.films[0].times == Times{0, 2 * kMillisecond});
+  CHECK(results.films[0].times == at_picoseconds({0, 2 * kMillisecond}));
   CHECK(results.films[0].pictures[1].filename() == "1.jpg");
   REQUIRE(results.notes.size() == 1);
   CHECK(results.notes[0] == "units/world/film/frames.csv: 1 of its pictures are missing");
@@ -171,7 +173,7 @@ TEST_CASE("no link below the folder is followed to a film") {
     std::filesystem::create_symlink(outside.write("1.jpg", "secret"),
                                     f.folder / "units/world/film/1.jpg");
     const Results results = f.read();
-    CHECK(results.films.at(0).times == Times{0});
+    CHECK(results.films.at(0).times == at_picoseconds({0}));
     CHECK_THAT(results.notes.at(0),
                Equals("units/world/film/frames.csv: 1 of its pictures are left out: they are "
                       "links, no regular files, or larger than 16 MiB"));

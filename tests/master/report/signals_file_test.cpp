@@ -6,11 +6,14 @@
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
+#include "tests/at.h"
 #include "tests/master/report/support.h"
 
 using namespace stride::report;
 using Catch::Contains;
 using stride::core::ValueType;
+using stride::tests::at;
+using stride::tests::at_picoseconds;
 
 namespace {
 
@@ -49,7 +52,7 @@ TEST_CASE("times are exact, and columns have the types in run.json") {
   const Signals signals =
       read(kHeader + "0,1.5,true,\"a\"\n0.000000000001,2,false,\"b, c\"\n30,3,false,\"\"\n")
           .signals;
-  CHECK(signals.times == std::vector<std::int64_t>{0, 1, 30'000'000'000'000});
+  CHECK(signals.times == at_picoseconds({0, 1, 30'000'000'000'000}));
   REQUIRE(signals.columns.size() == 3);
   CHECK(signals.columns[0].name() == "a.x");
   CHECK(signals.columns[0].unit() == "m");
@@ -71,7 +74,7 @@ TEST_CASE("columns without a type in run.json get it from their values") {
 
 TEST_CASE("of several rows at one instant the last one counts") {
   const Signals signals = read(kHeader + "0,1,true,\"\"\n0,2,true,\"\"\n1,3,true,\"\"\n").signals;
-  CHECK(signals.times == std::vector<std::int64_t>{0, 1'000'000'000'000});
+  CHECK(signals.times == at_picoseconds({0, 1'000'000'000'000}));
   CHECK(doubles(signals.columns[0]) == std::vector<double>{2, 3});
 }
 
@@ -119,15 +122,15 @@ TEST_CASE("too many values are thinned while they are read, and no extreme is lo
   const Read found = read(text, 10'000);
   REQUIRE(found.signals.thinned);
   const std::size_t block = *found.signals.thinned;
-  const std::vector<std::int64_t>& times = found.signals.times;
+  const std::vector<stride::Time>& times = found.signals.times;
   CHECK(2 * times.size() <= 10'000);
   CHECK(times.size() > 500);
   CHECK(std::is_sorted(times.begin(), times.end()));
-  CHECK(times.back() == (static_cast<std::int64_t>(count) - 1) * 125'000'000'000);
+  CHECK(times.back() == at(static_cast<double>(count - 1) / 8));
   const std::vector<double>& kept = doubles(found.signals.columns[0]);
   std::vector<std::size_t> rows;
   for (std::size_t i = 0; i < times.size(); ++i) {
-    rows.push_back(static_cast<std::size_t>(times[i] / 125'000'000'000));
+    rows.push_back(static_cast<std::size_t>(8 * stride::to_seconds(times[i])));
     CHECK(kept[i] == all[rows.back()]);
   }
   for (std::size_t first = 0; first < count; first += block) {
@@ -153,7 +156,7 @@ TEST_CASE("of texts only those are kept whose rows are") {
   CHECK(texts.distinct().size() == found.signals.times.size());
   for (std::size_t row = 0; row < found.signals.times.size(); ++row) {
     CHECK(texts.distinct()[static_cast<std::size_t>(texts.indices()[row])] ==
-          fmt::format("name {}", found.signals.times[row] / 1'000'000'000'000));
+          fmt::format("name {}", stride::to_seconds(found.signals.times[row])));
   }
 }
 

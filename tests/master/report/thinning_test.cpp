@@ -8,8 +8,14 @@
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
+#include "tests/at.h"
+
 using namespace stride::report;
+using stride::Duration;
+using stride::Time;
 using stride::core::ValueType;
+using stride::tests::at_picosecond;
+using stride::tests::at_picoseconds;
 
 namespace {
 
@@ -48,17 +54,17 @@ TEST_CASE("in each block the least and the greatest of each column stay where th
   std::normal_distribution<double> normal;
   const std::size_t count = 1000;
   std::vector<double> a(count), b(count);
-  std::vector<std::int64_t> times(count);
+  std::vector<Time> times(count);
   for (std::size_t i = 0; i < count; ++i) {
     a[i] = normal(random);
     b[i] = normal(random) * 1e-9;
-    times[i] = static_cast<std::int64_t>(10 * i);
+    times[i] = at_picosecond(10 * static_cast<std::int64_t>(i));
   }
   b[700] = 3;  // a spike
   const std::size_t block = 100;
   for (std::size_t first = 0; first < count; first += block) {
-    std::vector<std::int64_t> part(times.begin() + static_cast<std::ptrdiff_t>(first),
-                                   times.begin() + static_cast<std::ptrdiff_t>(first + block));
+    std::vector<Time> part(times.begin() + static_cast<std::ptrdiff_t>(first),
+                           times.begin() + static_cast<std::ptrdiff_t>(first + block));
     std::vector<Column> parts;
     for (const auto* all : {&a, &b}) {
       parts.push_back(doubles({all->begin() + static_cast<std::ptrdiff_t>(first),
@@ -76,7 +82,7 @@ TEST_CASE("in each block the least and the greatest of each column stay where th
       CHECK(*std::min_element(found.begin(), found.end()) == *least);
       CHECK(*std::max_element(found.begin(), found.end()) == *most);
       for (std::size_t i = 0; i < part.size(); ++i) {
-        CHECK(found[i] == all[static_cast<std::size_t>(part[i] / 10)]);
+        CHECK(found[i] == all[static_cast<std::size_t>(part[i].time_since_epoch() / Duration(10))]);
       }
     }
   }
@@ -85,19 +91,19 @@ TEST_CASE("in each block the least and the greatest of each column stay where th
 TEST_CASE("NaN and infinities are not lost") {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const double infinity = std::numeric_limits<double>::infinity();
-  std::vector<std::int64_t> times = {0, 1, 2, 3, 4, 5, 6, 7};
+  std::vector<Time> times = at_picoseconds({0, 1, 2, 3, 4, 5, 6, 7});
   std::vector<Column> columns = {doubles({0, 1, nan, 1, infinity, 0, -5, 0})};
   thin(times, columns, 0);
-  CHECK(times == std::vector<std::int64_t>{0, 2, 4, 6, 7});
+  CHECK(times == at_picoseconds({0, 2, 4, 6, 7}));
   CHECK(std::isnan(values(columns[0])[1]));
   CHECK(values(columns[0])[2] == infinity);
 }
 
 TEST_CASE("rows before the block stay") {
-  std::vector<std::int64_t> times = {0, 1, 2, 3, 4};
+  std::vector<Time> times = at_picoseconds({0, 1, 2, 3, 4});
   std::vector<Column> columns = {doubles({5, 6, 0, 0, 0})};
   thin(times, columns, 2);
-  CHECK(times == std::vector<std::int64_t>{0, 1, 2, 4});
+  CHECK(times == at_picoseconds({0, 1, 2, 4}));
   thin(times, columns, 4);
   CHECK(times.size() == 4);
 }
@@ -111,7 +117,7 @@ TEST_CASE("what is held while rows are added stays below a bound, and the same r
   std::mt19937 random(5);
   std::normal_distribution<double> normal;
   std::vector<Column> columns(count, doubles({})), block(count, doubles({}));
-  std::vector<std::int64_t> times, block_times, expected;
+  std::vector<Time> times, block_times, expected;
   std::size_t most_held = 0;
   const auto end_block = [&] {
     thin(block_times, block, 0);
@@ -127,7 +133,7 @@ TEST_CASE("what is held while rows are added stays below a bound, and the same r
       columns[i].append({text, false});
       block[i].append({text, false});
     }
-    times.push_back(static_cast<std::int64_t>(row));
+    times.push_back(at_picosecond(static_cast<std::int64_t>(row)));
     block_times.push_back(times.back());
     most_held = std::max(most_held, times.size() * count);
   }

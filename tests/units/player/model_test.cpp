@@ -81,7 +81,7 @@ TEST_CASE("points between the captured ones are noted, and change nothing") {
   player.begin(0);
   CHECK(player.play_until(0.1) == "");
   CHECK(!player.moved);
-  CHECK(player.playback.position().beside == 100'000'000'000);
+  CHECK(player.playback.position().beside == time_from_seconds(0.1));
   CHECK(player.playback.target() == time_from_seconds(0.25));
   CHECK(player.play_until(0.25) == "level");
   CHECK(player.playback.position().late == -1);

@@ -10,6 +10,8 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <stride/time_text.h>
+
 #include "units/mujoco_world/write_error.h"
 
 namespace mujoco_world::film {

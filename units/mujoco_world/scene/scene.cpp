@@ -11,6 +11,8 @@
 #include <system_error>
 #include <utility>
 
+#include <stride/time_text.h>
+
 #include "units/mujoco_world/write_error.h"
 
 namespace mujoco_world::scene {

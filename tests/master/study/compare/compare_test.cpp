@@ -144,7 +144,7 @@ TEST_CASE("with a tolerance of time events are not compared") {
   Results other;
   other.folder.write("activity.csv", "time,until,component,kind\n0.25,0.25,tank,event\n");
   CHECK(compared_with(other).differences.size() == 1);
-  CHECK(compared_with(other, {.time_tolerance = 0}).differences.empty());
+  CHECK(compared_with(other, {.time_tolerance = Duration()}).differences.empty());
 }
 
 TEST_CASE("patterns mean signals and messages, and have to mean some") {

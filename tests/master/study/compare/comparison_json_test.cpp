@@ -25,8 +25,8 @@ std::string keys_of(const Json& object) {
 }  // namespace
 
 TEST_CASE("the keys of the file are those of the page docs/compare.md, in their order") {
-  Difference difference{Kind::Signal, "tank.level", kSecond, "1", "2", 3};
-  difference.absolute = {1, kSecond, "1", "2"};
+  Difference difference{Kind::Signal, "tank.level", Time(kSecond), "1", "2", 3};
+  difference.absolute = {1, Time(kSecond), "1", "2"};
   Comparison comparison{.a = "x", .b = "y", .differences = {difference}};
   comparison.inputs = {{"option", "--set", "a.b=1", ""}};
   const Json json = written(comparison, {.tolerances = {{"tank.*", {1, 2}, {}}}});

@@ -33,7 +33,7 @@ TEST_CASE("another outcome is one, and has the time of the run that ended first"
   const Differences differences =
       differences_with(R"("completed", "reached": 10.0)", R"("failed", "reached": 4.5)");
   REQUIRE(names_of(differences) == Names{"outcome outcome"});
-  CHECK(differences[0].time == 4 * kSecond + kSecond / 2);
+  CHECK(differences[0].time == Time(4 * kSecond + kSecond / 2));
   CHECK(differences[0].b == "failed");
 }
 
@@ -55,7 +55,7 @@ TEST_CASE("a verdict that passed in one run alone is one") {
 TEST_CASE("a check that failed at another time is one, but for the tolerance of time") {
   const Differences differences = differences_with("1.5", "1.75");
   REQUIRE(names_of(differences) == Names{"check warm"});
-  CHECK(differences[0].time == kSecond + kSecond / 2);
+  CHECK(differences[0].time == Time(kSecond + kSecond / 2));
   CHECK(differences[0].b == "failed at 1.75 s");
   CHECK(differences_with("1.5", "1.75", {.time_tolerance = kSecond / 4}).empty());
   CHECK(differences_with("1.5", "1.75", {.time_tolerance = kSecond / 5}).size() == 1);

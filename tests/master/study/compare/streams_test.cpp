@@ -2,6 +2,7 @@
 
 #include "tests/master/study/compare/support.h"
 
+using namespace stride;
 using namespace stride::compare;
 using Catch::Contains;
 
@@ -18,7 +19,7 @@ Streams messages(const std::string& rows) {
 }
 
 Differences differences_between(const std::string& a, const std::string& b,
-                                std::optional<std::int64_t> time_tolerance = {},
+                                std::optional<Duration> time_tolerance = {},
                                 const Selection& selection = Selection({}, {})) {
   return compare_streams(messages(a), messages(b), time_tolerance, selection, "events.csv");
 }
@@ -34,7 +35,7 @@ TEST_CASE("a message with another payload is a difference of its stream") {
   const Differences differences =
       differences_between(kPing + kPong, kPing + "2,0,b,y,sent,02,pang\n");
   REQUIRE(names_of(differences) == Names{"message b.y sent"});
-  CHECK(differences[0].time == 2 * kSecond);
+  CHECK(differences[0].time == Time(2 * kSecond));
   CHECK(differences[0].a == "pong");
   CHECK(differences[0].b == "pang");
   CHECK(differences_between(kPong, "2,0,b,y,sent,02,pong\n").at(0).a == "01");
@@ -43,7 +44,7 @@ TEST_CASE("a message with another payload is a difference of its stream") {
 TEST_CASE("a message at another instant, or in another iteration, is one") {
   const Differences later = differences_between(kPong, "2.5,0,b,y,sent,01,pong\n");
   REQUIRE(later.size() == 1);
-  CHECK(later[0].time == 2 * kSecond);
+  CHECK(later[0].time == Time(2 * kSecond));
   CHECK(later[0].a == "at 2 s");
   CHECK(later[0].b == "at 2.5 s");
   CHECK(differences_between(kPong, "2,1,b,y,sent,01,pong\n").at(0).b == "in iteration 1");
@@ -53,7 +54,7 @@ TEST_CASE("messages that one run has not are counted") {
   const Differences missing =
       differences_between(kPong, kPong + "3,0,b,y,sent,01,\n4,0,b,y,sent,01,\n");
   REQUIRE(missing.size() == 1);
-  CHECK(missing[0].time == 3 * kSecond);
+  CHECK(missing[0].time == Time(3 * kSecond));
   CHECK(missing[0].a == "1 in all");
   CHECK(missing[0].b == "3 in all");
   CHECK(missing[0].count == 2);
@@ -70,9 +71,9 @@ TEST_CASE("with a tolerance of time instants may differ by it, and what was said
 TEST_CASE("the order of messages of several variables is a difference, if nothing is tolerated") {
   const Differences order = differences_between(kPing + kReceived, kReceived + kPing);
   REQUIRE(names_of(order) == Names{"file events.csv"});
-  CHECK(order[0].time == kSecond);
+  CHECK(order[0].time == Time(kSecond));
   CHECK(order[0].a == "first a.y sent");
-  CHECK(differences_between(kPing + kReceived, kReceived + kPing, 0).empty());
+  CHECK(differences_between(kPing + kReceived, kReceived + kPing, Duration()).empty());
 }
 
 TEST_CASE("messages of variables that are not selected are left out, also of the order") {

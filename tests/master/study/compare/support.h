@@ -11,15 +11,18 @@
 #include <catch2/catch.hpp>
 
 #include "master/study/compare/compare.h"
+#include "tests/at.h"
 #include "tests/master/system/ssp/support.h"
 
 namespace stride::compare {
 
+using tests::at_picosecond;
+using tests::at_picoseconds;
 using tests::content;
 using tests::error_of;
 using tests::TemporaryFolder;
 
-constexpr std::int64_t kSecond = 1'000'000'000'000;
+constexpr Duration kSecond = std::chrono::seconds(1);
 
 /// "signal a.x": what differs, in the order of the list.
 inline std::vector<std::string> names_of(const Differences& differences) {

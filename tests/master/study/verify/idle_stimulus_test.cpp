@@ -6,11 +6,14 @@
 #include <string>
 
 #include "master/study/verify/idle_comparison.h"
+#include "tests/at.h"
 #include "tests/master/loader/fmu/support.h"
 
 using namespace stride;
 using namespace stride::verify;
 using Catch::Matchers::Contains;
+using stride::tests::at;
+using stride::tests::at_picosecond;
 
 namespace {
 
@@ -39,8 +42,8 @@ std::size_t count_beyond(const std::vector<double>& values, double distance) {
 /// A recording with one event, and of each point the outputs level and reports and the promises.
 Recording recording(std::int64_t event, const std::string& level, const std::string& reports) {
   Recording made;
-  made.rows.push_back({event, {"report"}, true});
-  made.rows.push_back({1'000'000'000, {level, reports, "2"}, false});
+  made.rows.push_back({at_picosecond(event), {"report"}, true});
+  made.rows.push_back({at(0.001), {level, reports, "2"}, false});
   return made;
 }
 

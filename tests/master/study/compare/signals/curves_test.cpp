@@ -16,7 +16,8 @@ std::optional<Difference> compared(const Times& times_a, const report::Column& a
                                    const Times& times_b, const report::Column& b,
                                    const CurveTolerances& tolerances) {
   SignalTally tally("a.x");
-  compare_curves({times_a, a}, {times_b, b}, tolerances, tally);
+  const std::vector<Time> in_a = at_picoseconds(times_a), in_b = at_picoseconds(times_b);
+  compare_curves({in_a, a}, {in_b, b}, tolerances, tally);
   return tally.difference();
 }
 
@@ -30,7 +31,7 @@ TEST_CASE("a continuous signal goes straight from row to row") {
   CHECK_FALSE(compared({0, 4}, coarse, {0, 1, 4}, fine, kNear));
   const auto difference = compared({0, 4}, coarse, {0, 2, 4}, fine, kNear);
   REQUIRE(difference);
-  CHECK(difference->time == 2);
+  CHECK(difference->time == at_picosecond(2));
   CHECK(difference->a == "2");
   CHECK(difference->b == "1");
   CHECK(difference->count == 1);
@@ -57,20 +58,20 @@ TEST_CASE("a held signal keeps its value until the next row") {
   CHECK_FALSE(compared({0, 4}, a, {0, 3, 4}, reals({"0", "0", "1"}, false), held));
   const auto early = compared({0, 4}, a, {0, 3, 4}, reals({"0", "1", "1"}, false), held);
   REQUIRE(early);
-  CHECK(early->time == 3);
+  CHECK(early->time == at_picosecond(3));
   CHECK(early->a == "0");
 }
 
 TEST_CASE("a step of a held signal may be as late as the tolerance of time") {
-  CurveTolerances held{.time = 2, .is_held = true};
+  CurveTolerances held{.time = Duration(2), .is_held = true};
   const report::Column a = reals({"0", "1", "1"}, false);
   CHECK_FALSE(compared({0, 10, 20}, a, {0, 12, 20}, a, held));
-  held.time = 1;
+  held.time = Duration(1);
   CHECK(compared({0, 10, 20}, a, {0, 12, 20}, a, held));
 }
 
 TEST_CASE("a pulse that one run has not is seen, however wide the tolerance of time is") {
-  const CurveTolerances held{.time = 5, .is_held = true};
+  const CurveTolerances held{.time = Duration(5), .is_held = true};
   const report::Column flat = reals({"0", "0"}, false);
   const report::Column pulse = reals({"0", "1", "0", "0"}, false);
   CHECK(compared({0, 100}, flat, {0, 50, 51, 100}, pulse, held)->count == 1);
@@ -79,7 +80,7 @@ TEST_CASE("a pulse that one run has not is seen, however wide the tolerance of t
 
 TEST_CASE("a steep continuous signal may be as late as the tolerance of time") {
   const report::Column a = reals({"0", "0", "10", "10"});
-  const CurveTolerances tolerances{.time = 3, .value = {1e-9, 0}};
+  const CurveTolerances tolerances{.time = Duration(3), .value = {1e-9, 0}};
   CHECK_FALSE(compared({0, 10, 20, 40}, a, {0, 13, 23, 40}, a, tolerances));
   CHECK(compared({0, 10, 20, 40}, a, {0, 14, 24, 40}, a, tolerances));
 }
@@ -93,7 +94,7 @@ TEST_CASE("at an event a signal has the values of all rows of the instant") {
       compared({0, 5, 5, 10}, reals({"0", "1", "1", "1"}), {0, 5, 10}, reals({"0", "1", "1"}), {}));
   const auto other = compared(with_event, jump, with_event, reals({"0", "0", "2", "1"}), {});
   REQUIRE(other);
-  CHECK(other->time == 5);
+  CHECK(other->time == at_picosecond(5));
   CHECK(other->b == "2");
 }
 
@@ -106,13 +107,13 @@ TEST_CASE("texts have to be within the tolerance of time") {
   const report::Column a = column("a.x", core::ValueType::String, {"idle", "busy"});
   CHECK_FALSE(compared({0, 10}, a, {0, 11, 12},
                        column("a.x", core::ValueType::String, {"idle", "busy", "busy"}),
-                       {.time = 1, .is_held = true}));
+                       {.time = Duration(1), .is_held = true}));
   const auto late =
       compared({0, 10, 20}, column("a.x", core::ValueType::String, {"idle", "busy", "busy"}),
                {0, 12, 20}, column("a.x", core::ValueType::String, {"idle", "busy", "busy"}),
-               {.time = 1, .is_held = true});
+               {.time = Duration(1), .is_held = true});
   REQUIRE(late);
-  CHECK(late->time == 10);
+  CHECK(late->time == at_picosecond(10));
   CHECK(late->a == "busy");
   CHECK(late->b == "idle");
 }
@@ -152,8 +153,9 @@ TEST_CASE("the nearest value is that of a search of all, for random curves") {
     std::size_t expected = 0;
     for (std::size_t i = 0; i < times_a.size(); ++i) expected += value_is_near(i) ? 0 : 1;
     SignalTally tally("a.x");
-    compare_curves({times_b, b}, {times_a, a},
-                   {.time = tolerance, .is_held = true, .only_rows_of_b = true}, tally);
+    const std::vector<Time> in_a = at_picoseconds(times_a), in_b = at_picoseconds(times_b);
+    compare_curves({in_b, b}, {in_a, a},
+                   {.time = Duration(tolerance), .is_held = true, .only_rows_of_b = true}, tally);
     const auto difference = tally.difference();
     CHECK((difference ? difference->count : 0) == expected);
   }

@@ -18,7 +18,7 @@ RecordedSignals recorded(const std::string& text,
 
 TEST_CASE("all rows are read, also several at one instant") {
   const RecordedSignals signals = recorded("time,a.x [m],a.on\n0,1,true\n1,2,true\n1,3,false\n");
-  CHECK(signals.times == std::vector<std::int64_t>{0, kSecond, kSecond});
+  CHECK(signals.times == std::vector<Time>{Time(), Time(kSecond), Time(kSecond)});
   REQUIRE(signals.columns.size() == 2);
   CHECK(signals.columns[0].name() == "a.x");
   CHECK(signals.columns[0].unit() == "m");

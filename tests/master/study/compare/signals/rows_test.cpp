@@ -11,15 +11,15 @@ using Places = std::vector<std::size_t>;
 using Pairs = std::vector<std::pair<std::size_t, std::size_t>>;
 
 RowPairs pairs_of(std::vector<std::int64_t> a, std::vector<std::int64_t> b) {
-  return pair_rows(a, b);
+  return pair_rows(at_picoseconds(a), at_picoseconds(b));
 }
 
 std::optional<Difference> difference_of(const report::Column& a, const report::Column& b,
                                         Tolerance tolerance = {}) {
-  std::vector<std::int64_t> times;
+  std::vector<Time> times;
   Pairs rows;
   for (std::size_t i = 0; i < a.size(); ++i) {
-    times.push_back(static_cast<std::int64_t>(i) * kSecond);
+    times.push_back(Time(static_cast<std::int64_t>(i) * kSecond));
     rows.emplace_back(i, i);
   }
   SignalTally tally("a.x");
@@ -53,7 +53,7 @@ TEST_CASE("values are compared bit by bit, or within the tolerance") {
   const report::Column b = reals({"1", "0.10000000000000002", "NaN", "-0"});
   const auto difference = difference_of(a, b);
   REQUIRE(difference);
-  CHECK(difference->time == kSecond);
+  CHECK(difference->time == Time(kSecond));
   CHECK(difference->count == 2);
   CHECK_FALSE(difference_of(a, b, {1e-9, 0}));
 }

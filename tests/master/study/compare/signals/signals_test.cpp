@@ -33,7 +33,7 @@ TEST_CASE("each signal with other values is one difference") {
   const Differences differences =
       differences_of(kSignals, "time,tank.level [m],tank.count\n0,1,0\n1,2.5,2\n");
   REQUIRE(names_of(differences) == Names{"signal tank.level", "signal tank.count"});
-  CHECK(differences[0].time == kSecond);
+  CHECK(differences[0].time == Time(kSecond));
   CHECK(differences[0].a == "2");
   CHECK(differences[0].b == "2.5");
   CHECK(differences[0].absolute->value == 0.5);
@@ -63,7 +63,7 @@ TEST_CASE("rows that one run has not are a difference, and the others are compar
   const Differences differences =
       differences_of(kSignals, "time,tank.level [m],tank.count\n0,1,0\n0.5,1,0\n0.75,9,9\n1,2,2\n");
   REQUIRE(names_of(differences) == Names{"file signals.csv", "signal tank.count"});
-  CHECK(differences[0].time == kSecond / 2);
+  CHECK(differences[0].time == Time(kSecond / 2));
   CHECK(differences[0].a == "none");
   CHECK(differences[0].b == kRow);
   CHECK(differences[0].count == 2);
@@ -99,7 +99,7 @@ TEST_CASE("what is not selected is not compared") {
 }
 
 TEST_CASE("with a tolerance of time signals are curves: straight, or held as run.json has it") {
-  const Settings curves{.time_tolerance = 0};
+  const Settings curves{.time_tolerance = Duration()};
   const std::string whole = "time,tank.level [m],tank.count\n0,0,0\n1,1,1\n";
   const std::string halves = "time,tank.level [m],tank.count\n0,0,0\n0.5,0.5,0\n1,1,1\n";
   CHECK(differences_of(whole, halves, curves).empty());
@@ -109,7 +109,7 @@ TEST_CASE("with a tolerance of time signals are curves: straight, or held as run
 }
 
 TEST_CASE("a signal is held if one of the runs says so") {
-  const Settings curves{.time_tolerance = 0};
+  const Settings curves{.time_tolerance = Duration()};
   report::SignalInfo held = kLevel;
   held.is_continuous = false;
   const std::string whole = "time,tank.level [m]\n0,0\n1,1\n";
@@ -124,18 +124,18 @@ TEST_CASE("a signal is held if one of the runs says so") {
 TEST_CASE("a run that ends earlier, or begins later, differs, but for the tolerance of time") {
   const std::string longer = "time,tank.level [m],tank.count\n0,1,0\n1,1,0\n3,1,0\n";
   const std::string shorter = "time,tank.level [m],tank.count\n0,1,0\n1,1,0\n";
-  const Differences differences = differences_of(longer, shorter, {.time_tolerance = 0});
+  const Differences differences = differences_of(longer, shorter, {.time_tolerance = Duration()});
   REQUIRE(names_of(differences) == Names{"file signals.csv"});
   CHECK(differences[0].a == "rows until 3 s");
   CHECK(differences[0].b == "rows until 1 s");
-  CHECK(differences[0].time == kSecond);
+  CHECK(differences[0].time == Time(kSecond));
   CHECK(differences_of(longer, shorter, {.time_tolerance = 2 * kSecond}).empty());
-  CHECK(differences_of(longer, shorter, {.time_tolerance = 0, .is_golden = true}).empty());
-  CHECK(differences_of(shorter, longer, {.time_tolerance = 0, .is_golden = true}).size() == 1);
-  CHECK(differences_of(shorter, "time,tank.level [m],tank.count\n1,1,0\n", {.time_tolerance = 0})
+  CHECK(differences_of(longer, shorter, {.time_tolerance = Duration(), .is_golden = true}).empty());
+  CHECK(differences_of(shorter, longer, {.time_tolerance = Duration(), .is_golden = true}).size() == 1);
+  CHECK(differences_of(shorter, "time,tank.level [m],tank.count\n1,1,0\n", {.time_tolerance = Duration()})
             .at(0)
             .b == "rows from 1 s on");
   CHECK(
-      differences_of(shorter, "time,tank.level [m],tank.count\n", {.time_tolerance = 0}).at(0).b ==
+      differences_of(shorter, "time,tank.level [m],tank.count\n", {.time_tolerance = Duration()}).at(0).b ==
       "no rows");
 }

@@ -185,8 +185,8 @@ class Program {
   }
   Duration picoseconds_of(std::string_view attribute) const {
     const auto number = tag_.value<Picoseconds>(attribute);
-    constexpr auto kMost = static_cast<Picoseconds>(kMaxSeconds * 1e12);
-    if (number >= -kMost / unit_ && number <= kMost / unit_) return Duration(number * unit_);
+    const Picoseconds most = duration_from_seconds(kMaxSeconds).count() / unit_;
+    if (number >= -most && number <= most) return Duration(number * unit_);
     throw std::invalid_argument(std::string(attribute) + ": expected a time within 1e15 s");
   }
   /// Makes the unit of time a picosecond if the instant is not a multiple of it.

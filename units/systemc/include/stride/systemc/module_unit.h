@@ -362,7 +362,8 @@ class ModuleUnit : public DeviceUnit<Module> {
   void on_skip(Module& module, Duration skipped) override {
     if (!catch_up_) return;
     const Duration period = shortest_period();
-    catch_up_(module, Skipped{skipped, period > Duration{} ? skipped / period : 0});
+    const Picoseconds cycles = period > Duration{} ? skipped / period : 0;
+    catch_up_(module, Skipped{skipped, static_cast<std::int64_t>(cycles)});
   }
   bool is_watched() const override { return !catch_up_; }
   Duration tangents_hold_for(const Module& /*module*/) const override {
