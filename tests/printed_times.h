@@ -1,5 +1,5 @@
-// How Catch2 prints times: the << that libstdc++ declares for durations does not compile for 128 bits. All tests are
-// compiled with this header (cmake/StrideTestHeaders.cmake).
+// How Catch2 prints times: the << that libstdc++ declares for durations does not compile for 128
+// bits. All tests are compiled with this header (cmake/StrideTestHeaders.cmake).
 #ifndef STRIDE_TESTS_PRINTED_TIMES_H
 #define STRIDE_TESTS_PRINTED_TIMES_H
 

@@ -43,15 +43,6 @@ inline std::int64_t nearest(double value) {
 
 }  // namespace detail
 
-/// The nearest double [s].
-constexpr double to_seconds(Duration duration) {
-  const Picoseconds count = duration.count();
-  const auto narrow = static_cast<std::int64_t>(count);
-  return (detail::is_narrow(count) ? static_cast<double>(narrow) : static_cast<double>(count)) /
-         1e12;
-}
-constexpr double to_seconds(Time time) { return to_seconds(time.time_since_epoch()); }
-
 /// Whole seconds and the picoseconds beside them, both of the same sign.
 struct SplitDuration {
   std::int64_t seconds, picoseconds;
@@ -66,6 +57,17 @@ constexpr SplitDuration split(Duration duration) {
   return {static_cast<std::int64_t>(count / detail::kPicosecondsPerSecond),
           static_cast<std::int64_t>(count % detail::kPicosecondsPerSecond)};
 }
+
+/// The nearest double [s].
+constexpr double to_seconds(Duration duration) {
+  if (detail::is_narrow(duration.count())) {
+    return static_cast<double>(static_cast<std::int64_t>(duration.count())) / 1e12;
+  }
+  const Picoseconds seconds = duration.count() / detail::kPicosecondsPerSecond;
+  const Picoseconds rest = duration.count() % detail::kPicosecondsPerSecond;
+  return static_cast<double>(seconds) + static_cast<double>(rest) / 1e12;
+}
+constexpr double to_seconds(Time time) { return to_seconds(time.time_since_epoch()); }
 
 /// The nearest picosecond. Throws std::out_of_range for what is not finite or beyond kMaxSeconds.
 inline Duration duration_from_seconds(double seconds) {

@@ -147,6 +147,17 @@ TEST_CASE("--set explains what is wrong with it") {
   CHECK_FALSE(fs::exists(workspace / "out"));
 }
 
+TEST_CASE("a step size that the policy of the scenario has no use for is said") {
+  Parts parts = two_filters();
+  parts.annotation += "<stride:Step policy='event-driven' maximum='0.25'/>";
+  const Workspace workspace(parts);
+  const Outcome outcome = workspace.run({"--step", "0.1", "--quiet"});
+  INFO(outcome.err);
+  CHECK(outcome.exit_code == 0);
+  CHECK_THAT(outcome.err,
+             Contains("--step 0.1: with the policy 'event-driven' steps end at events"));
+}
+
 TEST_CASE("options that contradict each other are refused") {
   const Workspace workspace(two_filters());
   const auto error = [&](const Arguments& arguments) {

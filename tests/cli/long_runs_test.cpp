@@ -57,7 +57,8 @@ TEST_CASE("a run that begins after a century is that from 0 s on, to the picosec
   const Workspace early(two_filters());
   const std::string step = GENERATE("0.25", "0.3333333333333333");
   run_long(early, {"--stop", "2", "--step", step, "--set", "first.u=1"});
-  run_long(late, {"--start", kCentury, "--stop", "3155760002", "--step", step, "--set", "first.u=1"});
+  run_long(late,
+           {"--start", kCentury, "--stop", "3155760002", "--step", step, "--set", "first.u=1"});
   const Words times = times_of(late);
   REQUIRE(times.size() == times_of(early).size());
   CHECK(times[1] == (step == "0.25" ? "3155760000.25" : "3155760000.333333333333"));

@@ -34,7 +34,7 @@ TEST_CASE("a sine stays within the tolerance for the computed time, and not for 
 
 TEST_CASE("what has no curvature keeps to its tangent for ever") {
   CHECK(tangent_holds_for(1e-9, 0) == Duration::max());
-  CHECK(tangent_holds_for(1e9, 1e-9) == Duration::max());
+  CHECK(tangent_holds_for(1e25, 1e-9) == Duration::max());
   CHECK(tangent_holds_for(1e300, 1e-300) == Duration::max());
   CHECK(tangent_holds_for(1e9, 0, 1e-9) == Duration::max());
 }

@@ -27,7 +27,10 @@ std::vector<Intervention> random_interventions(const Assembly& assembly, unsigne
   const std::set<VariableId> loops = inputs_of_loops(system);
   std::mt19937 random(seed);
   const auto instant = [&](Duration from, Duration until) {
-    return Time(Duration(std::uniform_int_distribution(from.count(), until.count())(random)));
+    const auto count = [](Duration duration) {
+      return static_cast<std::int64_t>(duration.count());
+    };
+    return Time(Duration(std::uniform_int_distribution(count(from), count(until))(random)));
   };
   const auto value = [&] {
     ValueBlock block(ValueType::Float64, 1);

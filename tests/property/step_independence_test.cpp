@@ -148,7 +148,7 @@ TEST_CASE("random systems that are coupled through events only have one result f
   for (unsigned seed = 0; seed < kSystems; ++seed) {
     const Assembly system = random_system(seed, Wiring::EventsOnly);
     const Duration step = Duration(20us) + Duration(random_bits(seed, 0) % 10'000'000'000);
-    INFO("seed " << seed << ", step " << step.count() << " ps\n" << system.text());
+    INFO("seed " << seed << ", step " << stride::decimal_seconds(step) << " s\n" << system.text());
     const Results expected = run(system, 1ms, stop);
     const Assembly varied = seed % 2 == 0 ? system : system.with_own_steps(seed);
     const Results results = run(varied, step, stop);

@@ -402,10 +402,10 @@ class TableReader {
     const bool is_time = mistake == std::errc() && end == last && !text.empty();
     if (is_time && std::abs(ticks) <= stride::kMaxSeconds * 1e12L) return ticks;
     const bool is_number = end == last && !text.empty() && !std::isnan(number);
-    throw std::invalid_argument(
-        "column 'time': '" + text + "' is " +
-        (is_number ? "beyond 1e15 s, the largest time; let the times begin at 0"
-                   : "not a time; expected a number"));
+    throw std::invalid_argument("column 'time': '" + text + "' is " +
+                                (is_number
+                                     ? "beyond 1e15 s, the largest time; let the times begin at 0"
+                                     : "not a time; expected a number"));
   }
 
   bool has_field(std::size_t i) const { return rows_.is_quoted(i + 1) || !field(i).empty(); }

@@ -96,12 +96,13 @@ void check_requested(const ResolvedSystem& resolved, const StepSettings& request
                         std::ranges::any_of(resolved.components(), takes_run_step);
   if (request.size && !has_size) {
     const std::string size = core::to_text(*request.size);
-    core::fail_input({},
-                     fmt::format("--step {}: with the policy '{}' steps end at events, so none "
-                                 "has this size",
-                                 size, policy.name),
-                     fmt::format("limit the steps by --max-step {}, or use --policy {}", size,
-                                 core::kFixedSteps.name));
+    const std::string text =
+        fmt::format("--step {}: with the policy '{}' steps end at events, so none has this size",
+                    size, policy.name);
+    const std::string hint = fmt::format("limit the steps by --max-step {}, or use --policy {}",
+                                         size, core::kFixedSteps.name);
+    if (request.policy) core::fail_input({}, text, hint);
+    spdlog::warn("{}; {}", text, hint);
   }
   const bool has_tolerance = request.relative_tolerance || request.absolute_tolerance;
   if (!has_tolerance || policy.controls_error) return;

@@ -424,16 +424,17 @@ TEST_CASE("a step must start at the unit's time, be positive, and end before the
   CHECK(unit.last.reached == 1);
 }
 
-TEST_CASE("instants may be further apart than a duration can be") {
+TEST_CASE("instants may be further apart than a step can be") {
   const UnitLibrary library(unit_library("stepper"));
   UnitInstance unit(library);
-  REQUIRE(unit.set_real("largest_step", 9.2e6) == fmi3OK);
-  REQUIRE(unit.start_steps(-9.1e6) == fmi3OK);
-  CHECK(unit.step(9.1e6, 1) == fmi3Error);
-  CHECK_THAT(unit.last_message(), Contains("is at -9100000 s, but the step starts at 9100000 s"));
-  CHECK(unit.step(-9.1e6, 18.2e6) == fmi3Error);
-  CHECK_THAT(unit.last_message(), Contains("step size must be at most 9200000 s"));
-  CHECK(unit.step(-9.1e6, 9.1e6) == fmi3OK);
+  REQUIRE(unit.set_real("largest_step", 1e15) == fmi3OK);
+  REQUIRE(unit.start_steps(-9e14) == fmi3OK);
+  CHECK(unit.step(9e14, 1) == fmi3Error);
+  CHECK_THAT(unit.last_message(),
+             Contains("is at -900000000000000 s, but the step starts at 900000000000000 s"));
+  CHECK(unit.step(-9e14, 18e14) == fmi3Error);
+  CHECK_THAT(unit.last_message(), Contains("step size must be at most 1e+15 s"));
+  CHECK(unit.step(-9e14, 9e14) == fmi3OK);
 }
 
 TEST_CASE("a rejected step is fmi3Discard with its reason and leaves the unit as it was") {

@@ -38,7 +38,8 @@ Results sample(const TemporaryFolder& folder) {
       column({"a.x", "m", ValueType::Float64, true}, {"nan", "-inf"}),
       column({"a.<n>", "", ValueType::Int64, false}, {"9007199254740993", "1"}),
       column({"a.on", "", ValueType::Boolean, false}, {"true", "false"})};
-  results.messages = {{at_picosecond(14'200'358'702'064), 1, "a", "y", "sent", "00e8", "</script><!--\xff"}};
+  results.messages = {
+      {at_picosecond(14'200'358'702'064), 1, "a", "y", "sent", "00e8", "</script><!--\xff"}};
   results.activities = {{"a", "idle", at_picoseconds({0, 5}), at_picoseconds({4, 9})}};
   folder.write("0.jpg", "zero");
   folder.write("1.png", "one");

@@ -18,7 +18,6 @@ using stride::tests::at_picoseconds;
 
 namespace {
 
-
 constexpr std::int64_t kMillisecond = 1'000'000'000;  // [ps]
 
 const char* const kRun = R"({

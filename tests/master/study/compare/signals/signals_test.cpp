@@ -131,11 +131,13 @@ TEST_CASE("a run that ends earlier, or begins later, differs, but for the tolera
   CHECK(differences[0].time == Time(kSecond));
   CHECK(differences_of(longer, shorter, {.time_tolerance = 2 * kSecond}).empty());
   CHECK(differences_of(longer, shorter, {.time_tolerance = Duration(), .is_golden = true}).empty());
-  CHECK(differences_of(shorter, longer, {.time_tolerance = Duration(), .is_golden = true}).size() == 1);
-  CHECK(differences_of(shorter, "time,tank.level [m],tank.count\n1,1,0\n", {.time_tolerance = Duration()})
+  CHECK(differences_of(shorter, longer, {.time_tolerance = Duration(), .is_golden = true}).size() ==
+        1);
+  CHECK(differences_of(shorter, "time,tank.level [m],tank.count\n1,1,0\n",
+                       {.time_tolerance = Duration()})
             .at(0)
             .b == "rows from 1 s on");
-  CHECK(
-      differences_of(shorter, "time,tank.level [m],tank.count\n", {.time_tolerance = Duration()}).at(0).b ==
-      "no rows");
+  CHECK(differences_of(shorter, "time,tank.level [m],tank.count\n", {.time_tolerance = Duration()})
+            .at(0)
+            .b == "no rows");
 }
