@@ -106,8 +106,7 @@ Time IdleScheduler::leaves_deadband(const WatchedInput& input, Time time) {
   const double room = input.deadband - (rate > 0 ? deviation : -deviation);
   const double seconds = room / std::abs(rate);
   if (!(seconds > 0)) return time;
-  return seconds < to_seconds(Time::max() - time) ? time + duration_from_seconds(seconds)
-                                                  : Time::max();
+  return seconds <= kMaxSeconds ? time + duration_from_seconds(seconds) : Time::max();
 }
 
 Duration IdleScheduler::suspended_time(Time time) const {

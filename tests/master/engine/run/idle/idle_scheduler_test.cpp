@@ -267,6 +267,17 @@ TEST_CASE("when all units are suspended no tangent takes an input out of its dea
   CHECK(times.size() < 9);  // it still goes on to where the deadband ends
 }
 
+TEST_CASE("an input that leaves its deadband later than any time can be ends no suspension") {
+  const double slope = GENERATE(1e-9, 1e-16, 1e-25, 1e-300);
+  ScriptedSystem f;
+  Integrator feeds(f.add("feeds", Integrator::description().done()));
+  Integrator follows(f.add("follows", Integrator::description(1.0).done()));
+  f.wire("feeds", "y", "follows", "u");
+  f.options.idle.max_skip = {Duration::max(), Duration::max()};
+  feeds.unit->number(0) = slope;
+  CHECK(points(f, 0.1, 10ms) == std::vector<Time>{at(0), at(0.1)});
+}
+
 TEST_CASE("when all units are suspended no step is longer than the maximum") {
   IdleSystem f;
   f.integrator("a");
