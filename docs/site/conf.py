@@ -42,15 +42,18 @@ exclude_patterns = ["build*", "results*", "master", "**/.*", "**/__pycache__"]
 
 CONTENTS = {
     "README": {
-        "Start": "All pages <docs/README>, docs/first-steps, docs/wheel, docs/container, docs/accelerometer",
-        "Scenarios and runs": "docs/scenario, docs/cli, docs/report, docs/compare, docs/export, docs/checks, docs/coverage, docs/stimuli,"
-        " docs/checkpoints, docs/traces, docs/film, docs/scene, docs/hosts, docs/remote, scenarios/README",
-        "Many runs": "docs/campaigns, docs/search, docs/distil",
-        "Python and C": "docs/python, docs/site/python-api, docs/python-peers, docs/library, docs/site/c-api",
-        "Units": "docs/unit-guide, docs/python-units, docs/wrap-systemc, docs/wrap-core, docs/bring-your-robot, docs/process-protocol,"
-        " docs/units-of-measure, docs/units-of-others, docs/attributes, docs/verify, units/*/README, tests/test_units/README",
-        "How it works": "docs/architecture, docs/stepping, docs/idle, docs/performance, docs/paper, docs/variations,"
-        " docs/decisions/README",
+        "Start": "All pages <docs/README>",
+        "Learn": "docs/first-steps, docs/accelerometer",
+        "How-to: install": "docs/wheel, docs/container",
+        "How-to: runs": "docs/report, docs/checks, docs/compare, docs/coverage, docs/stimuli, docs/checkpoints, docs/traces, docs/film,"
+        " docs/scene, docs/export, docs/hosts, docs/remote",
+        "How-to: many runs": "docs/campaigns, docs/search, docs/distil",
+        "How-to: models": "docs/unit-guide, docs/python-units, docs/wrap-systemc, docs/wrap-core, docs/bring-your-robot,"
+        " docs/units-of-others, docs/verify",
+        "How-to: Python and C": "docs/python, docs/library",
+        "Reference": "docs/scenario, docs/cli, docs/attributes, docs/units-of-measure, docs/stepping, docs/idle, docs/process-protocol,"
+        " docs/site/python-api, docs/site/c-api, scenarios/README, units/*/README, tests/test_units/README",
+        "Background": "docs/architecture, docs/decisions/README, docs/paper, docs/variations, docs/performance, docs/python-peers",
         "The project": "CHANGELOG, CONTRIBUTING",
     },
     "scenarios/README": {"": "scenarios/*/README"},
