@@ -88,9 +88,10 @@ def by_amplitude(results, runs):
 def page(results, runs):
     total = sum(runs.values())
     yield "# Variations of an approach\n"
-    yield f"Made by [variations.py](variations.py): {total} runs of [nfc_jitter](../scenarios/nfc_jitter), in each of which"
-    yield "a hand brings the reader to the sensor and asks `identify` on the way. The seed decides where the hand begins and"
-    yield "how it trembles. No run ended with an error.\n"
+    yield "This page shows how far the sensor answers when a hand trembles. [variations.py](variations.py) made"
+    yield f"{total} runs of [nfc_jitter](../scenarios/nfc_jitter), in each of which a hand brings the reader to the sensor"
+    yield "and asks `identify` on the way. The seed decides where the hand begins and how it trembles. No run ended with an"
+    yield "error.\n"
     yield "By the tremor's amplitude, which is that of the axis that trembles most:\n"
     yield from table(["amplitude [rad]", "runs", "answered", "damaged answers", "silence", "farthest answer [cm]",
                       "nearest miss [cm]"], by_amplitude(results, runs))
