@@ -95,7 +95,7 @@ def page(results, runs):
     yield "By the tremor's amplitude, which is that of the axis that trembles most:\n"
     yield from table(["amplitude [rad]", "runs", "answered", "damaged answers", "silence", "farthest answer [cm]",
                       "nearest miss [cm]"], by_amplitude(results, runs))
-    yield "\nAnswered, by the distance of the coils' centres at which it was asked, and by the amplitude:\n"
+    yield "\nAnswered, by the distance of the coils' centers at which it was asked, and by the amplitude:\n"
     yield from table(["distance [cm]", *(f"{amplitude} rad" for amplitude in AMPLITUDES)], by_distance(results))
 
 
