@@ -32,11 +32,13 @@ inline std::string decimal_seconds(Duration duration) {
 }
 inline std::string decimal_seconds(Time time) { return decimal_seconds(time.time_since_epoch()); }
 
-/// The time of digits with at most twelve decimals, such as "-0.5" or "14.200358702064"; nothing
-/// for any other text, or beyond kMaxSeconds.
-inline std::optional<Time> time_of_decimal(std::string_view text) {
-  constexpr std::size_t kDecimals = 12;
-  constexpr std::size_t kMostWhole = 16;  // of kMaxSeconds
+/// The time of a decimal number such as "-0.5" or "14.200358702064", which counts a unit of at most
+/// a day; nothing for any other text, for what is no whole number of picoseconds, or beyond
+/// kMaxSeconds.
+inline std::optional<Time> time_of_decimal(std::string_view text,
+                                           Duration unit = std::chrono::seconds(1)) {
+  constexpr std::size_t kDecimals = 18;
+  constexpr std::size_t kMostWhole = 16;
   const bool is_negative = !text.empty() && text.front() == '-';
   if (is_negative) text.remove_prefix(1);
   const std::size_t point = std::min(text.find('.'), text.size());
@@ -47,18 +49,22 @@ inline std::optional<Time> time_of_decimal(std::string_view text) {
       decimals.empty() == has_fraction) {
     return std::nullopt;
   }
-  Picoseconds count = 0;
-  for (const std::string_view digits : {whole, decimals}) {
-    for (const char digit : digits) {
-      if (digit < '0' || digit > '9') return std::nullopt;
-      count = 10 * count + (digit - '0');
-    }
+  Picoseconds units = 0;
+  for (const char digit : whole) {
+    if (digit < '0' || digit > '9') return std::nullopt;
+    units = 10 * units + (digit - '0');
   }
-  for (std::size_t i = decimals.size(); i < kDecimals; ++i) count *= 10;
-  const Time time(Duration(is_negative ? -count : count));
-  return count <= static_cast<Picoseconds>(kMaxSeconds) * detail::kPicosecondsPerSecond
-             ? std::optional(time)
-             : std::nullopt;
+  Picoseconds parts = 0;
+  Picoseconds parts_of_unit = 1;
+  for (const char digit : decimals) {
+    if (digit < '0' || digit > '9') return std::nullopt;
+    parts = 10 * parts + (digit - '0');
+    parts_of_unit *= 10;
+  }
+  if (parts * unit.count() % parts_of_unit != 0) return std::nullopt;
+  const Duration since = units * unit + Duration(parts * unit.count() / parts_of_unit);
+  if (since > std::chrono::seconds(static_cast<std::int64_t>(kMaxSeconds))) return std::nullopt;
+  return Time(is_negative ? -since : since);
 }
 
 }  // namespace stride

@@ -166,6 +166,7 @@ class Instance final : private InputUpdater {
 
  private:
   void build();
+  Time meant_end(double end, Time to) const;
   Time end_of_step(double point, double size) const;
   bool is_here(double point) const;
   void check_step(double point, double size, Time to) const;

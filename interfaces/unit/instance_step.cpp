@@ -22,6 +22,16 @@ bool are_near(Time one, Time other, Duration distance) {
 
 }  // namespace
 
+/// The event that the unit has announced for the end of a step, where doubles are coarser than
+/// picoseconds: the importer knows its time as a double only.
+inline Time Instance::meant_end(double end, Time to) const {
+  constexpr double kPicosecondsDiffer = 8192;
+  if (!next_event_ || std::abs(end) < kPicosecondsDiffer) return to;
+  const double event = to_seconds(*next_event_);
+  const bool is_meant = std::nextafter(event, end) == end && *next_event_ > time_;
+  return is_meant ? *next_event_ : to;
+}
+
 /// A size that is the difference of two points leads to the second one without rounding. Any other
 /// is a duration of its own, which counts from the exact time: from 4096 s on the rounded sum can
 /// be another picosecond.
@@ -29,8 +39,8 @@ inline Time Instance::end_of_step(double point, double size) const {
   const double end = point + size;
   const bool is_difference = end - point == size;
   const bool is_from_here = point == time_seconds_ && size > 0 && size <= kMaxSeconds;
-  if (is_difference || !is_from_here || end > kMaxSeconds) return checked_time(end);
-  return later(time_, duration_from_seconds(size));
+  if (is_difference || !is_from_here || end > kMaxSeconds) return meant_end(end, checked_time(end));
+  return meant_end(end, later(time_, duration_from_seconds(size)));
 }
 
 inline bool Instance::is_here(double point) const {

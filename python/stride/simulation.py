@@ -254,17 +254,17 @@ class Simulation:
     @property
     def time_ps(self) -> int:
         """Likewise, in picoseconds, exactly."""
-        return int(self._library.stride_now(self._open()))
+        return self._library.stride_now(self._open()).count()
 
     @property
     def start_time(self) -> float:
         """[s]."""
-        return c.seconds(self._library.stride_start_time(self._open()))
+        return c.seconds(self._library.stride_start_time(self._open()).count())
 
     @property
     def stop_time(self) -> float:
         """[s]."""
-        return c.seconds(self._library.stride_stop_time(self._open()))
+        return c.seconds(self._library.stride_stop_time(self._open()).count())
 
     @property
     def is_over(self) -> bool:
@@ -295,7 +295,7 @@ class Simulation:
             raise InputError(f"a time in seconds is a number, not {seconds!r}")
         if duration is not None and duration < 0:
             raise InputError(f"a step of {duration} s would go back")
-        target = self._library.stride_seconds(number)
+        target = self._library.stride_seconds(number).count()
         if duration is not None:
             if target == 0 < duration:
                 raise InputError(f"a step of {duration} s is shorter than a picosecond, in which stride counts")

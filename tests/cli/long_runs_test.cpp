@@ -113,3 +113,39 @@ TEST_CASE("a trace of a run of years has a time scale of 1 ns") {
                                                   Contains("\n#15778800000000000\n") &&
                                                   Contains("\n#31557600000000000\n"));
 }
+
+TEST_CASE("the time scale of a trace is as coarse as 64 bits need it") {
+  const Workspace workspace(two_filters());
+  run_long(workspace, {"--stop", "1e10", "--step", "2.5e9"});
+  CHECK_THAT(workspace.result("signals.vcd"),
+             Contains("$timescale 1 us $end") && Contains("\n#10000000000000000\n"));
+}
+
+TEST_CASE("steps may take years") {
+  const Workspace workspace(two_filters());
+  run_long(workspace, {"--stop", "1e9", "--step", "2.5e8"});
+  CHECK(times_of(workspace) == Words{"0", "250000000", "500000000", "750000000", "1000000000"});
+  run_long(workspace, {"--stop", "4e7", "--step", "4e7", "--step", "second=2e7"});
+  CHECK(times_of(workspace) == Words{"0", "20000000", "40000000"});
+}
+
+TEST_CASE("steps that end at events, or at their maximum, go on for years") {
+  const Workspace workspace(two_filters());
+  run_long(workspace, {"--stop", "4e7", "--policy", "event-driven", "--max-step", "1e7"});
+  CHECK(times_of(workspace) == Words{"0", "10000000", "20000000", "30000000", "40000000"});
+}
+
+TEST_CASE("a table has events at times that no double has") {
+  const Workspace workspace(
+      Parts{component("cycle", "cycle.csv"), "", "<stride:Record signals='cycle.*'/>"});
+  workspace.scratch().write("cycle.csv",
+                            "time,x: hold,y\n1700000000,1,0\n1700000000.1,3,10\n"
+                            "1700000001.300000000001,4,20\n1700000002,5,30\n");
+  const Arguments hosting = GENERATE(Arguments{}, Arguments{"--isolate"});
+  Arguments arguments{"--start", "1700000000", "--stop", "1700000002", "--step", "1"};
+  arguments.insert(arguments.end(), hosting.begin(), hosting.end());
+  run_long(workspace, arguments);
+  const Csv signals = workspace.signals();
+  CHECK(signals.number(signals.row_at("1700000001"), signals.column("cycle.x")) == 3);
+  CHECK(signals.number(signals.row_at("1700000002"), signals.column("cycle.x")) == 5);
+}

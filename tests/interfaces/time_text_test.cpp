@@ -20,6 +20,14 @@ TEST_CASE("times are read as they are written") {
   CHECK(time_of_decimal("0.50") == Time(std::chrono::milliseconds(500)));
 }
 
+TEST_CASE("decimals of other units than seconds are exact, too") {
+  CHECK(time_of_decimal("0.001", std::chrono::hours(1)) == Time(std::chrono::milliseconds(3600)));
+  CHECK(time_of_decimal("-1.5", std::chrono::nanoseconds(1)) == Time(Duration(-1500)));
+  CHECK(time_of_decimal("0.0005", std::chrono::nanoseconds(1)) == std::nullopt);
+  CHECK(time_of_decimal("1700000000.1") ==
+        Time(std::chrono::seconds(1'700'000'000) + std::chrono::milliseconds(100)));
+}
+
 TEST_CASE("what is no decimal of a time is no time") {
   for (const char* text :
        {"", "-", ".", "1.", ".5", "+1", "1 ", "1e3", "--1", "nan", "1.2.3", "0.0000000000001",

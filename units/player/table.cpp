@@ -10,6 +10,8 @@
 #include <variant>
 #include <vector>
 
+#include <stride/time_text.h>
+
 #include "units/player/csv.h"
 #include "units/player/heading.h"
 
@@ -376,8 +378,12 @@ class TableReader {
   void read_time() {
     long double ticks = 0;
     const std::string& field = rows_.fields()[0];
-    checked([&] { ticks = parse_ticks(plain_value(Type::Float64, field)); });
-    const stride::Time time(stride::Duration(static_cast<stride::Picoseconds>(std::round(ticks))));
+    const std::string text = plain_value(Type::Float64, field);
+    checked([&] { ticks = parse_ticks(text); });
+    const stride::Time rounded(
+        stride::Duration(static_cast<stride::Picoseconds>(std::round(ticks))));
+    const stride::Time time =
+        stride::time_of_decimal(text, stride::Duration(ticks_)).value_or(rounded);
     if (!is_first_ && time < time_) {
       rows_.fail("column 'time': " + field + " is before the time of the line above");
     }

@@ -103,19 +103,22 @@ Call RecordReader::take_call() {
   return call;
 }
 
-std::uint64_t RecordReader::take_count() {
-  std::uint64_t count = 0;
-  for (int shift = 0; shift < 64; shift += 7) {
-    const std::uint64_t byte = take();
+template <class Count>
+Count RecordReader::take_digits() {
+  Count count = 0;
+  for (int shift = 0; shift < static_cast<int>(8 * sizeof(Count)); shift += 7) {
+    const Count byte = take();
     count |= (byte & 0x7F) << shift;
     if (byte < 0x80) return count;
   }
   throw core::BadState("the journal has a number that is too long");
 }
 
+std::uint64_t RecordReader::take_count() { return take_digits<std::uint64_t>(); }
+
 Duration RecordReader::take_duration() {
-  const std::uint64_t count = take_count();
-  return Duration(static_cast<std::int64_t>((count >> 1) ^ (~(count & 1) + 1)));
+  const Wide count = take_digits<Wide>();
+  return Duration(static_cast<Picoseconds>((count >> 1) ^ (~(count & 1) + 1)));
 }
 
 VariableLists::Number RecordReader::take_number(const VariableLists& lists) {

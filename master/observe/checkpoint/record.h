@@ -49,6 +49,8 @@ struct EndBits {
                                 kReachedEnd = 16;
 };
 
+__extension__ using Wide = unsigned __int128;
+
 /// Appends one record. Numbers are as short as they are small.
 class RecordWriter {
  public:
@@ -74,8 +76,6 @@ class RecordWriter {
   void put_values(VariableLists::Number number, VariableList& list, const core::ValueBlock& values);
 
  private:
-  __extension__ using Wide = unsigned __int128;
-
   template <class Count>
   void put_digits(Count count) {
     for (; count >= 0x80; count >>= 7) put(static_cast<std::uint8_t>(count | 0x80));
@@ -112,6 +112,8 @@ class RecordReader {
   VariableList& take_values(VariableLists& lists);
 
  private:
+  template <class Count>
+  Count take_digits();
   void take_elements(VariableList& list, bool are_all);
   void take_sequence(auto& element);
 

@@ -147,8 +147,7 @@ void VcdScope::write(core::OutputFile& file) const {
 VcdRecorder::VcdRecorder(const core::System& system, std::filesystem::path file,
                          core::OutputFile::Existing existing, Time stop)
     : system_(system), file_(std::move(file), {}, existing) {
-  constexpr Duration kMost(std::numeric_limits<std::int64_t>::max());
-  if (stop.time_since_epoch() > kMost) tick_ = std::chrono::nanoseconds(1);
+  while (stop.time_since_epoch() / tick_ > std::numeric_limits<std::int64_t>::max()) tick_ *= 1000;
 }
 
 std::string VcdRecorder::next_code() { return core::vcd_code(codes_++); }
@@ -194,8 +193,10 @@ void VcdRecorder::on_start(std::span<const core::Signal> signals) {
   VcdScope top;
   declare_signals(signals, top);
   declare_messages(top);
-  const char* const tick = tick_ == Duration(1) ? "1 ps" : "1 ns";
-  file_.write(fmt::format("$version stride $end\n$timescale {} $end\n", tick));
+  constexpr const char* kUnits[] = {"ps", "ns", "us", "ms", "s"};
+  const char* const* unit = kUnits;
+  for (Duration tick = tick_; tick > Duration(1); tick /= 1000) ++unit;
+  file_.write(fmt::format("$version stride $end\n$timescale 1 {} $end\n", *unit));
   top.write(file_);
 }
 

@@ -36,7 +36,8 @@ class VcdScope {
 };
 
 /// signals.vcd: a value change dump (IEEE 1364) with a time scale of 1 ps, for GTKWave and others;
-/// of 1 ns where the stop time is later than the 64 bits of viewers have picoseconds for, 106 days.
+/// of 1 ns where the stop time is later than the 64 bits of viewers have picoseconds for, 106 days,
+/// and so on.
 /// The parts of a structured name are scopes. The recorded signals are written at communication
 /// points, where they changed; each clock is an event at its exact time, and what it carries is
 /// written with it (Binary as a string of hexadecimal digits; strings are GTKWave's extension).

@@ -38,8 +38,8 @@ Wide greatest_common_divisor(Wide a, Wide b) {
   return a;
 }
 
-std::uint64_t power_of_ten(int exponent) {
-  std::uint64_t power = 1;
+Wide power_of_ten(int exponent) {
+  Wide power = 1;
   for (int i = 0; i < exponent; ++i) power *= 10;
   return power;
 }
@@ -133,7 +133,7 @@ Interval Interval::from_seconds(double seconds) {
   exponent += 12;
   for (; exponent < -kMaxDecimals && digits != 0; ++exponent) digits /= 10;
   if (digits == 0) return {};
-  if (exponent < 0) return {digits, power_of_ten(-exponent)};
+  if (exponent < 0) return {digits, static_cast<std::uint64_t>(power_of_ten(-exponent))};
   return {Wide{digits} * power_of_ten(exponent), 1};
 }
 

@@ -7,7 +7,7 @@ namespace stride::core {
 
 StepLimits::StepLimits(const System& system, const RunOptions& options,
                        std::optional<Interval> default_maximum)
-    : start_(options.start), stop_(options.stop), quantum_(start_, Duration(1)) {
+    : start_(options.start), stop_(options.stop) {
   std::optional<Interval> maximum = options.step.maximum ? options.step.maximum : default_maximum;
   for (const Component& component : system.components()) {
     if (component.keeps_own_step()) continue;
@@ -22,17 +22,17 @@ StepLimits::StepLimits(const System& system, const RunOptions& options,
 
 /// Where no multiple of all internal steps lies within the run, those that came first count.
 void StepLimits::refine_quantum(const Interval& internal) {
-  const bool is_first = quantum() == Interval(Duration(1));
-  const auto multiple = is_first ? internal : common_multiple(quantum(), internal);
-  if (multiple && multiple->rounded() <= stop_ - start_) quantum_ = Grid(start_, *multiple);
+  const auto multiple = quantum_ ? common_multiple(quantum_->step(), internal) : internal;
+  if (multiple && multiple->rounded() <= stop_ - start_) quantum_.emplace(start_, *multiple);
 }
 
 Time StepLimits::end_of_step(Time now, Duration size) const {
   if (stop_ - now <= size) return stop_;
   const Time time = now + size;
-  const std::uint64_t index = quantum_.index_at(time);
-  if (const Time before = quantum_.point(index); before > now) return before;
-  const Time after = std::min(stop_, quantum_.point(index + 1));
+  if (!quantum_) return time;
+  const std::uint64_t index = quantum_->index_at(time);
+  if (const Time before = quantum_->point(index); before > now) return before;
+  const Time after = std::min(stop_, quantum_->point(index + 1));
   return maximum_ && after - now > *maximum_ ? time : after;
 }
 

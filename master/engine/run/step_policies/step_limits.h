@@ -27,7 +27,7 @@ class StepLimits {
   /// Whether steps of this size would be too long; less than a picosecond does not count.
   bool are_below(const Interval& size) const { return maximum_ && *maximum_ < size.rounded(); }
   /// A common multiple of all fixed internal steps; 1 ps where there are none.
-  const Interval& quantum() const { return quantum_.step(); }
+  Interval quantum() const { return quantum_ ? quantum_->step() : Interval(Duration(1)); }
 
   /// The target, or the end of the longest step where that is nearer.
   Time limited(Time now, Time target) const {
@@ -44,7 +44,7 @@ class StepLimits {
   Time start_;
   Time stop_;
   std::optional<Duration> maximum_;
-  Grid quantum_;
+  std::optional<Grid> quantum_;
 };
 
 }  // namespace stride::core

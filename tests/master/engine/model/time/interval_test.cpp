@@ -35,6 +35,11 @@ TEST_CASE("a fraction is exact, and rounded once") {
 }
 
 TEST_CASE("ticks of years are exact") {
+  for (const double seconds : {2e7, 1e8, 3e8, 3155760000.0, 1e15}) {
+    CAPTURE(seconds);
+    CHECK(Interval::from_seconds(seconds) ==
+          Interval::from_fraction(static_cast<std::uint64_t>(seconds), 1));
+  }
   const Interval third = Interval::from_fraction(1, 3);
   CHECK(tick_time(Time(), {}, third, 9'467'280'001) ==
         Time(3155760000s + Duration(333'333'333'333)));
