@@ -91,7 +91,7 @@ TEST_CASE("The common divisor of durations is the longest that both are multiple
   using namespace std::chrono_literals;
   CHECK(stride::common_divisor(6ms, 4ms) == 2ms);
   CHECK(stride::common_divisor(6ms, {}) == 6ms);
-  CHECK(stride::common_divisor(876'000h, 90min) == 30min);
+  CHECK(stride::common_divisor(876'001h, 90min) == 30min);
 }
 
 TEST_CASE("No time is infinite, not a number or beyond the largest one") {

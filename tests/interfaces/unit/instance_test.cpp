@@ -430,8 +430,7 @@ TEST_CASE("instants may be further apart than a step can be") {
   REQUIRE(unit.set_real("largest_step", 1e15) == fmi3OK);
   REQUIRE(unit.start_steps(-9e14) == fmi3OK);
   CHECK(unit.step(9e14, 1) == fmi3Error);
-  CHECK_THAT(unit.last_message(),
-             Contains("is at -900000000000000 s, but the step starts at 900000000000000 s"));
+  CHECK_THAT(unit.last_message(), Contains("is at -9e+14 s, but the step starts at 9e+14 s"));
   CHECK(unit.step(-9e14, 18e14) == fmi3Error);
   CHECK_THAT(unit.last_message(), Contains("step size must be at most 1e+15 s"));
   CHECK(unit.step(-9e14, 9e14) == fmi3OK);
