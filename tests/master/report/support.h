@@ -61,6 +61,7 @@ inline std::vector<std::uint8_t> inflated(std::vector<std::uint8_t> bytes, std::
 template <class Element>
 std::vector<Element> unpacked(const nlohmann::json& blob) {
   const char* const type = std::is_same_v<Element, double>         ? "float64"
+                           : std::is_same_v<Element, stride::Time> ? "int128"
                            : std::is_same_v<Element, std::int64_t> ? "int64"
                            : std::is_same_v<Element, std::int32_t> ? "int32"
                                                                    : "uint8";

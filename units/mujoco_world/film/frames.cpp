@@ -79,10 +79,12 @@ void Frames::read_rows(stride::Time last) {
   if (!std::getline(list, line) || line + "\n" != kHeader) return;
   while (std::getline(list, line) && !list.eof()) {
     const std::size_t comma = std::min(line.find(','), line.size());
-    const auto time = stride::time_of_decimal(line.substr(0, comma));
+    const std::string seconds = line.substr(0, comma);
+    const auto time = stride::time_of_decimal(seconds);
     const std::string name = picture_name(rows_.size());
     std::error_code ignored;
-    if (!time || *time > last || (!rows_.empty() && *time <= rows_.back().time)) return;
+    if (!time || stride::decimal_seconds(*time) != seconds) return;
+    if (*time > last || (!rows_.empty() && *time <= rows_.back().time)) return;
     if (line.substr(comma) != "," + name || !fs::exists(folder_ / name, ignored)) return;
     rows_.push_back({*time, end() + static_cast<off_t>(line.size() + 1)});
   }
