@@ -91,9 +91,11 @@ TEST_CASE("messages, interventions and checks are at exact times after a century
       "<stride:Eventually name='moves' signal='filter.y' above='0.1' from='3155760000.5' "
       "to='3155760002'/>"
       "</stride:Checks>";
+  parts.experiment =
+      "<ssd:DefaultExperiment startTime=\"3155760000\" stopTime=\"3155760002\"/>\n";
   const Workspace workspace(parts);
   const Arguments hosting = GENERATE(Arguments{}, Arguments{"--isolate"});
-  Arguments arguments{"--start", kCentury, "--stop", "3155760002"};
+  Arguments arguments;
   arguments.insert(arguments.end(), hosting.begin(), hosting.end());
   run_long(workspace, arguments);
   const Csv events(workspace / "out/events.csv");
@@ -108,7 +110,7 @@ TEST_CASE("messages, interventions and checks are at exact times after a century
 
 TEST_CASE("a trace of a run of years has a time scale of 1 ns") {
   const Workspace workspace(two_filters());
-  run_long(workspace, {"--stop", "31557600", "--step", "15778800"});
+  run_long(workspace, {"--stop", "31557600", "--step", "15778800", "--set", "first.u=1"});
   CHECK_THAT(workspace.result("signals.vcd"), Contains("$timescale 1 ns $end") &&
                                                   Contains("\n#15778800000000000\n") &&
                                                   Contains("\n#31557600000000000\n"));
@@ -116,7 +118,7 @@ TEST_CASE("a trace of a run of years has a time scale of 1 ns") {
 
 TEST_CASE("the time scale of a trace is as coarse as 64 bits need it") {
   const Workspace workspace(two_filters());
-  run_long(workspace, {"--stop", "1e10", "--step", "2.5e9"});
+  run_long(workspace, {"--stop", "1e10", "--step", "2.5e9", "--set", "first.u=1"});
   CHECK_THAT(workspace.result("signals.vcd"),
              Contains("$timescale 1 us $end") && Contains("\n#10000000000000000\n"));
 }

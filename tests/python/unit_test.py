@@ -652,7 +652,7 @@ def test_misspelt_words_behind_the_base(units, word, expected):
 
 
 def test_a_unit_option_that_is_not_known():
-    with pytest.raises(TypeError, match="erly_return"):
+    with pytest.raises(su.UnitError, match="erly_return"):
         type(su.Unit)("U", (su.Unit,), {}, erly_return=True)
 
 
