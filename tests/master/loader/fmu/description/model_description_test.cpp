@@ -277,7 +277,7 @@ TEST_CASE("a given `initial` must be allowed") {
 }
 
 TEST_CASE("the internal step is a time that can be counted") {
-  for (const std::string step : {"0", "-0.01", "1e-13", "inf", "nan", "1e7"}) {
+  for (const std::string step : {"0", "-0.01", "1e-13", "inf", "nan", "1e16"}) {
     CHECK_THAT(
         error_with("fixedInternalStepSize=\"1e-3\"", "fixedInternalStepSize=\"" + step + "\""),
         Contains("unit.xml:5: fixedInternalStepSize=\"" + step + "\" of <CoSimulation>: "));
@@ -294,13 +294,13 @@ TEST_CASE("what cannot be used of the default experiment is ignored, with a warn
                                           "\" of <DefaultExperiment> is ignored: expected"));
     return unit;
   };
-  for (const char* step : {"0", "-0.01", "1e-13", "inf", "nan", "1e7", "0,01", ""}) {
+  for (const char* step : {"0", "-0.01", "1e-13", "inf", "nan", "1e16", "0,01", ""}) {
     CHECK_FALSE(check("stepSize", "0.01", step).default_step);
   }
   for (const char* stop : {"0", "-1", "1e-13", "inf", "nan", "1,0", ""}) {
     CHECK_FALSE(check("stopTime", "12.5", stop).default_stop);
   }
-  for (const char* start : {"inf", "nan", "1e7", ""}) {
+  for (const char* start : {"inf", "nan", "1e16", ""}) {
     CHECK(check("startTime", "0", start).default_stop);
   }
   const auto ended = parse_with("startTime=\"0\"", "startTime=\"12.5\"");
