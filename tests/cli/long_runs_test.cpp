@@ -91,8 +91,7 @@ TEST_CASE("messages, interventions and checks are at exact times after a century
       "<stride:Eventually name='moves' signal='filter.y' above='0.1' from='3155760000.5' "
       "to='3155760002'/>"
       "</stride:Checks>";
-  parts.experiment =
-      "<ssd:DefaultExperiment startTime=\"3155760000\" stopTime=\"3155760002\"/>\n";
+  parts.experiment = "<ssd:DefaultExperiment startTime=\"3155760000\" stopTime=\"3155760002\"/>\n";
   const Workspace workspace(parts);
   const Arguments hosting = GENERATE(Arguments{}, Arguments{"--isolate"});
   Arguments arguments;
