@@ -1,5 +1,6 @@
 #include "master/observe/checkpoint/checkpoint_file.h"
 
+#include <stdexcept>
 #include <system_error>
 #include <utility>
 
@@ -142,6 +143,8 @@ Checkpoint read_checkpoint(const std::filesystem::path& file) {
     throw core::Error(mistake.kind(), mistake.context(), mistake.message(),
                       "resume an earlier checkpoint, or let the run begin at its start");
   } catch (const nlohmann::json::exception& mistake) {
+    fail(file, fmt::format("this is no checkpoint, or a damaged one: {}", mistake.what()));
+  } catch (const std::invalid_argument& mistake) {  // a time
     fail(file, fmt::format("this is no checkpoint, or a damaged one: {}", mistake.what()));
   }
 }

@@ -105,6 +105,11 @@ TEST_CASE("a state that is not what was written is found") {
   contents.erase("states/0");
   archive::write_zip(scratch / "less.zip", contents);
   CHECK_THROWS_WITH(read_checkpoint(scratch / "less.zip"), Contains("'simulation'"));
+  std::string& text = contents["checkpoint.json"].text;
+  text.replace(text.find("0.5"), 3, "now");
+  contents["checkpoint.sha256"].text = core::sha256(text);
+  archive::write_zip(scratch / "time.zip", contents);
+  CHECK_THROWS_WITH(read_checkpoint(scratch / "time.zip"), Contains("or a damaged one: 'now'"));
 }
 
 TEST_CASE("a checkpoint that cannot be written leaves the earlier one") {
