@@ -109,7 +109,6 @@ Exchange::Exchange(const System& system, std::span<const VariableId> observed,
   }
   for (Transfers* const transfers : {&outputs_, &sampled_outputs_}) add_item_checks(*transfers);
   has_other_types_ |= !items_.is_empty();
-  has_further_ = has_other_types_;
   make_ports();
 }
 
@@ -427,7 +426,7 @@ template <class Real, class Other>
 void Exchange::route(const Time& time) {
   ++route_;
   const bool is_odd = doubles_.route();
-  if (is_odd | has_further_) route_further(is_odd, time);
+  if (is_odd || has_other_types_ || !forced_.empty()) route_further(is_odd, time);
 }
 
 void Exchange::route_further(bool is_odd, const Time& time) {
@@ -443,12 +442,10 @@ void Exchange::route_further(bool is_odd, const Time& time) {
 void Exchange::force(VariableId input, const ValueBlock& value) {
   release(input);
   keep(forced_.emplace_back(Forced{input, slice(input), value}));
-  has_further_ = true;
 }
 
 void Exchange::release(VariableId input) {
   std::erase_if(forced_, [&](const Forced& forced) { return forced.input == input; });
-  has_further_ = has_other_types_ || !forced_.empty();
 }
 
 ValueBlock Exchange::value(VariableId id) {

@@ -339,7 +339,6 @@ class Exchange {
   RealLists<float, double> floats_;
   mutable std::set<VariableId> lost_;  ///< outputs whose loss of digits was said
   bool has_other_types_ = false;       ///< than Float64, to be copied or checked
-  bool has_further_ = false;           ///< other types, or what is forced
 };
 
 }  // namespace stride::core

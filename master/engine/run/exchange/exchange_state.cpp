@@ -124,7 +124,6 @@ void Exchange::persist_forced(StateArchive& state) {
       forced_.push_back({input, slice(input), value(input)});
     }
   }
-  has_further_ = has_other_types_ || !forced_.empty();
 }
 
 }  // namespace stride::core
