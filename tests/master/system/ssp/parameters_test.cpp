@@ -53,6 +53,14 @@ std::vector<StartDeclaration> read_values(const std::string& text) {
   return read_scenario(folder.write("x.ssd", text)).system.start_values;
 }
 
+/// Its connector 'lone' leads to no component.
+std::string system_with_lone_connector() {
+  std::string text = system_with(inline_binding(""));
+  text.insert(text.find("<ssd:Elements>"),
+              "<ssd:Connectors><ssd:Connector name='lone' kind='input'/></ssd:Connectors>");
+  return text;
+}
+
 }  // namespace
 
 TEST_CASE("Inline values of a component are read as text, with their unit and line") {
@@ -137,10 +145,7 @@ TEST_CASE("A value of the command line is for somebody") {
 
 TEST_CASE("A value of the command line for a component is not answered with connectors") {
   const TemporaryFolder folder;
-  std::string text = system_with(inline_binding(""));
-  text.insert(text.find("<ssd:Elements>"),
-              "<ssd:Connectors><ssd:Connector name='lone' kind='input'/></ssd:Connectors>");
-  const auto file = folder.write("x.ssd", text);
+  const auto file = folder.write("x.ssd", system_with_lone_connector());
   const auto error = [&](const std::string& name) {
     const ParameterValue value{name, "1", {}, {"--set", 0}, {}, true};
     return error_of([&] { read_scenario(file, {{}, {value}}); });
@@ -153,10 +158,7 @@ TEST_CASE("A value of the command line for a component is not answered with conn
 
 TEST_CASE("A value of the command line for a connector that leads nowhere is an error") {
   const TemporaryFolder folder;
-  std::string text = system_with(inline_binding(""));
-  text.insert(text.find("<ssd:Elements>"),
-              "<ssd:Connectors><ssd:Connector name='lone' kind='input'/></ssd:Connectors>");
-  const auto file = folder.write("x.ssd", text);
+  const auto file = folder.write("x.ssd", system_with_lone_connector());
   const ParameterValue value{"lone", "1", {}, {"--set lone=1", 0}, {}, true};
   CHECK_THROWS_WITH(read_scenario(file, {{}, {value}}),
                     Contains("--set lone=1: the parameter 'lone' is for the connector 'lone', "
