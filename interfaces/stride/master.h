@@ -146,9 +146,9 @@ stride_status stride_open(const char* scenario, const stride_options* options,
                           stride_simulation** simulation);
 
 /* Simulates up to this instant, at which a communication step ends, or up to the end of the run if
- * that is earlier: the stop time, or where a unit ends it. Where the run
- * would not have a communication point by itself, this makes one, as an intervention does, and
- * results may differ by that. */
+ * that is earlier: the stop time, or where a unit ends it. Where the run would not have a
+ * communication point by itself, this makes one, as an intervention does, and results may differ by
+ * that. */
 stride_status stride_advance(stride_simulation* simulation, stride_time until);
 
 /* Ends the run where it is: units are terminated, verdicts are given, and the results completed.
